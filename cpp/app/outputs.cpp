@@ -46,11 +46,11 @@ std::string markdown_block(std::string_view lines) {
 /// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1.
 double wait_before_progress() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  const char* const said = std::getenv("CONTCT_PROGRESS_AFTER");
-  const auto seconds = said == nullptr ? 1.0 : number_in<double>(said);
+  const char* const given = std::getenv("CONTCT_PROGRESS_AFTER");
+  const auto seconds = given == nullptr ? 1.0 : number_in<double>(given);
   if (!seconds || !(*seconds >= 0.0))
     throw std::invalid_argument(
-        fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", said));
+        fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", given));
   return *seconds;
 }
 
@@ -135,14 +135,14 @@ std::vector<std::string> common_facts() {
 
 std::string utc_now() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  const char* const said = std::getenv("SOURCE_DATE_EPOCH");
+  const char* const given = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
   // A clock that was never set may say any year: that is no reason to lose a page.
-  const auto seconds =
-      said == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most) : number_in<std::int64_t>(said);
+  const auto seconds = given == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most)
+                                        : number_in<std::int64_t>(given);
   if (!seconds || *seconds < 0 || *seconds > most)
     throw std::invalid_argument(
-        fmt::format("SOURCE_DATE_EPOCH: found \"{}\"; allowed: seconds since 1970, 0 to {}", said, most));
+        fmt::format("SOURCE_DATE_EPOCH: found \"{}\"; allowed: seconds since 1970, 0 to {}", given, most));
   const auto time = static_cast<std::time_t>(*seconds);
   std::tm utc{};
   (void)gmtime_r(&time, &utc);

@@ -128,7 +128,7 @@ void print_below(const terminal& t, paint p, const std::string& words) {
 
 /// A row; below it its exact value, and its source and the reason of its tolerance, where they are not those
 /// of the row before.
-void print(const terminal& t, const verified_number& n, std::string& said) {
+void print(const terminal& t, const verified_number& n, std::string& printed) {
   const expected_number& e = n.expected;
   const paint p = !n.passed ? paint::bad : e.faithful ? paint::quiet : paint::good;
   print_text(fmt::format(row, e.step, quantity_head(e), words_of(e, e.value), words_of(e, n.computed),
@@ -139,8 +139,8 @@ void print(const terminal& t, const verified_number& n, std::string& said) {
     print_below(t, paint::quiet, "exactly " + e.exact);
   std::string source =
       fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
-  if (source != said) print_below(t, paint::quiet, source);
-  said = std::move(source);
+  if (source != printed) print_below(t, paint::quiet, source);
+  printed = std::move(source);
   if (e.faithful) print_below(t, paint::quiet, e.reason);
 }
 
@@ -159,8 +159,8 @@ void print(const terminal& t, const verified_case& c) {
   print_text(painted(t, paint::quiet,
                      fmt::format(row, "step", "quantity", "expected", "computed", "error", "tol", "result")));
   if (!c.failure.empty()) print_text(fmt::format("  {}\n", painted(t, paint::bad, "FAILED: " + c.failure)));
-  std::string said;
-  for (const verified_number& n : c.numbers) print(t, n, said);
+  std::string printed;
+  for (const verified_number& n : c.numbers) print(t, n, printed);
   print_text("\n");
 }
 

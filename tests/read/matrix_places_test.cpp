@@ -88,9 +88,9 @@ TEST_CASE("dofs whose labels have no node, and rotations, are counted as not dra
       "a 0 0\nb.c 1 0\n", "K.xyz", with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"}));
   CHECK(places.dofs[1].node == 1);
   for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);  // a.1 is where a.x is
-  REQUIRE(places.said.size() == 2);
-  CHECK_THAT(places.said[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
-  CHECK_THAT(places.said[1], Contains("Rotations, 1 of 8 dofs"));
+  REQUIRE(places.notes.size() == 2);
+  CHECK_THAT(places.notes[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
+  CHECK_THAT(places.notes[1], Contains("Rotations, 1 of 8 dofs"));
 }
 
 TEST_CASE("where no label has its node nothing is known") {
@@ -120,8 +120,8 @@ TEST_CASE("nodes of which more than three times as many are coupled have no edge
     }
     const placed_nodes solid = places_by_coordinates(text, "K.xyz", with_labels(labels, full));
     CHECK(solid.edges.size() == (n == 7 ? 21U : 0U));
-    REQUIRE(solid.said.size() == (n == 7 ? 0U : 1U));
-    if (n == 8) CHECK_THAT(solid.said[0], Contains("28 pairs of its 8 nodes"));
+    REQUIRE(solid.notes.size() == (n == 7 ? 0U : 1U));
+    if (n == 8) CHECK_THAT(solid.notes[0], Contains("28 pairs of its 8 nodes"));
   }
 }
 
@@ -160,7 +160,7 @@ TEST_CASE(
   CHECK(m.nodes[1].at == place{10, 0, 0.2});
   CHECK(m.nodes[2].at == place{4, 0, 0});
   CHECK(m.edges.empty());
-  CHECK(m.said.empty());
+  CHECK(m.notes.empty());
 }
 
 TEST_CASE("nodes without dof and edge are left out, and what names nodes by numbers follows") {
@@ -196,7 +196,7 @@ TEST_CASE("each type of solid has its edges, through the nodes at their middles"
     // Nodes behind the elements: CalculiX reads a deck twice.
     const placed_nodes m = by_mesh(element_text(s.type, s.nodes) + nodes_text(s.nodes));
     CHECK(edges_of(m) == s.edges);
-    CHECK(m.said.empty());
+    CHECK(m.notes.empty());
   }
 }
 
@@ -213,9 +213,9 @@ TEST_CASE("what of an input file is not drawn is counted in words") {
                                  "*INCLUDE, INPUT=more.inp\n*ELEMENT, TYPE=B31\n1,1,2\n2,2,3\n"
                                  "*element,type=s8r\n3,1,2,3,1,2,\n3,1,2\n");
   CHECK(m.edges.empty());
-  REQUIRE(m.said.size() == 2);
-  CHECK_THAT(m.said[0], Contains("*INCLUDE in job.inp is not followed"));
-  CHECK_THAT(m.said[1], Contains("2 of type \"B31\", 1 of type \"S8R\""));
+  REQUIRE(m.notes.size() == 2);
+  CHECK_THAT(m.notes[0], Contains("*INCLUDE in job.inp is not followed"));
+  CHECK_THAT(m.notes[1], Contains("2 of type \"B31\", 1 of type \"S8R\""));
 }
 
 TEST_CASE("every mistake in an input file is refused with its line, what was found and what is allowed") {

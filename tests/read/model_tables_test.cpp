@@ -116,7 +116,7 @@ TEST_CASE(
   // Another job's input beside it is no mistake, but naming one is.
   (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
   CHECK_FALSE(places("").known());
-  CHECK_THAT(places("").said.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
+  CHECK_THAT(places("").notes.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
   CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
              Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
                  Catch::Matchers::Contains("allowed: labels NODE.DIRECTION"));

@@ -33,10 +33,10 @@ struct ended {
     const a_run run(p, "corrected");
     const structure_state& last = run.result.record.steps.back().end;
     read = results_of(p, p.steps.back(), last);
-    through = deepest_passage(p, p.steps.back(), last.displacement);
+    through = deepest_penetration(p, p.steps.back(), last.displacement);
   }
   step_results read;
-  std::optional<passage> through;
+  std::optional<penetration> through;
 };
 
 }  // namespace

@@ -115,7 +115,7 @@ struct placed_nodes {
   std::vector<placed_node> nodes;  ///< empty: nothing is known
   std::vector<mesh_edge> edges;    ///< from < to, each once
   std::vector<placed_dof> dofs;    ///< [dofs]; empty with `nodes`
-  std::vector<std::string> said;   ///< what of the files is not drawn, a sentence each
+  std::vector<std::string> notes;  ///< what of the files is not drawn, a sentence each
 
   [[nodiscard]] bool known() const { return !nodes.empty(); }
 };

@@ -42,7 +42,7 @@ inline constexpr std::size_t largest_matrix_file = 16384;
 
 /// Places by a file of coordinates (see parse_coordinates): each dof's node is found by its label,
 /// "NAME.DIRECTION", and nodes that the matrix couples have an edge where these are few, as in frames. No
-/// nodes where no label has one; `said` says what is not drawn. Throws input_error.
+/// nodes where no label has one; `notes` say what is not drawn. Throws input_error.
 [[nodiscard]] placed_nodes places_by_coordinates(std::string_view text, std::string_view file,
                                                  const assembled& a);
 

@@ -41,12 +41,12 @@ void say_what_is_not_drawn(const assembled& a, placed_nodes& places) {
       places.dofs, [](const placed_dof& at) { return at.node >= 0 && !at.is_length(); });
   if (lost > 0) {
     const auto first = std::ranges::find(places.dofs, -1, &placed_dof::node) - places.dofs.begin();
-    places.said.push_back(fmt::format(
+    places.notes.push_back(fmt::format(
         "{} of {} dofs have no known node and direction by their labels, as {}, and are not drawn.", lost,
         a.dofs(), in_quotes(a.label_of(static_cast<int>(first)))));
   }
   if (turns > 0)
-    places.said.push_back(fmt::format("Rotations, {} of {} dofs, are not drawn.", turns, a.dofs()));
+    places.notes.push_back(fmt::format("Rotations, {} of {} dofs, are not drawn.", turns, a.dofs()));
 }
 
 /// Find each dof's node by its label; of two labels for one place the second has none. False where no label
@@ -64,7 +64,7 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   if (any)
     say_what_is_not_drawn(a, places);
   else
-    places = {{}, {}, {}, std::move(places.said)};
+    places = {{}, {}, {}, std::move(places.notes)};
   return any;
 }
 
@@ -92,7 +92,7 @@ void add_coupling_edges(const assembled& a, placed_nodes& places) {
   places.edges = edges_of(std::move(couples));
   for (mesh_edge& e : places.edges) e.elements = 1;
   if (places.edges.size() <= most_couplings_of_a_node * places.nodes.size()) return;
-  places.said.push_back(fmt::format(
+  places.notes.push_back(fmt::format(
       "No edges are drawn, only nodes: the matrix couples {} pairs of its {} nodes, and such couplings are "
       "drawn where there are at most {} for each node, as in frames.",
       places.edges.size(), places.nodes.size(), most_couplings_of_a_node));
@@ -306,17 +306,17 @@ class inp_reader {
   }
 
   [[nodiscard]] std::vector<std::string> left_out() const {
-    std::vector<std::string> said;
+    std::vector<std::string> notes;
     if (includes_)
-      said.push_back(
+      notes.push_back(
           fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", lines_.file()));
     std::string types;
     for (const auto& [type, count] : others_)
       types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count, in_quotes(type));
     if (!types.empty())
-      said.push_back(
+      notes.push_back(
           fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", lines_.file(), types));
-    return said;
+    return notes;
   }
 
   text_lines lines_;
@@ -348,7 +348,8 @@ placed_nodes places_by_mesh(std::string_view text, std::string_view file, const 
   if (place_dofs(a, places))
     drop_idle_nodes(places);
   else
-    places.said.push_back(fmt::format("{} has no node of any label, as {}.", file, in_quotes(a.label_of(0))));
+    places.notes.push_back(
+        fmt::format("{} has no node of any label, as {}.", file, in_quotes(a.label_of(0))));
   return places;
 }
 

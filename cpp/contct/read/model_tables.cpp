@@ -194,10 +194,10 @@ std::int64_t bytes_of_run(const assembled& a) {
 std::string read_storage(const toml_value& t) {
   if (!t.has("storage")) return "";
   constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
-  std::string said = t["storage"].text(allowed);
-  if (said != "band" && (said != "sparse" || !sparse_factor::available()))
-    t["storage"].refuse(in_quotes(said) + (said == "sparse" ? " without CHOLMOD" : ""), allowed);
-  return said;
+  std::string storage = t["storage"].text(allowed);
+  if (storage != "band" && (storage != "sparse" || !sparse_factor::available()))
+    t["storage"].refuse(in_quotes(storage) + (storage == "sparse" ? " without CHOLMOD" : ""), allowed);
+  return storage;
 }
 
 /// A band, unless CHOLMOD is built in and the band is too large, or so wide that sparse factors take far
@@ -205,18 +205,18 @@ std::string read_storage(const toml_value& t) {
 void choose_storage(const toml_value& t, assembled& a) {
   constexpr std::int64_t small_band = std::int64_t{256} << 20;
   constexpr std::int64_t far_less = 4;
-  const std::string said = read_storage(t);
+  const std::string storage = read_storage(t);
   const std::int64_t limit = memory_limit();
   const std::int64_t band = bytes_of_run(a);
   std::string takes = fmt::format("a half bandwidth of {}, which take {}",
                                   subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
   std::string remedy;
   std::int64_t needed = band;
-  if (said == "sparse" ||
-      (said.empty() && sparse_factor::available() && band > std::min(small_band, limit))) {
+  if (storage == "sparse" ||
+      (storage.empty() && sparse_factor::available() && band > std::min(small_band, limit))) {
     a.as_band = false;
     needed = bytes_of_run(a);
-    a.as_band = said.empty() && band <= limit && band <= far_less * needed;
+    a.as_band = storage.empty() && band <= limit && band <= far_less * needed;
     if (a.as_band) return;
     takes += fmt::format(", or {} in CHOLMOD's sparse factors", bytes_words(needed));
   } else {

@@ -96,7 +96,7 @@ std::vector<double> bed_pressure(const problem& p, const std::vector<pair_readin
   return at;
 }
 
-std::optional<passage> deepest_passage(const problem& p, const load& l, std::span<const double> u) {
+std::optional<penetration> deepest_penetration(const problem& p, const load& l, std::span<const double> u) {
   constexpr double worth_a_word = 1e-3;
   const auto* const b = std::get_if<beam>(&p.geometry.kind);
   if (b == nullptr) return {};
@@ -106,7 +106,7 @@ std::optional<passage> deepest_passage(const problem& p, const load& l, std::spa
                            [&](std::size_t i) { return std::pair(p.pairs[i].surface, p.pairs[i].node); });
   const beam_lines lines(*b, l, u);
   const auto beyond = [&](const contact_pair& c, double w) { return c.surface * (w - c.face); };
-  passage worst;
+  penetration worst;
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
     const contact_pair& left = p.pairs[order[i]];
     const contact_pair& right = p.pairs[order[i + 1]];

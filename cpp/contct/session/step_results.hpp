@@ -64,14 +64,14 @@ struct step_results {
 
 /// A beam that passes through a face between two neighbouring pairs that have it: contact there is not in the
 /// model.
-struct passage {
+struct penetration {
   double depth = 0.0;                 ///< beyond the face, and beyond where the pairs themselves are
   double x = 0.0;                     ///< where it is deepest
   std::size_t first = 0, second = 0;  ///< the pairs, from 0
 };
 /// The deepest one in a state, where that is more than a thousandth of the largest deflection.
-[[nodiscard]] std::optional<passage> deepest_passage(const problem& p, const load& l,
-                                                     std::span<const double> u);
+[[nodiscard]] std::optional<penetration> deepest_penetration(const problem& p, const load& l,
+                                                             std::span<const double> u);
 
 /// Where ranges_of looks: "the whole length", "nodes and corners of elements" or "dofs".
 [[nodiscard]] std::string_view ranges_are_at(const model& m);

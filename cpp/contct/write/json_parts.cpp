@@ -55,7 +55,7 @@ void put_kind(json& out, const assembled& a) {
   out["edges"] = list_of(places.edges, [](const mesh_edge& e) -> json {
     return {e.from + 1, e.to + 1, e.elements};
   });
-  out["notes"] = places.said;
+  out["notes"] = places.notes;
 }
 
 /// What a pair has of a bed: a tributary length or area; 0 where it is of none.

@@ -172,10 +172,10 @@ std::string end_words(const problem& p, const path_end& end) {
 
 std::string passage_warning(const problem& p, std::span<const step_record> steps) {
   const load_path loads(p);
-  std::optional<passage> worst;
+  std::optional<penetration> worst;
   int step = 0;
   for (const step_record& s : steps) {
-    const auto here = deepest_passage(p, loads.at(s.end.step, s.end.fraction), s.end.displacement);
+    const auto here = deepest_penetration(p, loads.at(s.end.step, s.end.fraction), s.end.displacement);
     if (!here || (worst && here->depth <= worst->depth)) continue;
     worst = here;
     step = s.end.step;
