@@ -32,9 +32,9 @@ struct beam_problem {
     return follow(as_problem(), structure(), "refactor", k, observers, limits);
   }
 
-  path_end run(const std::string& kernel_name, std::vector<observer*> observers,
+  path_end run(const std::string& kernel_name, const std::vector<observer*>& observers,
                const path_limits& limits = {}) const {
-    return run(*make_kernel(kernel_name), std::move(observers), limits);
+    return run(*make_kernel(kernel_name), observers, limits);
   }
 };
 
