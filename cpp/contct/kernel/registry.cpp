@@ -1,7 +1,5 @@
 #include "contct/kernel/registry.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -140,9 +138,8 @@ const entry& built_in_named(std::string_view name) {
   for (const entry& e : known_kernels())
     if (name == e.facts.name) return e;
   const std::vector<std::string> known = kernel_names();
-  throw std::invalid_argument(
-      fmt::format("no kernel is named \"{}\"{}; there are: {}, plugin:LIBRARY, pipe:COMMAND", name,
-                  did_you_mean(name, known), joined(known, ", ")));
+  throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" + did_you_mean(name, known) +
+                              "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
 }
 
 /// What follows "plugin:" or "pipe:" in a name; nothing when it begins with something else.
