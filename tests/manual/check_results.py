@@ -32,7 +32,9 @@ uniform = -1.0
 """
 # Nothing holds this beam at first: the exact path begins with a rigid-body motion, and ends in a mechanism.
 FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
-# More than 50,000 dofs: no exact path.
+
+# What contct_bench writes of CHOLMOD alone: nothing in a build without it.
+OF_PEERS = {"method", "steps", "digits", "wrong_statuses", "values"}
 
 
 def doctored_reference(root, folder):
@@ -125,8 +127,11 @@ def plainly(program, root, plugin, bench, folder):
         for arguments in lines:
             status = 4 if "free.toml" in arguments else 1 if str(arguments[-1]).startswith("fortran,plugin") else 0
             line = [bench, *arguments, *JSON[1:]] if page == "speed.md" else [program, *arguments, *JSON]
-            keys_in(result_of(line, folder, status), found)
+            result = result_of(line, folder, status)
+            keys_in(result, found)
         documented = documented_keys(text)
+        if page == "speed.md" and not result["peers"]:
+            documented -= OF_PEERS
         named = set(re.findall(r"`(\w+)`", text))
         if difference := plain_difference(documented, named, found):
             raise ValueError(f"{page}: {difference}")
