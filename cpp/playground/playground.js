@@ -5,8 +5,8 @@
 const given = JSON.parse(byId("given").textContent);
 const patient = 40000; // dofs times steps beyond which a run waits for the button
 const editor = byId("text");
+let textsBefore = null; // what undo goes back to
 
-let program = null; // the compiled program
 let model = null;   // what contct_check says of the last text that it accepts
 let chosen = 0;     // pair whose story is told, from 0
 let dragging = null; // { to, x, y } while something is dragged
@@ -16,55 +16,21 @@ let milliseconds = 0; // from a text to its picture
 
 // ---- the program ----
 
-/** The answer of a function of serve.h to texts, as text. */
-function answerOf(name, ...texts) {
-  const places = texts.map((text) => {
-    const room = program.lengthBytesUTF8(text) + 1;
-    const place = program._malloc(room);
-    program.stringToUTF8(text, place, room);
-    return place;
-  });
-  const answer = program[`_contct_${name}`](...places);
-  places.forEach((place) => program._free(place));
-  if (answer === 0) throw new Error("memory does not suffice");
-  const text = program.UTF8ToString(answer);
-  program._contct_free(answer);
-  return text;
-}
-
-const ask = (name, text, options) => JSON.parse(answerOf(name, text, JSON.stringify({ file: "problem.toml", ...options })));
 const kernelsAsked = () => byId("kernels").value.split(",");
 const askPath = (name, options) => ask(name, editor.value, { kernels: kernelsAsked(), ...options });
 
 // ---- numbers of the text ----
 
-/** A number as it is written when it is dragged: 4 digits, a whole number where the key takes one. */
-function written(x, place) {
-  if (place.whole && /(^|\.)(node|nodes|elements|nx|ny)(\[|$)/.test(place.key)) return String(Math.round(x));
-  const text = String(Number(x.toPrecision(4)));
-  return /[.e]/.test(text) ? text : `${text}.0`;
-}
-
-/** Where a number stands in the text, as [from, to]. Columns count code points. */
-function spanOf(place) {
-  const lines = editor.value.split("\n");
-  let from = 0;
-  for (let i = 0; i + 1 < place.line; ++i) from += lines[i].length + 1;
-  from += [...(lines[place.line - 1] || "")].slice(0, place.column - 1).join("").length;
-  return [from, from + place.length];
-}
-
 const numberOf = (key) => model && model.numbers.find((n) => n.key === key);
 
-/** Put other numbers in the place of some: { key: value }. */
+/** Put other numbers in the place of some: { key: value }. What follows within a drag is one change. */
 function change(values) {
-  const edits = Object.entries(values).map(([key, value]) => ({ place: numberOf(key), value })).filter((e) => e.place);
-  edits.sort((a, b) => b.place.line - a.place.line || b.place.column - a.place.column);
-  for (const { place, value } of edits) {
-    const [from, to] = spanOf(place);
-    editor.setRangeText(typeof value === "string" ? value : written(value, place), from, to, "preserve");
-  }
-  if (edits.length > 0) recompute();
+  const text = withNumbers(editor.value, model.numbers, values);
+  if (text === editor.value) return;
+  textsBefore.add(text, dragging !== null && dragging.moved);
+  if (dragging) dragging.moved = true;
+  editor.value = text;
+  recompute();
 }
 
 // ---- recomputing ----
@@ -84,6 +50,7 @@ function follow() {
 /** What the program says against the text; a click goes to the place. */
 function complain(error) {
   byId("right").classList.add("stale");
+  byId("verdict").replaceChildren(element("li", { class: "note" }, "No verdict: the text is no problem file now. The picture is that of the last text that was."));
   const button = element("button", { type: "button", class: "bad" }, error.message);
   const lines = editor.value.split("\n");
   let [from, to] = [0, 0];
@@ -307,14 +274,38 @@ async function copyLink() {
 // ---- start ----
 
 function listenToText() {
-  const take = (text) => { editor.value = text; recompute({ state: Infinity }); };
-  editor.addEventListener("input", () => recompute());
+  const take = (text) => { editor.value = text; textsBefore.add(text); recompute({ state: Infinity }); };
+  editor.addEventListener("input", () => { textsBefore.add(editor.value); recompute(); });
+  byId("own").addEventListener("keydown", (event) => {
+    if (!undoes(event) && !redoes(event)) return;
+    event.preventDefault();
+    editor.value = undoes(event) ? textsBefore.undo() : textsBefore.redo();
+    recompute();
+  });
   editor.addEventListener("scroll", follow);
   byId("menu").addEventListener("change", () => take(given.problems[byId("menu").value]));
   byId("kernels").addEventListener("change", () => recompute());
   byId("pair").addEventListener("change", () => choose(Number(byId("pair").value)));
   byId("link").addEventListener("click", copyLink);
-  addEventListener("hashchange", () => { const text = problemOfLink(); if (text !== editor.value) take(text); });
+  byId("open-own").addEventListener("click", openOwn);
+  addEventListener("hashchange", () => { openOwn(); const text = problemOfLink(); if (text !== editor.value) take(text); });
+}
+
+// ---- the lesson, and the way to a problem of one's own ----
+
+function startLesson() {
+  new ContactScene(byId("three-stops"), {
+    text: given.scenes["three-stops"], most: 2, listing: given.listing,
+    question: "An unloaded beam over three stops. Drag the arrow down: which stop does the beam meet first?",
+  });
+  new TwoRules(byId("two-rules"), { text: given.problems["divergences/near-tie"], names: ["a load of 60 at the tip", "the load is taken off"] });
+}
+
+function openOwn() {
+  if (byId("own").hidden === false) return;
+  byId("own").hidden = false;
+  byId("open-own").setAttribute("aria-expanded", "true");
+  recompute({ state: Infinity });
 }
 
 async function start() {
@@ -328,7 +319,9 @@ async function start() {
   listen();
   listenToText();
   editor.value = problemOfLink();
-  recompute({ state: Infinity });
+  textsBefore = new TextHistory(editor.value);
+  startLesson();
+  if (location.hash.length > 1) openOwn();
   document.body.dataset.ready = "yes";
 }
 start();

@@ -286,6 +286,7 @@ def links():
     link = value("location.hash")
     browser.open(page)
     ready()
+    value("openOwn()")
     value(f"location.hash = {json.dumps(link)}")
     time.sleep(0.3)
     check(text() == own, "a link holds the problem")
@@ -310,6 +311,7 @@ def report():
 def shape(width, dark):
     browser.open(page, width=width, height=900, dark=dark)
     ready()
+    value("openOwn()")
     check(value("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), f"nothing sticks out at {width} px")
     browser.picture(os.path.join(work, f"playground-{width}-{'dark' if dark else 'light'}.png"))
     nodes = browser.send("Accessibility.getFullAXTree")["nodes"]
@@ -334,6 +336,145 @@ def long_beam():
     check(value("model.pairs") == 100 and value("increments.length") > 50, "a beam of 1000 elements and 100 pairs is followed")
 
 
+# ---- the lesson ----
+
+def scene(words):
+    return value(f"scenes[0].{words}")
+
+
+def press_button(name):
+    value(f"document.querySelector('#three-stops [data-act={name}]').click()")
+
+
+def told():
+    return value("document.querySelector('#three-stops .told').textContent")
+
+
+def natively(command, text):
+    """The program's own JSON of a text."""
+    file, out = os.path.join(work, "scene.toml"), os.path.join(work, "scene.json")
+    pathlib.Path(file).write_text(text, encoding="utf-8")
+    subprocess.run([program, command, file, "--kernels", "fortran,cpp", "--json", out], capture_output=True, check=False)
+    return json.loads(pathlib.Path(out).read_text(encoding="utf-8"))
+
+
+def lesson_opens_on_the_question():
+    check(scene("force") == 0 and "which stop" in told(), f"the lesson opens unloaded, with a question: {told()}")
+    check(value("document.getElementById('own').hidden"), "text and numbers are behind a button")
+    drag("document.querySelector('#three-stops .handle')", 0, 110)
+    check(scene("force") < -0.5 and "presses on stop" in told(), f"the beam follows the load that is dragged: {told()}")
+    result, shown = natively("run", scene("history.text")), scene("frames[scenes[0].last].u")
+    check(len(shown) == 34 and [bits(w) for w in shown] == [bits(w) for w in result["steps"][-1]["displacement"]], "its shape is the program's, to the bit")
+    drag("document.querySelector('#three-stops .handle')", -240, 0)
+    check(scene("node") < 12, "the load can be dragged along the beam")
+    press_button("undo")
+    check(scene("node") == 12 and scene("force") < -0.5, "undo takes one drag back")
+    press_button("undo")
+    check(scene("force") == 0, "and the one before")
+    press_button("redo")
+    check(scene("force") < -0.5, "redo brings it back")
+
+
+def lesson_steps():
+    explained = natively("explain", scene("history.text"))["increments"]
+    check(len(explained) >= 3, f"the path has {len(explained)} increments")
+    press_button("start")
+    for k, increment in enumerate(explained):
+        meeting = sorted(p["s"] for p in increment["pairs"] if 0 < p["s"] < 1)
+        check(scene("k") == k and value("document.querySelector('#three-stops .ghost') !== null"), f"increment {k + 1}: d* is drawn as a ghost")
+        dots = value("[...document.querySelectorAll('#three-stops [data-s]')].map(d => Number(d.dataset.s))")
+        check([bits(s) for s in dots] == [bits(s) for s in meeting], f"increment {k + 1}: all s are on the line, to the bit: {dots}")
+        gold = value("[...document.querySelectorAll('#three-stops [data-s].gold')].map(d => Number(d.dataset.s))")
+        check(gold == meeting[:1], f"increment {k + 1}: the smallest is gold: {gold}")
+        press_button("step")
+        check(value("scenes[0].moving !== null"), f"increment {k + 1}: the beam glides")
+        browser.wait_for("scenes[0].moving === null", 10)
+    check(scene("k") == len(explained) and not scene("overlay"), "the path ends at the whole load")
+
+
+def lesson_steps_into():
+    explained = natively("explain", scene("history.text"))["increments"][0]
+    press_button("start")
+    expected = [l["line"] for p in explained["pairs"] for l in p["story"] if l.get("line", 99) < 42]
+    expected += [l["line"] for l in explained["story"] if "line" in l]
+    expected += [l["line"] for p in explained["pairs"] for l in p["story"] if l.get("line", 0) > 48]
+    lit = []
+    for _ in expected:
+        press_button("into")
+        lit += value("[...document.querySelectorAll('#three-stops .listing li')].flatMap((l, i) => l.classList.contains('ran') ? [i + 1] : [])")
+        if lit[-1] == 38:
+            pair = explained["pairs"][lit.count(38) - 1]
+            shown = value("Object.fromEntries([...document.querySelectorAll('#three-stops dd[data-value]')].map(d => [d.previousSibling.textContent, Number(d.dataset.value)]))")
+            check({k: bits(v) for k, v in shown.items()} == {"GAP": bits(pair["gap"]), "DTEST": bits(pair["d_star"]), "SS": bits(pair["s"])},
+                  f"GAP, DTEST and SS of pair {pair['pair']} stand beside its line: {shown}")
+    check(lit == expected and lit.count(38) == 3, f"one line at a time, as they run: {lit}")
+    press_button("into")
+    browser.wait_for("scenes[0].moving === null", 10)
+    check(scene("k") == 1, "behind the last line the beam goes there")
+
+
+def lesson_ignores():
+    press_button("start")
+    press_button("ignore")
+    browser.wait_for("scenes[0].moving === null", 10)
+    check("goes through stop" in told() and value("document.querySelectorAll('#three-stops .through').length") >= 2, f"without s_min the beam goes through stops: {told()}")
+    press_button("ignore")
+    browser.wait_for("scenes[0].moving === null", 10)
+    check("s_min = " in told() and value("document.querySelector('#three-stops .through') === null"), "and comes back")
+
+
+def lesson_by_keyboard():
+    force = scene("force")
+    value("document.querySelector('#three-stops .handle').focus()")
+    browser.press("ArrowUp")
+    check(scene("force") > force, "an arrow key takes load off")
+    check(value("document.activeElement.classList.contains('handle')"), "and the load keeps the focus")
+    press_button("start")
+    value("document.querySelectorAll('#three-stops [data-s]')[1].focus()")
+    browser.press("Enter")
+    check(value("document.querySelector('#three-stops .inside').hidden") is False, "Enter on a share opens its pair's lines")
+    browser.send("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+    press_button("start")
+    press_button("step")
+    check(scene("k") == 1 and scene("moving") is None, "nothing glides where the system asks for less motion")
+    browser.send("Emulation.setEmulatedMedia", features=[])
+
+
+def lesson_of_two_rules():
+    value("document.querySelectorAll('#two-rules button')[2].click()")
+    shown = value("[...document.querySelectorAll('#two-rules b')].map(b => Number(b.dataset.value))")
+    text = (root / "reference/problems/divergences/near-tie.toml").read_text(encoding="utf-8")
+    tip = natively("run", text)["steps"][1]["displacement"][-2]
+    check(bits(shown[0]) == bits(tip) and abs(tip - 0.5 * 8 / 3e4) < 1e-9, f"1989 leaves 0.5 L^3 / 3 EI at the tip: {shown[0]}")
+    check(abs(shown[1]) < 1e-12, f"the corrected rule leaves nothing: {shown[1]}")
+
+
+def lesson_on_a_phone():
+    browser.open(page, width=400, height=800)
+    ready()
+    box = value("(() => { const b = document.querySelector('#three-stops svg').getBoundingClientRect(); return [b.top, b.bottom]; })()")
+    check(box[0] < 350 and box[1] < 850, f"the picture is first on a phone: {box}")
+    browser.open(page)
+    ready()
+
+
+def opens_on_a_problem():
+    value("document.getElementById('open-own').click()")
+    check(value("!document.getElementById('own').hidden && result !== undefined"), "a button opens a problem of one's own")
+
+
+def takes_back():
+    choose("menu", "pb07-three-gap-supports")
+    before = text()
+    drag(handle("face of pair 2"), 0, 50)
+    check(text() != before, "a drag changes the text")
+    value("document.getElementById('text').dispatchEvent(new KeyboardEvent('keydown', { key: 'z', ctrlKey: true, bubbles: true, cancelable: true }))")
+    check(text() == before, "Ctrl+Z takes a whole drag back")
+    type_text(before.replace("1.0e5", "1,0e5", 1) if "1.0e5" in before else before.replace("elements = 16", "elements = 1,6", 1))
+    check("No verdict" in value("document.getElementById('verdict').textContent"), "a verdict is withdrawn while the text is no problem file")
+    type_text(before)
+
+
 browser.open(page)
 ready()
 try:
@@ -343,7 +484,8 @@ try:
     compare_runs()
     replay_golden_set()
     errors_have_their_places()
-    for part in (menu, dragging, messages, story, links, report):
+    for part in (lesson_on_a_phone, lesson_opens_on_the_question, lesson_steps, lesson_steps_into, lesson_ignores, lesson_by_keyboard, lesson_of_two_rules, opens_on_a_problem,
+                 takes_back, menu, dragging, messages, story, links, report):
         part()
     for width, dark in ((1300, False), (1300, True), (400, False), (400, True)):
         shape(width, dark)

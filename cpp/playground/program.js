@@ -1,0 +1,69 @@
+// The compiled program, as the functions of serve.h, and the numbers of a problem's text. The playground and the pages of the course
+// ask it; no script here reads a problem file or computes contact.
+"use strict";
+
+let program = null; // the compiled program, once it is there
+
+/** The answer of a function of serve.h to texts, as text. */
+function answerOf(name, ...texts) {
+  const places = texts.map((text) => {
+    const room = program.lengthBytesUTF8(text) + 1;
+    const place = program._malloc(room);
+    program.stringToUTF8(text, place, room);
+    return place;
+  });
+  const answer = program[`_contct_${name}`](...places);
+  places.forEach((place) => program._free(place));
+  if (answer === 0) throw new Error("memory does not suffice");
+  const text = program.UTF8ToString(answer);
+  program._contct_free(answer);
+  return text;
+}
+
+const ask = (name, text, options) => JSON.parse(answerOf(name, text, JSON.stringify({ file: "problem.toml", ...options })));
+
+/** A number as it is written when it is dragged: 4 digits, a whole number where the key takes one. */
+function written(x, place) {
+  if (place.whole && /(^|\.)(node|nodes|elements|nx|ny)(\[|$)/.test(place.key)) return String(Math.round(x));
+  const text = String(Number(x.toPrecision(4)));
+  return /[.e]/.test(text) ? text : `${text}.0`;
+}
+
+/** Where a number stands in a text, as [from, to]. Columns count code points. */
+function spanOf(text, place) {
+  const lines = text.split("\n");
+  let from = 0;
+  for (let i = 0; i + 1 < place.line; ++i) from += lines[i].length + 1;
+  from += [...(lines[place.line - 1] || "")].slice(0, place.column - 1).join("").length;
+  return [from, from + place.length];
+}
+
+/** A text with other numbers in the place of some: { key: value }. `numbers` are what contct_check says of it. */
+function withNumbers(text, numbers, values) {
+  const edits = Object.entries(values).map(([key, value]) => ({ place: numbers.find((n) => n.key === key), value })).filter((e) => e.place);
+  edits.sort((a, b) => b.place.line - a.place.line || b.place.column - a.place.column);
+  for (const { place, value } of edits) {
+    const [from, to] = spanOf(text, place);
+    text = text.slice(0, from) + (typeof value === "string" ? value : written(value, place)) + text.slice(to);
+  }
+  return text;
+}
+
+/** Texts that can be taken back: what was dragged or typed, one after the other. */
+class TextHistory {
+  constructor(first) { this.texts = [first]; this.at = 0; }
+  get text() { return this.texts[this.at]; }
+  /** Movements of one drag are one text: `follows` replaces the last. */
+  add(text, follows = false) {
+    if (text === this.text) return;
+    this.texts.length = this.at + (follows ? 0 : 1);
+    this.texts.push(text);
+    this.at = this.texts.length - 1;
+  }
+  undo() { this.at = Math.max(0, this.at - 1); return this.text; }
+  redo() { this.at = Math.min(this.texts.length - 1, this.at + 1); return this.text; }
+}
+
+/** Does this key press take back, or bring back? */
+const undoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === "z" && !event.shiftKey;
+const redoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && (event.key.toLowerCase() === "y" || (event.key.toLowerCase() === "z" && event.shiftKey));

@@ -1,0 +1,392 @@
+// A scene: a beam over stops and one load, both to be dragged, and the algorithm of 1989 at work on it. It opens unloaded. A step shows
+// d*, what all the remaining load would do, with the share s at which each pair would meet its face; the next one goes to the smallest.
+// Every number is the program's; between two states of a path the beam moves in proportion, as it does in the paper.
+"use strict";
+
+const stillAsked = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+const scenes = [];  // of the page, in its order
+
+/** The shape of a beam: [x, w] along its elements, cubic between nodes. */
+function shapeOf(nodes, u, parts = 6) {
+  const points = [[nodes[0], u[0]]];
+  for (let e = 0; e + 1 < nodes.length; ++e) {
+    const h = nodes[e + 1] - nodes[e];
+    for (let i = 1; i <= parts; ++i) points.push([nodes[e] + (h * i) / parts, hermite(h, u[2 * e], u[2 * e + 2], u[2 * e + 1], u[2 * e + 3], i / parts)]);
+  }
+  return points;
+}
+
+class ContactScene {
+  /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size. */
+  constructor(holder, { text, load = "step[1].point[1]", most = 1, kernels = ["fortran", "cpp"], listing = "", question = "" }) {
+    Object.assign(this, { holder, load, most, kernels, question });
+    this.history = new TextHistory(text);
+    this.listing = listing.split("\n").slice(0, -1).map((words) => element("li", {}, words));
+    this.build();
+    this.solve();
+    this.show("end");
+    scenes.push(this);
+    new ResizeObserver(() => this.draw()).observe(this.picture);
+  }
+
+  // ---- what the page has ----
+
+  build() {
+    const button = (words, act, more = {}) => {
+      const made = element("button", { type: "button", ...more }, words);
+      made.addEventListener("click", act);
+      return made;
+    };
+    this.words = element("p", { class: "told", role: "status", "aria-live": "polite" });
+    this.picture = element("div", { class: "picture" });
+    this.buttons = {
+      step: button("Step", () => this.step(), { "data-act": "step" }),
+      into: button("Step into", () => this.stepInto(), { "data-act": "into" }),
+      ignore: button("Ignore s_min", () => this.ignore(), { "data-act": "ignore", "aria-pressed": "false" }),
+      start: button("From the start", () => this.start(), { "data-act": "start" }),
+      undo: button("Undo", () => this.restore(this.history.undo()), { "data-act": "undo" }),
+      redo: button("Redo", () => this.restore(this.history.redo()), { "data-act": "redo" }),
+    };
+    this.values = element("dl", { class: "values" });
+    this.lines = element("ol", { class: "listing", tabindex: "0", role: "region", "aria-label": "The listing" }, ...this.listing);
+    this.inside = element("div", { class: "inside", hidden: "" }, this.values, this.lines);
+    this.holder.classList.add("scene");
+    this.holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...Object.values(this.buttons)), this.inside);
+    this.holder.addEventListener("keydown", (event) => {
+      if (!undoes(event) && !redoes(event)) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.restore(undoes(event) ? this.history.undo() : this.history.redo());
+    });
+  }
+
+  // ---- the program's answers ----
+
+  /** The path under the load of the text, and why each increment went as it did. */
+  solve() {
+    const text = this.history.text;
+    this.numbers = ask("check", text, { places: true }).result.numbers;
+    const answer = ask("run", text, { kernels: this.kernels, states: true });
+    if (answer.error) throw new Error(answer.error.message);
+    this.result = answer.result;
+    this.told = ask("explain", text, { kernels: this.kernels }).result.increments;
+    this.nodes = this.result.structure.nodes.map((n) => n.x);
+    this.pairs = this.result.structure.pairs.map((p) => ({ ...p, at: p.node - 1, side: p.surface === "above" ? 1 : -1 }));
+    this.frames = this.framesOf();
+    this.frameOnce();
+  }
+
+  /** The unloaded beam, and the state after each increment. */
+  framesOf() {
+    const begun = { u: this.nodes.flatMap(() => [0, 0]), closed: this.pairs.map((p) => p.state === "contact"), force: this.pairs.map(() => 0), share: 0 };
+    const behind = this.result.steps.flatMap((step) => step.increments.map((i, n) => {
+      const state = i.displacement ? i : step;
+      return { u: state.displacement, closed: state.pairs.map((p) => p.state === "contact"), force: state.pairs.map((p) => p.force), share: i.fraction, s: i.s, events: i.events };
+    }));
+    return [begun, ...behind];
+  }
+
+  /** What the whole remaining load would do: d* is the way to the next state over its share. */
+  ghostOf(k) {
+    const [now, next] = [this.frames[k], this.frames[k + 1]];
+    return next && next.s > 0 ? now.u.map((w, i) => w + (next.u[i] - w) / next.s) : null;
+  }
+
+  number(name) { return this.numbers.find((n) => n.key === `${this.load}.${name}`); }
+  get force() { return this.number("w").value; }
+  get node() {
+    const [node, x] = [this.number("node"), this.number("x")];
+    return node ? node.value - 1 : this.nearest(x.value);
+  }
+  nearest(x) { return this.nodes.reduce((best, at, i) => (Math.abs(at - x) < Math.abs(this.nodes[best] - x) ? i : best), 0); }
+
+  // ---- the path ----
+
+  get last() { return this.frames.length - 1; }
+
+  /** "end": the beam under the whole load. "path": a state within it. */
+  show(what, k = this.last) {
+    this.moving = null;
+    Object.assign(this, { shown: what, k, overlay: what === "path" && k < this.last, at: -1, through: null });
+    this.draw();
+  }
+
+  start() { this.show("path", 0); }
+
+  step() {
+    if (this.moving) return;
+    if (this.shown === "end" || (!this.overlay && this.k === this.last)) return this.start();
+    if (this.through) return this.ignore();
+    const [from, to] = [this.frames[this.k].u, this.frames[this.k + 1].u];
+    this.glide(from, to, () => this.show("path", this.k + 1));
+  }
+
+  /** Goes on with the next line of the listing that runs, in the order in which it runs. */
+  stepInto() {
+    if (this.moving) return;
+    if (this.shown === "end" || !this.overlay) return this.start();
+    if (this.through) return this.ignore();
+    if (this.at + 1 >= this.linesOf(this.k).length) return this.step();
+    this.at += 1;
+    this.draw();
+  }
+
+  linesOf(k) {
+    const told = this.told[k];
+    if (!told) return [];
+    const of = (pair, wanted) => pair.story.filter((l) => l.line && wanted(l.line)).map((l) => ({ ...l, pair }));
+    const first = told.pairs.flatMap((p) => of(p, (line) => line < 42));
+    const winner = told.story.filter((l) => l.line).map((l) => ({ ...l, pair: null }));
+    return [...first, ...winner, ...told.pairs.flatMap((p) => of(p, (line) => line > 48))];
+  }
+
+  /** What happens without s_min: all the remaining load at once, through every stop. */
+  ignore() {
+    if (this.moving) return;
+    if (this.shown === "end" || !this.overlay) this.start();
+    const ghost = this.ghostOf(this.k);
+    if (!ghost) return;
+    const now = this.frames[this.k].u;
+    const [from, to] = this.through ? [ghost, now] : [now, ghost];
+    const back = this.through !== null;
+    this.through = ghost;
+    this.glide(from, to, () => { this.through = back ? null : ghost; this.draw(); });
+  }
+
+  glide(from, to, done) {
+    const whole = 650;
+    if (stillAsked()) return done();
+    const began = performance.now();
+    const mine = this.moving = { u: from };
+    const move = (now) => {
+      if (this.moving !== mine) return;
+      const t = Math.min(1, Math.max(0, (now - began) / whole));
+      const eased = t * t * (3 - 2 * t);
+      mine.u = from.map((w, i) => w + eased * (to[i] - w));
+      if (t < 1) {
+        this.draw();
+        return requestAnimationFrame(move);
+      }
+      this.moving = null;
+      done();
+    };
+    requestAnimationFrame(move);
+  }
+
+  // ---- dragging ----
+
+  /** Another load; while it is dragged all movements are one change. */
+  change(values, follows = false) {
+    this.history.add(withNumbers(this.history.text, this.numbers, values), follows);
+    this.solve();
+    this.show("end");
+  }
+
+  restore() {
+    this.solve();
+    this.show("end");
+  }
+
+  /** The load at this node, of this size. */
+  push(node, force, follows) {
+    const size = Math.max(-this.most, Math.min(0, force));
+    const place = this.number("node") ? { [`${this.load}.node`]: node + 1 } : { [`${this.load}.x`]: this.nodes[node] };
+    this.change({ [`${this.load}.w`]: size, ...place }, follows);
+  }
+
+  addHandle(root, x, top) {
+    const words = `load ${rough(this.force)} at x = ${rough(this.nodes[this.node])}; arrow keys move it`;
+    const made = svg("rect", { x: x - 24, y: top - 8, width: 48, height: 72, rx: 8, class: "handle across", tabindex: "0", role: "slider", "aria-label": words,
+      "aria-valuenow": String(this.force), "aria-valuemin": String(-this.most), "aria-valuemax": "0" }, svg("title", {}, words));
+    made.addEventListener("pointerdown", (event) => this.drag(event));
+    made.addEventListener("keydown", (event) => {
+      const [across, along] = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key] || [0, 0];
+      if (across === 0 && along === 0) return;
+      event.preventDefault();
+      this.push(Math.max(0, Math.min(this.nodes.length - 1, this.node + across)), this.force + (along * this.most) / 40, false);
+      this.picture.querySelector(".handle").focus();
+    });
+    root.append(made);
+  }
+
+  drag(event) {
+    event.preventDefault();
+    const [x, y, force, from] = [event.clientX, event.clientY, this.force, this.nodes[this.node]];
+    let [follows, waiting] = [false, null];
+    const move = (e) => {
+      if (waiting === null) requestAnimationFrame(() => {
+        const [dx, dy] = waiting;
+        waiting = null;
+        this.push(this.nearest(from + dx / this.page.scale), force - (dy * this.most) / 150, follows);
+        follows = true;
+      });
+      waiting = [e.clientX - x, e.clientY - y];
+    };
+    const end = () => {
+      removeEventListener("pointermove", move);
+      for (const name of ["pointerup", "pointercancel"]) removeEventListener(name, end);
+    };
+    addEventListener("pointermove", move);
+    for (const name of ["pointerup", "pointercancel"]) addEventListener(name, end);
+  }
+
+  // ---- the picture ----
+
+  /** How deep the picture is: the beam under the largest load without stops has room. It is the same for all loads, so that the beam
+      moves as the finger does. */
+  frameOnce() {
+    if (this.deep) return;
+    const largest = ask("run", withNumbers(this.history.text, this.numbers, { [`${this.load}.w`]: -this.most }), { kernels: this.kernels, states: true }).result;
+    const [first] = largest.steps[0].increments;
+    const reach = (first.displacement ?? largest.steps[0].displacement).map((w) => Math.abs(w) / first.s).filter((_, i) => i % 2 === 0);
+    this.deep = Math.max(...this.pairs.map((p) => 1.5 * Math.abs(p.face)), ...reach);
+  }
+
+  draw() {
+    const width = widthOf(this.picture);
+    const [left, right, top, height] = [34, 24, 140, 470];
+    const [x0, x1] = [this.nodes[0], this.nodes[this.nodes.length - 1]];
+    const scale = (width - left - right) / (x1 - x0);
+    const times = (height - top - 90) / this.deep;
+    this.page = { width, left, right, top, height, scale, times, X: (x) => left + (x - x0) * scale, Y: (w) => top - w * times };
+    const frame = this.frames[this.k];
+    const u = this.moving ? this.moving.u : this.through || frame.u;
+    const root = canvas(this.picture, width, height, this.question);
+    root.append(line(left, top, width - right, top, "was"));
+    this.drawSupports(root);
+    this.pairs.forEach((p, i) => this.drawStop(root, p, u[2 * p.at], frame.closed[i] && !this.through));
+    if (this.overlay && !this.through) this.drawGhost(root, frame.u);
+    root.append(path(shapeOf(this.nodes, u).map(([x, w]) => [this.page.X(x), this.page.Y(w)]), "member"));
+    if (!this.moving && !this.through) this.pairs.forEach((p, i) => this.drawForce(root, p, frame.u[2 * p.at], frame.force[i]));
+    if (this.overlay) this.drawShares(root);
+    this.drawLoad(root, u);
+    this.tell(u);
+    this.showLine();
+  }
+
+  drawSupports(root) {
+    const { X, Y } = this.page;
+    const turned = new Set(this.result.structure.supports.filter((s) => s.dof === "theta").map((s) => s.node));
+    for (const s of this.result.structure.supports.filter(({ dof }) => dof === "w")) {
+      const [x, y] = [X(this.nodes[s.node - 1]), Y(0)];
+      if (!turned.has(s.node)) root.append(shape(`M${x} ${y + 3}l9 15h-18z`, "support"));
+      else root.append(line(x, y - 30, x, y + 30, "face-line"), ...[-24, -12, 0, 12, 24].map((k) => line(x, y + k, x - 8, y + k + 8, "hatch")));
+    }
+  }
+
+  /** A stop gives way as its spring does: in contact its top is where the beam is. */
+  drawStop(root, p, w, closed) {
+    const { X, Y, times } = this.page;
+    const [x, y, foot] = [X(this.nodes[p.at]), Y(closed ? w : p.face), Y(p.face) - p.side * 26];
+    const through = this.through && p.side * (p.face - w) * times < -0.5;
+    const turns = [0.2, 0.35, 0.5, 0.65, 0.8].map((t, i) => `L${x + (i % 2 ? 6 : -6)} ${y + (foot - y) * t}`).join("");
+    root.append(titled(`pair ${p.pair}: face ${p.surface} at ${short(p.face)}`, shape(`M${x} ${y}${turns}L${x} ${foot}`, "spring"),
+      line(x - 16, y, x + 16, y, `face-line${through ? " through" : ""}`), line(x - 12, foot, x + 12, foot, "thin")));
+    root.append(axisWord(x + 14, foot - 4, String(p.pair)));
+  }
+
+  drawForce(root, p, w, force) {
+    if (!(force > 0)) return;
+    const [x, y] = [this.page.X(this.nodes[p.at]), this.page.Y(p.face) + 30];
+    const length = 14 + (46 * force) / this.most;
+    root.append(arrow(x, y + length, 0, -length, "force"), label(x + 8, y + length, rough(force), { class: "value halo" }));
+  }
+
+  /** d* as a ghost beam, and from each pair a ray to where it would go, cut at its face. */
+  drawGhost(root, u) {
+    const ghost = this.ghostOf(this.k);
+    const { X, Y } = this.page;
+    if (!ghost) return;
+    root.append(path(shapeOf(this.nodes, ghost).map(([x, w]) => [X(x), Y(w)]), "ghost"));
+    for (const p of this.told[this.k].pairs) {
+      const at = this.pairs[p.pair - 1];
+      const x = X(this.nodes[at.at]);
+      const meets = p.s > 0 && p.s <= 1 && p.d_star !== 0;
+      const chosen = this.chosen()?.pair === p.pair;
+      root.append(line(x, Y(u[2 * at.at]), x, Y(ghost[2 * at.at]), `ray${meets ? " meets" : ""}${chosen ? " chosen" : ""}`));
+      if (meets) root.append(svg("circle", { cx: x, cy: Y(at.face), r: 5, class: p.s === this.told[this.k].s ? "dot gold" : "dot" }));
+    }
+  }
+
+  chosen() { return this.at < 0 ? null : this.linesOf(this.k)[this.at].pair; }
+
+  /** All s on one line from 0 to 1; the leftmost is s_min. */
+  drawShares(root) {
+    const { left, width, right, height } = this.page;
+    const [y, told] = [height - 34, this.told[this.k]];
+    const S = (s) => left + s * (width - left - right);
+    const say = wordsInFreePlaces(root, width, height + 20);
+    root.append(line(S(0), y, S(1), y, "zero"), ...[0, 1].map((s) => line(S(s), y - 5, S(s), y + 5, "zero")),
+      axisWord(S(0), y + 22, "0", "start"), axisWord(S(1), y + 22, "1: all the load", "end"));
+    const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
+    for (const p of [...meeting].sort((a, b) => a.s - b.s)) {
+      const gold = p.s === told.s;
+      const words = `pair ${p.pair}: s = ${p.s}${gold ? ", the smallest: s_min" : ""}`;
+      const dot = svg("circle", { cx: S(p.s), cy: y, r: gold ? 8 : 6, class: gold ? "dot gold" : "dot", tabindex: "0", role: "button", "aria-label": words, "data-s": String(p.s) }, svg("title", {}, words));
+      const open = () => { this.at = this.linesOf(this.k).findIndex((l) => l.pair?.pair === p.pair); this.draw(); };
+      dot.addEventListener("click", open);
+      dot.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); open(); } });
+      root.append(dot);
+      say(S(p.s), y - 14, gold ? `s_min = ${rough(p.s)}` : `${p.pair}: ${rough(p.s)}`, gold ? "value" : "axis-word");
+    }
+  }
+
+  drawLoad(root, u) {
+    const { X, Y } = this.page;
+    const [x, tip] = [X(this.nodes[this.node]), Y(u[2 * this.node]) - 4];
+    const length = 48 + (44 * Math.abs(this.force)) / this.most;
+    const size = this.shown === "path" ? ` · ${rough(100 * this.frames[this.k].share)} %` : "";
+    root.append(arrow(x, tip - length, 0, length, "load-arrow"), label(x, tip - length - 8, `${rough(Math.abs(this.force))}${size}`, { "text-anchor": "middle", class: "value halo" }));
+    this.addHandle(root, x, tip - length);
+  }
+
+  // ---- words ----
+
+  tell(u) {
+    if (this.moving) return;
+    const told = this.told[this.k];
+    const frame = this.frames[this.k];
+    let words;
+    if (this.through) words = this.throughWords(u);
+    else if (this.shown === "end") words = this.force === 0 ? this.question : this.endWords(frame);
+    else if (this.overlay) {
+      const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
+      const winner = told.pairs.find((p) => p.s === told.s);
+      const after = (frame.events ?? []).map((e) => `The beam ${e.change === "make" ? "meets" : "leaves"} stop ${e.pair}. `).join("");
+      words = `${after}The dashed beam is d*, what all the remaining load would do. ` + (meeting.length === 0 ? "No stop is met or left on the way: s_min = 1."
+        : `Stop ${winner.pair} is met first, at ${rough(100 * told.s)} % of it: s_min = ${rough(told.s)}.`);
+    } else words = this.endWords(frame);
+    if (this.words.textContent !== words) this.words.textContent = words;
+  }
+
+  endWords(frame) {
+    const closed = this.pairs.filter((_, i) => frame.closed[i]);
+    return `Under ${rough(Math.abs(this.force))} the beam is ${rough(Math.abs(frame.u[2 * this.node]))} down at the load; ` +
+      (closed.length === 0 ? "it touches no stop." : `it presses on ${closed.map((p) => `stop ${p.pair} with ${rough(frame.force[p.pair - 1])}`).join(", ")}.`);
+  }
+
+  throughWords(u) {
+    const deepest = this.pairs.map((p) => ({ p, by: -p.side * (p.face - u[2 * p.at]) })).sort((a, b) => b.by - a.by)[0];
+    return deepest && deepest.by > 0 ? `Without s_min the beam goes through stop ${deepest.p.pair}, ${rough(deepest.by)} beyond its face. That is what s_min prevents.`
+      : "Without s_min nothing is different here: no stop is in the way.";
+  }
+
+  /** The line of the listing that is next, with the values known by then. */
+  showLine() {
+    const lines = this.overlay ? this.linesOf(this.k) : [];
+    const now = lines[this.at];
+    this.inside.hidden = !now;
+    for (const item of this.listing) item.classList.remove("ran");
+    for (const [name, made] of Object.entries(this.buttons)) made.disabled = (name === "undo" && this.history.at === 0) || (name === "redo" && this.history.at + 1 === this.history.texts.length);
+    this.buttons.ignore.setAttribute("aria-pressed", String(this.through !== null));
+    if (!now) return;
+    const item = this.listing[now.line - 1];
+    item.classList.add("ran");
+    this.lines.scrollTop = item.offsetTop - 80;
+    const { pair } = now;
+    const known = pair ? [["GAP", pair.gap, 30], ["DTEST", pair.d_star, 31], ["SS", pair.s, 34], ["DIFF", pair.diff, 51]].filter(([, value, from]) => value !== undefined && value !== null && now.line >= from) : [];
+    const smin = now.line >= 42 ? [["SMIN", this.told[this.k].s]] : [];
+    this.values.replaceChildren(element("dt", {}, pair ? `I = ${pair.pair}` : ""), element("dd", {}, `Line ${now.line}: ${now.words}`),
+      ...[...known, ...smin].flatMap(([name, value]) => [element("dt", {}, name), element("dd", { "data-value": String(value) }, minus(String(value)))]));
+  }
+}

@@ -1,0 +1,62 @@
+// The rule of 1989 beside the corrected one, on one problem: the beam at the end of each step by either rule, drawn larger the smaller
+// it is, so that what stays is seen. Every number is the program's.
+"use strict";
+
+class TwoRules {
+  /** `names`: what each step does, in words. */
+  constructor(holder, { text, names }) {
+    const endsBy = (kernels) => {
+      const answer = ask("run", text, { kernels, states: true });
+      if (answer.error) throw new Error(answer.error.message);
+      return answer.result;
+    };
+    [this.old, this.right] = [endsBy(["fortran", "cpp"]), endsBy(["corrected"])];
+    const { nodes, supports, pairs } = this.old.structure;
+    Object.assign(this, { holder, supports, pairs, nodes: nodes.map((n) => n.x), steps: ["no load yet", ...names], at: 0 });
+    this.words = element("p", { class: "told", role: "status", "aria-live": "polite" });
+    this.picture = element("div", { class: "picture" });
+    this.buttons = this.steps.map((words, k) => {
+      const made = element("button", { type: "button", "aria-pressed": "false" }, sentence(words).slice(0, -1));
+      made.addEventListener("click", () => this.show(k));
+      return made;
+    });
+    holder.classList.add("scene");
+    holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...this.buttons));
+    new ResizeObserver(() => this.draw()).observe(this.picture);
+    this.show(0);
+  }
+
+  show(k) {
+    this.at = k;
+    this.buttons.forEach((b, i) => b.setAttribute("aria-pressed", String(i === k)));
+    this.draw();
+  }
+
+  endOf(of) { return this.at === 0 ? this.nodes.flatMap(() => [0, 0]) : of.steps[this.at - 1].displacement; }
+
+  draw() {
+    const [old, right] = [this.endOf(this.old), this.endOf(this.right)];
+    const far = (u) => Math.max(...u.filter((_, i) => i % 2 === 0).map(Math.abs));
+    const width = widthOf(this.picture);
+    const [left, middle, height] = [34, 110, 230];
+    const scale = (width - left - 90) / (this.nodes[this.nodes.length - 1] - this.nodes[0]);
+    const times = magnificationFor(Math.max(far(old), far(right)), 84 / scale);
+    const [X, Y] = [(x) => left + (x - this.nodes[0]) * scale, (w) => middle - w * times * scale];
+    const root = canvas(this.picture, width, height, "The beam by the rule of 1989, and the right answer");
+    root.append(line(left, middle, width - 24, middle, "was"), line(left, middle - 30, left, middle + 30, "face-line"), ...[-24, -12, 0, 12, 24].map((k) => line(left, middle + k, left - 8, middle + k + 8, "hatch")));
+    for (const p of this.pairs) {
+      const [x, y] = [X(this.nodes[p.node - 1]), Y(p.face)];
+      if (y < height - 24) root.append(titled(`face of pair ${p.pair} at ${short(p.face)}`, line(x - 14, y, x + 14, y, "face-line")));
+    }
+    const drawn = (u) => shapeOf(this.nodes, u).map(([x, w]) => [X(x), Y(w)]);
+    root.append(path(drawn(right), "ghost right"), path(drawn(old), "member"), label(width - 24, height - 8, `drawn ${timesWords(times)}`, { "text-anchor": "end", class: "axis-word" }));
+    this.tell(old, right);
+  }
+
+  tell(old, right) {
+    const tip = 2 * this.nodes.length - 2;
+    const off = old[tip] - right[tip];
+    this.words.replaceChildren(`${sentence(this.steps[this.at])} The tip by the rule of 1989: `, element("b", { "data-value": String(old[tip]) }, rough(old[tip])),
+      "; the right answer (dashed): ", element("b", { "data-value": String(right[tip]) }, rough(right[tip])), Math.abs(off) > 1e-12 ? ". Off by " + rough(Math.abs(off)) + "." : ".");
+  }
+}
