@@ -1,6 +1,7 @@
 #!/bin/sh
-# Builds the playground, build/playground/contct.html: one page in which the 1989 code, the C++ kernels and all the
-# rest of the program run, compiled to WebAssembly. Installs what is missing. Opened as a file it needs no network.
+# Builds the playground, build/playground/contct.html, and the course with its scenes, build/course/index.html: pages in which
+# the 1989 code, the C++ kernels and all the rest of the program run, compiled to WebAssembly. Installs what is missing.
+# Opened as files they need no network.
 # Exit 0: built; 77: skipped, Emscripten or the source of LAPACK cannot be had.
 set -eu
 cd "$(dirname "$0")/.."
@@ -23,7 +24,7 @@ fetch_lapack() {
 }
 
 need "for the playground" emscripten cmake ninja-build f2c libf2c2-dev libboost-dev libtomlplusplus-dev \
-  nlohmann-json3-dev libfmt-dev libfast-float-dev librange-v3-dev ca-certificates || exit 77
+  nlohmann-json3-dev libfmt-dev python3-markdown libfast-float-dev librange-v3-dev ca-certificates || exit 77
 sources=$(pwd)/build/playground/sources
 lapack=$sources/lapack
 fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be had" >&2; exit 77; }

@@ -294,11 +294,8 @@ function listenToText() {
 // ---- the lesson, and the way to a problem of one's own ----
 
 function startLesson() {
-  new ContactScene(byId("three-stops"), {
-    text: given.scenes["three-stops"], most: 2, listing: given.listing,
-    question: "An unloaded beam over three stops. Drag the arrow down: which stop does the beam meet first?",
-  });
-  new TwoRules(byId("two-rules"), { text: given.problems["divergences/near-tie"], names: ["a load of 60 at the tip", "the load is taken off"] });
+  new ContactScene(byId("three-stops"), { listing: given.listing, ...given.scenes["three-stops"] });
+  new TwoRules(byId("two-rules"), given.scenes["bent-beam"]);
 }
 
 function openOwn() {

@@ -3,14 +3,14 @@
 "use strict";
 
 class TwoRules {
-  /** `names`: what each step does, in words. */
-  constructor(holder, { text, names }) {
+  /** `names`: what each step does, in words. `kernels`: those of the rule of 1989. */
+  constructor(holder, { text, names, kernels = ["fortran", "cpp"] }) {
     const endsBy = (kernels) => {
       const answer = ask("run", text, { kernels, states: true });
       if (answer.error) throw new Error(answer.error.message);
       return answer.result;
     };
-    [this.old, this.right] = [endsBy(["fortran", "cpp"]), endsBy(["corrected"])];
+    [this.old, this.right] = [endsBy(kernels), endsBy(["corrected"])];
     const { nodes, supports, pairs } = this.old.structure;
     Object.assign(this, { holder, supports, pairs, nodes: nodes.map((n) => n.x), steps: ["no load yet", ...names], at: 0 });
     this.words = element("p", { class: "told", role: "status", "aria-live": "polite" });
@@ -24,6 +24,7 @@ class TwoRules {
     holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...this.buttons));
     new ResizeObserver(() => this.draw()).observe(this.picture);
     this.show(0);
+    scenes.push(this);
   }
 
   show(k) {

@@ -1,0 +1,93 @@
+"""Makes the pages in which the compiled program runs: the playground, contct.html, and the course, a page for each of its Markdown files, whose
+pictures are scenes that can be dragged.
+usage: python3 pages.py ROOT MODULE OUT    (MODULE: contct.js as Emscripten writes it; OUT: the folder of contct.html; the course is beside it)"""
+import json
+import pathlib
+import re
+import sys
+
+root, module, out = (pathlib.Path(a) for a in sys.argv[1:])
+here, report, course = root / "cpp/playground", root / "cpp/contct/write/report", root / "reference/course"
+
+
+def read(path):
+    return path.read_text(encoding="utf-8")
+
+
+def together(*names):
+    """Files of this folder, or of the report."""
+    return "".join(read(here / n if (here / n).exists() else report / n) for n in names)
+
+
+def between(text, begin, end):
+    start = text.index(begin) + len(begin)
+    return text[start:text.rindex(end)]
+
+
+def write_whole(path, text):
+    """A page appears whole or not at all."""
+    part = path.with_name(path.name + ".part")
+    part.write_text(text, encoding="utf-8")
+    part.replace(path)
+
+
+def filled(template, parts):
+    return re.sub(r"\{\{(\w+)\}\}", lambda m: parts.get(m[1], m[0]), template)
+
+
+def scenes():
+    """scenes.json, with the texts of the problems that it names."""
+    all_scenes = json.loads(read(course / "scenes/scenes.json"))
+    return {name: {**s, "text": read(root / s["problem"])} for name, s in all_scenes.items()}
+
+
+def given(**more):
+    text = json.dumps({"scenes": scenes(), "listing": read(root / "fortran/contct.f"), **more}, ensure_ascii=False)
+    return text.replace("</", "<\\/")
+
+
+def module_text():
+    return read(module).replace("</script", "<\\/script")
+
+
+def write_playground():
+    folder = root / "reference/problems"
+    problems = {str(p.relative_to(folder))[:-5]: read(p) for p in sorted(folder.rglob("*.toml"))}
+    sections = filled(between(read(report / "report.html"), "<main>", "</main>"),
+                      {"edition": between(read(root / "reference/parallel-edition.html"), "</h1>", "</body>")})
+    write_whole(out / "contct.html", filled(read(here / "playground.html"), {
+        "style": together("report.css", "playground.css"), "report": sections, "data": given(problems=problems), "module": module_text(),
+        "script": together("result.js", "picture.js", "report.js", "program.js", "scene.js", "two_rules.js", "playground.js")}))
+
+
+def page_of(markdown_file, converter):
+    """A page of the course. A picture whose title is "scene: NAME" is where the scene of that name stands."""
+    converter.reset()
+    body = converter.convert(read(markdown_file))
+    known = scenes()
+
+    def place(m):
+        if m[2] not in known:
+            raise SystemExit(f"{markdown_file}: found a scene \"{m[2]}\"; allowed: {', '.join(known)}")
+        return f'<figure data-scene="{m[2]}">{m[1]}</figure>'
+
+    body = re.sub(r'<p>(<img [^>]*title="scene: ([\w-]+)"[^>]*>)</p>', place, body)
+    body = re.sub(r'href="([\w-]+)\.md', r'href="\1.html', body)
+    body = re.sub(r'(href|src)="(?!https?:|#|[\w-]+\.html)([^"]+)"', lambda m: f'{m[1]}="../../reference/course/{m[2]}"', body)
+    return filled(read(here / "course.html"), {"title": re.search(r"^# (.*)", read(markdown_file), re.M)[1], "body": body.replace("README.html", "index.html")})
+
+
+def write_course():
+    import markdown
+    folder = out.parent / "course"
+    folder.mkdir(exist_ok=True)
+    converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc"])
+    for page in sorted(course.glob("*.md")):
+        write_whole(folder / ("index.html" if page.stem == "README" else f"{page.stem}.html"), page_of(page, converter))
+    write_whole(folder / "course.css", together("report.css", "playground.css", "course.css"))
+    scripts = together("result.js", "picture.js", "program.js", "scene.js", "two_rules.js", "course.js")
+    write_whole(folder / "course.js", f"const given = {given()};\n{read(module)}\n{scripts}")
+
+
+write_playground()
+write_course()

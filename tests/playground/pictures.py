@@ -1,0 +1,38 @@
+"""The pictures of the course, drawn by the scenes of its pages: writes those that are missing or differ, or only tells of them.
+usage: python3 pictures.py COURSE [--check]      (COURSE: the folder build/course; exit 1 under --check where one differs)"""
+import pathlib
+import sys
+
+root = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(root / "tests" / "browser"))
+from devtools import Browser  # noqa: E402
+
+course, check = pathlib.Path(sys.argv[1]).resolve(), "--check" in sys.argv
+# Each picture: a page that has its scene, and what is done there first.
+PICTURES = {
+    "tip-stop": ("01-picture", "scenes[0].push(2, -60, false)"),
+    "tip-stop-unloaded": ("01-picture", "scenes[0].push(2, 0, false)"),
+    "tip-stop-step": ("01-picture", "(scenes[0].push(2, -50, false), scenes[0].start())"),
+    "three-stops": ("04-algorithm", "(scenes[0].push(12, -1.6, false), scenes[0].start())"),
+    "bent-beam": ("09-wrong", "scenes[0].show(2)"),
+    "single-precision": ("11-rounding", "scenes[0].show(2)"),
+}
+folder = root / "reference/course/pictures"
+browser, different = Browser(), []
+try:
+    for name, (page, script) in PICTURES.items():
+        browser.open(str(course / f"{page}.html"), width=760, height=900)
+        browser.value("document.querySelector('[data-scene]').scrollIntoView()")
+        browser.wait_for("document.querySelector('[data-lives]') !== null")
+        browser.value(f"({script}, 0)")
+        text = browser.value("savedPicture(scenes[0].picture.firstChild)") + "\n"
+        file = folder / f"{name}.svg"
+        if not file.exists() or file.read_text(encoding="utf-8") != text:
+            different.append(name)
+            if not check:
+                folder.mkdir(exist_ok=True)
+                file.write_text(text, encoding="utf-8")
+finally:
+    browser.close()
+print(f"pictures: {len(PICTURES)}, {'different' if check else 'written'}: {', '.join(different) or 'none'}")
+sys.exit(1 if check and different else 0)
