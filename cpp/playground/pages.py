@@ -74,7 +74,8 @@ def page_of(markdown_file, converter):
     body = re.sub(r'<p>(<img [^>]*title="scene: ([\w-]+)"[^>]*>)</p>', place, body)
     body = re.sub(r'href="([\w-]+)\.md', r'href="\1.html', body)
     body = re.sub(r'(href|src)="(?!https?:|#|[\w-]+\.html)([^"]+)"', lambda m: f'{m[1]}="../../reference/course/{m[2]}"', body)
-    return filled(read(here / "course.html"), {"title": re.search(r"^# (.*)", read(markdown_file), re.M)[1], "body": body.replace("README.html", "index.html")})
+    return filled(read(here / "course.html"), {
+        "style": together("report.css", "playground.css", "course.css"), "title": re.search(r"^# (.*)", read(markdown_file), re.M)[1], "body": body.replace("README.html", "index.html")})
 
 
 def write_course():
@@ -84,7 +85,6 @@ def write_course():
     converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc"])
     for page in sorted(course.glob("*.md")):
         write_whole(folder / ("index.html" if page.stem == "README" else f"{page.stem}.html"), page_of(page, converter))
-    write_whole(folder / "course.css", together("report.css", "playground.css", "course.css"))
     scripts = together("result.js", "picture.js", "program.js", "scene.js", "two_rules.js", "course.js")
     write_whole(folder / "course.js", f"const given = {given()};\n{read(module)}\n{scripts}")
 
