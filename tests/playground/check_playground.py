@@ -19,7 +19,7 @@ work, program, page = sys.argv[1:]
 PB07 = "reference/problems/pb07-three-gap-supports.toml"
 KERNELS = (["fortran", "cpp"], ["fortran-r4", "cpp-r4"], ["corrected"])
 LEAST = {"runs": 160, "numbers": 350_000, "displacements": 70_000, "increments": 1_500, "events": 1_700, "pair states": 8_000,
-         "messages": 70, "calls of kernels": 1_500, "lines of unit 26": 2_500, "traces": 50, "replayed calls": 750, "replayed values": 11_000}
+         "messages": 70, "calls of kernels": 1_500, "lines of unit 26": 2_500, "traces": 50, "replayed calls": 750, "replayed values": 11_000, "scenes": 11}
 LEAST_CHECKS, MOST_BYTES = 1_250, 6_000_000
 counted = dict.fromkeys(LEAST, 0)
 browser, check = Browser(), Checks()
@@ -475,6 +475,27 @@ def takes_back():
     type_text(before)
 
 
+def course_pages():
+    """Every page can be read at once, its scenes live, and its picture is that of the Markdown."""
+    folder = pathlib.Path(page).resolve().parents[1] / "course"
+    for markdown in sorted((root / "reference/course").glob("*.md")):
+        name = "index" if markdown.stem == "README" else markdown.stem
+        browser.open(str(folder / f"{name}.html"))
+        readable = value("performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 0")
+        check(readable < 1000 and value("document.querySelector('h1') !== null"), f"{name}: can be read after {readable:.0f} ms")
+        source = markdown.read_text(encoding="utf-8")
+        scenes = re.findall(r'"scene: ([\w-]+)"', source)
+        check(value("document.querySelectorAll('[data-scene]').length") == len(scenes), f"{name}: has its {len(scenes)} scenes")
+        for i in range(len(scenes)):
+            value(f"document.querySelectorAll('[data-scene]')[{i}].scrollIntoView()")
+            browser.wait_for(f"document.querySelectorAll('[data-scene]')[{i}].dataset.lives === 'yes'", 20)
+            check(value(f"document.querySelectorAll('[data-scene] svg')[{i}] !== undefined"), f"{name}: scene {i + 1} is drawn")
+        counted["scenes"] += len(scenes)
+        if re.match(r"\d\d-", name):
+            check("](pictures/" in source, f"{name}: has a picture")
+        check(value("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), f"{name}: nothing sticks out")
+
+
 browser.open(page)
 ready()
 try:
@@ -493,6 +514,7 @@ try:
     print_times("PB7")
     long_beam()
     print_times("1000 elements, 100 pairs")
+    course_pages()
     check(not browser.errors, f"the page reports no error: {browser.errors[:3]}")
     outside = [r for r in browser.requests if not r.startswith(("file://", "data:", "about:", "blob:"))]
     check(not outside, f"no network: {outside[:3]}")

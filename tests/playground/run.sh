@@ -27,4 +27,5 @@ work=$build/tests/playground_page
 rm -rf "$work"
 mkdir -p "$work"
 python3 tests/playground/check_playground.py "$work" "$build/contct" build/playground/contct.html || { echo "playground: FAILED"; exit 1; }
+python3 tests/playground/pictures.py build/course --check || { echo "playground: FAILED: the pictures of the course differ; python3 tests/playground/pictures.py build/course draws them"; exit 1; }
 echo "playground: passed"
