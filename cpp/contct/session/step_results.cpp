@@ -186,16 +186,22 @@ void take(envelope& known, const envelope& now) {
 
 }  // namespace
 
-envelope envelope_of(const run_result& r) {
+void for_each_state_of_envelope(const run_result& r,
+                                const std::function<void(const structure_state&, const load&)>& visit) {
   const load_path loads(r.what);
   path_states states(r);
-  envelope all;
   for (const path_moment& m : moments_of(r)) {
     structure_state s = states.at(m);
     if (s.displacement.empty()) continue;
     s.pair_forces.clear();  // all numbers of an envelope are those of the solved shape
-    take(all, of_one_state(r.what, loads.at(s.step, s.fraction), s));
+    visit(s, loads.at(s.step, s.fraction));
   }
+}
+
+envelope envelope_of(const run_result& r) {
+  envelope all;
+  for_each_state_of_envelope(
+      r, [&](const structure_state& s, const load& l) { take(all, of_one_state(r.what, l, s)); });
   return all;
 }
 

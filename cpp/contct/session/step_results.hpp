@@ -2,6 +2,7 @@
 // envelope.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -103,6 +104,11 @@ struct envelope {
   std::vector<reached<double>> pairs;       ///< the largest force of each, or 0 [pairs]
   std::vector<range<double>> reactions;     ///< [supports]
 };
+
+/// Visits the states that an envelope is over, each with the load that acts then, of a run whose recorder
+/// keeps states.
+void for_each_state_of_envelope(const run_result& r,
+                                const std::function<void(const structure_state&, const load&)>& visit);
 
 /// Of a run whose recorder keeps states.
 [[nodiscard]] envelope envelope_of(const run_result& r);

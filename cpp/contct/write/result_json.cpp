@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "contct/session/envelope_curves.hpp"
 #include "contct/session/path_states.hpp"
 #include "contct/write/words.hpp"
 
@@ -41,7 +42,20 @@ json timed(json entry, const envelope::reached<Value>& at) {
   return entry;
 }
 
-json envelope_json(const problem& p, const envelope& e) {
+/// At each x the least and the largest value, and the steps that have them.
+json curves_json(const envelope_curves& all) {
+  json out = {{"x", all.x}};
+  for (const envelope_curves::curve& c : all.curves) {
+    json& entry = out[std::string(c.name)];
+    entry["min"] = list_of(c.at, [](const auto& r) { return r.least.value; });
+    entry["max"] = list_of(c.at, [](const auto& r) { return r.most.value; });
+    entry["min_step"] = list_of(c.at, [](const auto& r) { return r.least.step; });
+    entry["max_step"] = list_of(c.at, [](const auto& r) { return r.most.step; });
+  }
+  return out;
+}
+
+json envelope_json(const problem& p, const envelope& e, const envelope_curves& along) {
   const auto place = [&p](const envelope::reached<placed_value>& at) {
     return timed(value_json(p.geometry, at.value), at);
   };
@@ -57,6 +71,7 @@ json envelope_json(const problem& p, const envelope& e) {
     entry.update({{"min", value(r.least)}, {"max", value(r.most)}});
     return entry;
   });
+  if (!along.x.empty()) out["curves"] = curves_json(along);
   return out;
 }
 
@@ -228,7 +243,7 @@ class result_writer {
     if (!r_.free_runs.empty()) members["free_run"] = nullptr;
     members["lockstep"] = r_.compared ? lockstep_json(*r_.compared) : json(nullptr);
     members["status"] = r_.status();
-    if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_));
+    if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},
