@@ -36,6 +36,7 @@ void put_kind(json& out, const plate& p) {
   for (int node = 0; node < p.nodes(); ++node)
     all.push_back({{"node", node + 1}, {"x", p.x[node % p.columns()]}, {"y", p.y[node / p.columns()]}});
   out.update({{"columns", p.columns()}, {"D", p.D}, {"nu", p.nu}});
+  if (p.E != 0) out.update({{"E", p.E}, {"thickness", p.thickness}});
 }
 
 /// Of a matrix whose dofs have no places the labels alone.
@@ -142,13 +143,13 @@ json agreement_json(std::int64_t calls, const tally& compared) {
   return {{"calls", calls}, {"values_compared", compared.values}, {"mismatches", compared.mismatches}};
 }
 
-json load_json(const model& m, const load_path& loads, int step, double fraction) {
+json load_json(const model& m, const load_path& loads, int step, double fraction, bool whole) {
   const resultant r = loads.resultant_at(step, fraction);
   const auto names = dof_names(m);
   json out = {{std::holds_alternative<assembled>(m.kind) ? "sum" : "force", r.force}};
   for (std::size_t i = 0; i < r.moments.size(); ++i)
     out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
-  if (loads.has_many_parts(step)) return out;
+  if (!whole && loads.has_many_parts(step)) return out;
   const load l = loads.at(step, fraction);
   for (const distributed_load& d : l.distributed) {
     const bool constant = d.polynomial.size() == 1;

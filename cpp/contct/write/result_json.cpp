@@ -153,9 +153,9 @@ class result_writer {
             {"program", r_.facts}};
   }
 
-  [[nodiscard]] json load_in(int step, double fraction) const {
+  [[nodiscard]] json load_in(int step, double fraction, bool whole = false) const {
     constexpr int width = 60;
-    json out = load_json(r_.what.geometry, loads_, step, fraction);
+    json out = load_json(r_.what.geometry, loads_, step, fraction, whole);
     if (parts_ != result_parts::ends) out["words"] = loads_.words_at(step, fraction, width);
     return out;
   }
@@ -192,7 +192,7 @@ class result_writer {
                     {"elements", nullptr},
                     {"extremes", extremes_json(m, at_end.ranges)},
                     {"extremes_at", ranges_are_at(m)}};
-    if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction);
+    if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction, true);
     if (s.from_fallback) members["ended_by"] = "oracle";
     if (s.from_exact_path) members["ended_by"] = "exact";
     const std::optional<certificate>& judged = r_.judged.steps()[number];

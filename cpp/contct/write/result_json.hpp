@@ -69,9 +69,9 @@ class json_document {
 /// What acts at share `fraction` of step `step` (from 1), as a problem file's `uniform` and `point`, with the
 /// resultant: an event's load in absolute terms. A beam's resultant has "force" and "moment", a plate's
 /// "force", "moment_wx" and "moment_wy", a matrix's the "sum" of all its loads. The parts are left out where
-/// load_path::has_many_parts: they would be written again at every event.
+/// load_path::has_many_parts: they would be written again at every event; `whole`: they are not.
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
-                                               double fraction);
+                                               double fraction, bool whole = false);
 
 /// The structure as a run has it, in the order of its numbers: places of nodes, stiffnesses, supports, pairs.
 [[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
