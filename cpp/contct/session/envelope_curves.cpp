@@ -1,7 +1,8 @@
 #include "contct/session/envelope_curves.hpp"
 
 #include <limits>
-#include <span>
+#include <string_view>
+#include <vector>
 
 namespace contct {
 namespace {
@@ -11,39 +12,6 @@ int parts_of(const beam& b) {
   constexpr int enough = 480;
   return (enough + b.elements() - 1) / b.elements();
 }
-
-/// Takes the values of one state, place by place and quantity by quantity.
-class curves_of_state {
- public:
-  curves_of_state(envelope_curves& all, const structure_state& s) : all_(all), state_(s) {}
-
-  void add(const beam_lines& lines, const beam& b, int e) {
-    const element_line line = lines.at(e);
-    const auto shears = lines.ends().at(e, 0);
-    const auto moments = lines.ends().at(e, 1);
-    const std::vector<double>& u = state_.displacement;
-    take(0, line.w, u[2 * e], u[2 * e + 2], parts_of(b));
-    take(1, line.moment, moments[0], moments[1], parts_of(b));
-    take(2, line.shear, shears[0], shears[1], parts_of(b));
-    place_ += parts_of(b) + 1;
-  }
-
- private:
-  /// The ends of an element are not computed from its polynomial.
-  void take(std::size_t quantity, std::span<const double> polynomial, double left, double right, int parts) {
-    for (int k = 0; k <= parts; ++k) {
-      const double inside = polynomial_at(polynomial, static_cast<double>(k) / parts);
-      const double value = k == 0 ? left : k == parts ? right : inside;
-      envelope::range<double>& known = all_.curves[quantity].at[place_ + k];
-      if (value < known.least.value) known.least = {value, state_.step, state_.number};
-      if (value > known.most.value) known.most = {value, state_.step, state_.number};
-    }
-  }
-
-  envelope_curves& all_;
-  const structure_state& state_;
-  std::size_t place_ = 0;
-};
 
 /// The places, with values that those of any state replace.
 envelope_curves begun(const beam& b) {
@@ -58,6 +26,28 @@ envelope_curves begun(const beam& b) {
   return all;
 }
 
+/// Takes the values of one state. Those at the ends of elements are not computed from the polynomials.
+void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s) {
+  const int parts = parts_of(b);
+  std::size_t place = 0;
+  for (int e = 0; e < b.elements(); ++e) {
+    const element_line line = lines.at(e);
+    const double* const u = &s.displacement[std::size_t{beam::dofs_per_node} * e];
+    for (int k = 0; k <= parts; ++k, ++place) {
+      const auto take_one = [&](std::size_t quantity, const auto& polynomial, double left, double right) {
+        const double inside = polynomial_at(polynomial, static_cast<double>(k) / parts);
+        const double value = k == 0 ? left : k == parts ? right : inside;
+        envelope::range<double>& known = all.curves[quantity].at[place];
+        if (value < known.least.value) known.least = {value, s.step, s.number};
+        if (value > known.most.value) known.most = {value, s.step, s.number};
+      };
+      take_one(0, line.w, u[0], u[2]);
+      take_one(1, line.moment, lines.ends().at(e, 1)[0], lines.ends().at(e, 1)[1]);
+      take_one(2, line.shear, lines.ends().at(e, 0)[0], lines.ends().at(e, 0)[1]);
+    }
+  }
+}
+
 }  // namespace
 
 envelope_curves curves_of(const run_result& r) {
@@ -66,10 +56,8 @@ envelope_curves curves_of(const run_result& r) {
   envelope_curves all;
   for_each_state_of_envelope(r, [&](const structure_state& s, const load& l) {
     if (all.x.empty()) all = begun(*b);
-    const beam_lines lines(*b, l, s.displacement,
-                           s.numbers ? s.numbers->element_values : std::vector<double>{});
-    curves_of_state now(all, s);
-    for (int e = 0; e < b->elements(); ++e) now.add(lines, *b, e);
+    const auto known = s.numbers ? s.numbers->element_values : std::vector<double>{};
+    take(all, *b, beam_lines(*b, l, s.displacement, known), s);
   });
   return all;
 }
