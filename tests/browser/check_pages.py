@@ -3,7 +3,10 @@ usage: python3 check_pages.py WORK      (WORK holds NAME.html and NAME.json of e
 import json
 import os
 import re
+import subprocess
 import sys
+import time
+import xml.etree.ElementTree as ElementTree
 
 from devtools import Browser, Checks
 
@@ -46,7 +49,7 @@ def has_envelope(name):
     check("it sinks" in browser.value("document.getElementById('ends').innerText"), f"{name}: a step has its name")
     shown = [float(v) for v in browser.value("[...document.querySelectorAll('#envelope [data-value]')].map(e => e.dataset.value)")]
     envelope = result_of(name)["envelope"]
-    known = {v[bound]["value"] for v in envelope.values() if isinstance(v, dict) for bound in ("min", "max")}
+    known = {v[bound]["value"] for v in envelope.values() if isinstance(v, dict) and "min" in v for bound in ("min", "max")}
     known |= {p["force_max"] for p in envelope["pairs"]}
     known |= {r[bound]["value"] for r in envelope["reactions"] for bound in ("min", "max")}
     check(known <= set(shown), f"{name}: the page has every number of the envelope: {known - set(shown)}")
@@ -277,6 +280,125 @@ def prints(name):
 
 # ---- the report ----
 
+def sheets_of(name):
+    """The text of each sheet of paper."""
+    path = os.path.join(work, name + ".pdf")
+    with open(path, "wb") as out:
+        out.write(browser.pdf())
+    return subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, text=True, check=True).stdout.split("\f")[:-1]
+
+
+def has_title_and_number_on_each_sheet(name, title):
+    open_page(name)
+    sheets = sheets_of(name)
+    check(len(sheets) >= 4, f"{name}: {len(sheets)} sheets")
+    for number, text in enumerate(sheets, 1):
+        check(text.lstrip().startswith(title), f"{name}: sheet {number} begins with the title: {text[:90]}")
+        check(text.rstrip().endswith(f"page {number} of {len(sheets)}"), f"{name}: sheet {number} ends with its number: {text.rstrip()[-60:]}")
+    whole = "".join(sheets)
+    order = [whole.find(words) for words in ("The system; distances of faces", "Loads and settlements", "The structure, increment", "Results at the ends")]
+    check(-1 not in order and order == sorted(order), f"{name}: sketch, input and results follow one another on paper: {order}")
+    check(browser.value("byId('input').previousElementSibling.id") == "envelope", f"{name}: on the screen the input is behind the results again")
+    quiet(name)
+    return whole
+
+
+def prints_every_load(name, loads):
+    printed = set(re.findall(r"\u2212([\d.]+)", has_title_and_number_on_each_sheet(name, "Slab strip (22 axle places): \"A & B\"")))
+    missing = [load for load in loads if str(load).removesuffix(".0") not in printed]
+    check(len(loads) == 67 and missing == [], f"{name}: loads that are not printed: {missing}")
+
+
+def prints_every_quantity(name, title, words):
+    text = has_title_and_number_on_each_sheet(name, title)
+    for piece in words:
+        check(piece in text, f"{name}: the picture of \"{piece}\" is printed")
+
+
+def has_the_largest_rows(name):
+    """Of more pairs than rows the largest forces are in the table."""
+    open_page(name)
+    forces = sorted((p["force_max"] for p in result_of(name)["envelope"]["pairs"]), reverse=True)
+    shown = browser.value("[...document.querySelectorAll('#envelope table')].find(t => t.ariaLabel.startsWith('Largest contact force')).innerText")
+    rows = browser.value("[...[...document.querySelectorAll('#envelope table')].find(t => t.ariaLabel.startsWith('Largest contact force')).querySelectorAll('td:last-child [data-value]')].map(e => Number(e.dataset.value))")
+    check(len(forces) > 40 and sorted(rows, reverse=True) == forces[:40], f"{name}: the table of the envelope has the 40 largest of {len(forces)} forces: {shown[:200]}")
+
+
+def has_envelope_curves(name):
+    """Every curve reaches the envelope's extremes, and the pointer is told the step of each."""
+    open_page(name)
+    envelope = result_of(name)["envelope"]
+    for quantity in ("w", "moment", "shear"):
+        pieces = browser.value(f"""[...document.querySelectorAll('#curves g')].filter(g => g.querySelector('path.{quantity}')).map(g =>
+            [g.querySelector('title').textContent, g.querySelector('path.{quantity}').getAttribute('d').match(/[\\d.]+/g).map(Number)])""")
+        dots = browser.value(f"[...document.querySelectorAll('#curves .dot-{quantity}')].map(d => [Number(d.getAttribute('cx')), Number(d.getAttribute('cy'))])")
+        extremes = [envelope[quantity]["max"], envelope[quantity]["min"]]
+        for dot, extreme in zip(dots, sorted(extremes, key=lambda v: -abs(v["value"]))):
+            near = [words for words, numbers in pieces
+                    if min(abs(x - dot[0]) + abs(y - dot[1]) for x, y in zip(numbers[::2], numbers[1::2])) < 0.05]
+            check(any(f": step {extreme['step']}, " in words for words in near), f"{name}: {quantity}: the pointer is told step {extreme['step']}: {near}")
+        check(len(dots) == 2, f"{name}: {quantity} has its extremes marked")
+    browser.value("document.querySelector('#curves g path.moment').dispatchEvent(new MouseEvent('click', { bubbles: true }))")
+    told = browser.value("document.querySelector('#curves g:has(path.moment) title').textContent")
+    check(f"step {browser.value('frames[current].step')}, " in told and browser.value("frames[current].end"), f"{name}: a click shows the step: {told}")
+    quiet(name)
+
+
+def saves_its_picture(name):
+    open_page(name)
+    file = os.path.join(work, "picture.svg")
+    browser.save_to(work)
+    browser.value("byId('save').click()")
+    end = time.monotonic() + 20
+    while not os.path.exists(file) and time.monotonic() < end:
+        time.sleep(0.05)
+    check(os.path.exists(file), f"{name}: the picture is saved")
+    root = ElementTree.parse(file).getroot()
+    with open(file, encoding="utf-8") as text:
+        check("var(" not in text.read(), f"{name}: the saved picture needs no variables")
+    os.rename(file, os.path.join(work, f"{name}-saved.svg"))
+    space = "{http://www.w3.org/2000/svg}"
+    saved = [p.get("d") for p in root.iter(space + "path")]
+    check(root.tag == space + "svg" and saved == browser.value("[...document.querySelectorAll('#picture path')].map(p => p.getAttribute('d'))"),
+          f"{name}: the saved picture has the paths of the one shown")
+    browser.send("Page.navigate", url="file://" + os.path.abspath(os.path.join(work, f"{name}-saved.svg")))
+    browser.wait_for("document.documentElement.tagName === 'svg' && document.readyState === 'complete'")
+    stroke = browser.value("getComputedStyle(document.querySelector('.member')).stroke")
+    check(stroke == "rgb(29, 29, 27)", f"{name}: opened by itself it has the page's colours: {stroke}")
+
+
+def pressed_faces_are_where_the_beam_is(name, state):
+    """A face in contact is at its node, and the spring leads from where the face stood."""
+    open_page(name)
+    go_to(state)
+    off = browser.value("""frames[current].pairs.filter(p => p.closed && p.force > 0).map(p => {
+      const [x, y] = page.on.spot(p), stood = page.Y(p.face), is = (e, at) => Math.abs((Number(e.getAttribute('x1')) + Number(e.getAttribute('x2'))) / 2 - x) < 0.1 &&
+        Math.abs(Number(e.getAttribute('y1')) - at) < 0.1 && Math.abs(Number(e.getAttribute('y2')) - at) < 0.1;
+      const has = (kind, at) => [...document.querySelectorAll('#picture ' + kind)].some(e => is(e, at));
+      return has('.face-line', y) && has('.spring', stood) && Math.abs(stood - y) > 3 ? '' : `pair ${p.pair}`; })""")
+    check(len(off) == 3 and off == [""] * 3, f"{name}, state {state}: faces in contact: {off}")
+
+
+def tells_sums_of_forces(name):
+    """Where a result has the sums of loads, reactions and contact forces."""
+    open_page(name)
+    browser.value("(() => { result.steps[0].balance = { loads: -601.25, reactions: 600, contact: 1.25 }; showRest(); })()")
+    rows = browser.value("[...document.querySelectorAll('#ends table')].filter(t => t.ariaLabel.startsWith('Sums of forces')).map(t => [...t.querySelectorAll('td')].map(c => Number(c.dataset.value)))")
+    check(rows == [[-601.25, 600, 1.25]], f"{name}: sums of loads, reactions and contact forces: {rows}")
+
+
+def tables_fit(name):
+    """Short tables are not cut, long names take lines and no columns."""
+    open_page(name, width=1300)
+    cut = browser.value("[...document.querySelectorAll('.scroll.whole')].filter(e => e.scrollHeight > e.clientHeight + 1 && e.offsetParent).map(e => e.ariaLabel)")
+    check(cut == [], f"{name}: short tables that are cut: {cut}")
+    wide = browser.value("[...document.querySelectorAll('#ends .scroll, #envelope .scroll, #input .scroll')].filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.ariaLabel)")
+    check(wide == [], f"{name}: tables wider than the page: {wide}")
+    close = browser.value("""[...document.querySelectorAll('#ends, #envelope, #input')].flatMap(s => [...s.querySelectorAll('.scroll')].slice(1)
+        .filter(e => e.getBoundingClientRect().top - e.previousElementSibling.getBoundingClientRect().bottom < 8).map(e => e.ariaLabel))""")
+    check(close == [], f"{name}: tables that touch: {close}")
+
+
 def shows_true_maxima(name, state, moment, place):
     """The moment's line reaches its largest value, which is between two nodes."""
     open_page(name)
@@ -436,6 +558,19 @@ try:
     picture_of_readme_is_up_to_date("pb07")
     edition_is_a_page()
     has_envelope("settling")
+    with open(os.path.join(work, "strip.toml"), encoding="utf-8") as file:
+        prints_every_load("strip", [float(w) for w in re.findall(r"w = -([\d.]+)", file.read())])
+    prints_every_quantity("pp05a", "PP5a Free square plate on a tensionless bed, 8 x 8 to a quarter",
+                          ["Deflection w", "Moment mx", "Moment my", "Twisting moment mxy", "Foundation pressure"])
+    prints_every_quantity("strip", "Slab strip", ["Moment, positive", "Shear, of the left", "Bed's pressure [kN/m]", "EI from x = 0 to 24", "20000"])
+    has_the_largest_rows("strip")
+    has_envelope_curves("strip")
+    for problem in ("pb07", "pp05a"):
+        saves_its_picture(problem)
+    pressed_faces_are_where_the_beam_is("pb07", 5)
+    tells_sums_of_forces("pb07")
+    for problem in ("pb07", "strip", "settling"):
+        tables_fit(problem)
     for problem in ("pb05", "pp05a", "two-faces"):
         most_loaded_pair_is_on_top(problem)
     axes_have_ticks("pb07")

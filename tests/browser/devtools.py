@@ -137,5 +137,9 @@ class Browser:
         with open(path, "wb") as out:
             out.write(base64.b64decode(data))
 
+    def save_to(self, folder):
+        """What the page lets its reader save is kept in this folder."""
+        self.send("Page.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath(folder))
+
     def pdf(self):
         return base64.b64decode(self.send("Page.printToPDF", printBackground=True)["data"])

@@ -33,6 +33,14 @@ write("mechanism", '[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2
 write("never", '[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = "below"\nface = -1\nstiffness = 1\n[[step]]\nuniform = -1\n')
 write("corrected", "[beam]\nlength = 2\nelements = 4\nEI = 100\n[[bed]]\nmodulus = 50\nface = -0.01\n[[step]]\nuniform = -3\n")
 
+# A strip on soil under three axles in 22 places, then under one: 67 loads, no two of them equal.
+strip = 'title = "Slab strip (22 axle places): \\"A & B\\""\n[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 24.0\nelements = 48\nEI = 52857.0\n'
+strip += "[[bed]]\nmodulus = 20000.0\nface = 0.0\n"
+for k in range(22):
+    axles = ", ".join(f"{{ x = {x!r}, w = -{100 + (3 * k + i) / 100!r} }}" for i, x in enumerate((0.5 + k, 1.0 + k, 2.0 + k)))
+    strip += f'[[step]]\nname = "axles at {0.5 + k}"\npoint = [ {axles} ]\n'
+write("strip", strip + '[[step]]\nname = "one axle alone, in the middle of the strip, where the soil is softest"\npoint = [ { x = 12.0, w = -100.66 } ]\n')
+
 # 5001 nodes on soft springs over a row of 1000 stops that lie deeper and deeper: about 2000 increments.
 long = '[beam]\nlength = 500.0\nelements = 5000\nEI = 1.0\n[[support]]\nnodes = [1, 5001]\nfix = ["w", "theta"]\n'
 long += '[[support]]\nnodes = "2..5000"\nspring = { w = 0.02 }\n'

@@ -3,15 +3,15 @@
 # against the run's JSON, dark and light, narrow and wide, on paper, read aloud, with 5000 nodes; structures from
 # elsewhere with coordinates, with CalculiX's mesh, with neither, and with 20,000 edges.
 # usage: sh tests/browser/run.sh [BUILD]      (default: build/release)
-# Exit 0: all is as it should be; 77: skipped, chromium cannot be had; 1 otherwise. Pictures stay in BUILD/tests/browser.
+# Exit 0: all is as it should be; 77: skipped, chromium or pdftotext cannot be had; 1 otherwise. Pictures stay in BUILD/tests/browser.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=$(cd "${1:-build/release}" && pwd) || exit 1
 . cpp/install.sh
 
-has_browser() { command -v chromium >/dev/null 2>&1 && command -v python3 >/dev/null 2>&1; }
-has_browser || need "to open pages" chromium python3 fonts-dejavu-core || true
-has_browser || { echo "browser: SKIPPED: chromium cannot be had"; exit 77; }
+has_browser() { command -v chromium >/dev/null 2>&1 && command -v python3 >/dev/null 2>&1 && command -v pdftotext >/dev/null 2>&1; }
+has_browser || need "to open pages" chromium python3 fonts-dejavu-core poppler-utils || true
+has_browser || { echo "browser: SKIPPED: chromium or pdftotext cannot be had"; exit 77; }
 
 work=$build/tests/browser
 rm -rf "$work"
@@ -33,6 +33,7 @@ done
 page free "$work/free.toml" 0
 page alone "$work/alone.toml" 0 --kernels cpp
 page settling "$work/settling.toml" 0 --envelope
+page strip "$work/strip.toml" 0 --envelope
 page two-faces "$work/two-faces.toml" 0
 page own-ways "$work/own-ways.toml" 0 --free-run --kernels fortran,corrected
 (cd "$work" && "$build/contct" run no-pairs.toml --quiet --html no-pairs.html) || wrong=1

@@ -17,13 +17,16 @@ const unitOf = () => (ofMatrix ? "dof" : "node");
 const placed = (name) => `${unitOf()} ${name}`;
 
 // A unit, by its powers of force and length; none where the problem names none. A plate's moments are per length.
-const powers = { w: [0, 1], force: [1, 0], moment: [1, 1], shear: [1, 0], pressure: [1, -2], stiffness: [1, -1], EI: [1, 2] };
+// What a bed of a beam has is per length, not per area.
+const powers = { w: [0, 1], force: [1, 0], moment: [1, 1], shear: [1, 0], load: [1, -2], pressure: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2],
+  area: [0, 2], stress: [1, -2], von_mises: [1, -2], s1: [1, -2], s2: [1, -2] };
 function unit(quantity) {
   if (!result.units || !(quantity in powers || /^m[xy]/.test(quantity))) return "";
   const { length, force } = result.units;
   if (!(quantity in powers)) return `${force} ${length}/${length}`;
-  const [f, l] = powers[quantity];
-  const of = l === 0 ? "" : length + ["", "", "²"][Math.abs(l)];
+  const [f, per] = powers[quantity];
+  const l = per + (isBeam() && ["load", "pressure", "modulus"].includes(quantity) ? 1 : 0);
+  const of = l === 0 ? "" : length + ["", "", "²", "³"][Math.abs(l)];
   return f === 0 ? of : force + (l === 0 ? "" : l > 0 ? " " : "/") + of;
 }
 const inUnit = (name, quantity) => name + (unit(quantity) ? ` [${unit(quantity)}]` : "");
@@ -216,17 +219,18 @@ function drawPairs(root, pairs, on) {
 }
 
 // The face stands across the pair's direction, as far from where the node was as c is, hatched on the far side; dashed
-// where that is farther than is drawn. From it the contact force.
+// where that is farther than is drawn. A face in contact is where the node is: its spring is pressed, from where the face
+// stood before. From it the contact force.
 function drawFace(root, p, [x, y], t, on, numbered) {
   const node = on.pixels(p) * p.w;
   const along = on.pixels(p) * p.face;
-  const face = Math.max(-on.limit, Math.min(on.limit, along));
+  const face = p.closed ? node : Math.max(-on.limit, Math.min(on.limit, along));
   const at = (a, across = 0) => [x + (a - node) * t[0] - across * t[1], y + (a - node) * t[1] + across * t[0]];
   const { half } = on;
-  root.append(line(...at(face, -half), ...at(face, half), "face-line" + (face === along ? "" : " far")));
+  root.append(line(...at(face, -half), ...at(face, half), "face-line" + (p.closed || face === along ? "" : " far")));
   if (half >= 5) for (let k = -half + 2; k < half; k += 6) root.append(line(...at(face, k), ...at(face + p.side * 6, k - 4), "hatch"));
-  if (p.closed && Math.abs(face - node) > 8) root.append(line(...at(face), x, y, "spring"));
-  // Beyond the face's hatches and the node's mark, which may have pressed the spring past its face.
+  if (p.closed && Math.abs(along - node) > 3) root.append(line(...at(along, -half), ...at(along, half), "spring"), line(...at(along), x, y, "spring"));
+  // Beyond the face's hatches and the node's mark.
   const tip = p.side > 0 ? Math.max(face + 10, node + on.r + 3) : Math.min(face - 10, node - on.r - 3);
   const length = scene.force > 0 ? (36 * Math.abs(p.force)) / scene.force : 0;
   const start = tip + p.side * length;
@@ -316,39 +320,70 @@ function drawLineLoad(root, f, { X, Y, ends }) {
   }
 }
 
-// A strip under the beam with a quantity that may jump at the nodes.
-function drawStrip(root, f, { X, ends: [x0, x1] }, top, name, title) {
+// The scale and the words of a strip under the beam: its title and, on the right, the values that are `told`.
+function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high], told) {
   const height = 126;
-  const range = f.extremes[name] || { min: { value: 0, x: x0 }, max: { value: 0, x: x0 } };
-  const [low, high] = rangeOf(name);
   const Y = (v) => top + 24 + ((high - v) / (high - low || 1)) * (height - 34);
   scaleUp(root, [...new Set([0, ...ticks(low, high, 4)])], Y, X(x0), X(x1));
+  for (const v of told) root.append(svg("circle", { cx: X(v.x), cy: Y(v.value), r: 3, class: "dot-" + name }));
+  const words = told.slice(0, X(x1) < 600 ? 1 : 2).map((v) => `${digits(v.value, 5)} at x = ${digits(v.x, 5)}`);
+  root.append(panelTitle(X(x0), top + 12, title), label(X(x1), top + 12, words.join("; "), { "text-anchor": "end", class: "value" }));
+  return Y;
+}
+
+// What the beds of a beam press by, at each node.
+function drawPressure(root, f, page, top) {
+  const at = atNodes(f, "pressure");
+  const nodes = structure.nodes.map(({ x }, i) => ({ x, value: at[i] }));
+  const most = largestBy(nodes, "value");
+  const Y = scaleOfStrip(root, page, top, "pressure", inUnit(page.width < 620 ? "p" : "Bed's pressure", "pressure"), spread([0, ...frames.flatMap((g) => spread(atNodes(g, "pressure")))]), most.value === 0 ? [] : [most]);
+  const points = scene.lines[0].map((i) => [page.X(nodes[i].x), Y(at[i])]);
+  root.append(path([[points[0][0], Y(0)], ...points, [points[points.length - 1][0], Y(0)]], "pressure-area", "Z"), path(points, "pressure"));
+}
+
+// A strip under the beam with a quantity that may jump at the nodes.
+function drawStrip(root, f, page, top, name, title) {
+  const { X, ends: [x0, x1] } = page;
+  const range = f.extremes[name] || { min: { value: 0, x: x0 }, max: { value: 0, x: x0 } };
+  const told = toldOf(range);
+  const Y = scaleOfStrip(root, page, top, name, title, rangeOf(name), told);
   const points = placesAlong().flatMap(([e, a], i) => {
     const here = [X(xAt([e, a])), Y(forceAt(f, name, [e, a]))];
     return i === 0 || a !== 0 ? [here] : [[here[0], Y(forceAt(f, name, [e - 1, 1]))], here];
   });
   // The least and the largest value may be between these places.
-  const told = toldOf(range);
   for (const v of [range.min, range.max]) {
     const after = points.findIndex(([x]) => x > X(v.x));
     if (after > 0 && !structure.nodes.some((n) => n.x === v.x)) points.splice(after, 0, [X(v.x), Y(v.value)]);
   }
-  root.append(path([[X(x0), Y(0)], ...points, [X(x1), Y(0)]], name + "-area", "Z"), path(points, name), panelTitle(X(x0), top + 12, title));
-  for (const v of told) root.append(svg("circle", { cx: X(v.x), cy: Y(v.value), r: 3, class: "dot-" + name }));
-  const words = told.slice(0, X(x1) < 600 ? 1 : 2).map((v) => `${digits(v.value, 5)} at x = ${digits(v.x, 5)}`);
-  root.append(label(X(x1), top + 12, words.join("; "), { "text-anchor": "end", class: "value" }));
+  root.append(path([[X(x0), Y(0)], ...points, [X(x1), Y(0)]], name + "-area", "Z"), path(points, name));
 }
 
-function drawBeam(root, f, page) {
+const hasBed = () => places.pairs.some((p) => p.bed);
+
+function drawBeam(root, f, page, isSketch) {
   const { X, Y, ends, bottom, width } = page;
   root.append(path(placesAlong().map((at) => [X(xAt(at)), Y(deflectionAt(f, xAt(at), at[0]))]), "member"));
   drawLineLoad(root, f, page);
-  scaleUp(root, ticks(...page.heights.map((y) => y / scene.times), Math.min(4, (bottom - 196) / 30)), Y, X(ends[0]), X(ends[1]));
+  if (!isSketch) scaleUp(root, ticks(...page.heights.map((y) => y / scene.times), Math.min(4, (bottom - 196) / 30)), Y, X(ends[0]), X(ends[1]));
   root.append(line(X(ends[0]), bottom, X(ends[1]), bottom, "zero"));
   scaleAlong(root, ticks(...ends, Math.floor(width / 75)), X, bottom);
+  if (isSketch) return;
   const [moment, shear] = width < 620 ? ["M", "V"] : ["Moment, positive where it sags", "Shear, of the left part on the right"];
   drawStrip(root, f, page, bottom + 36, "moment", inUnit(moment, "moment"));
   drawStrip(root, f, page, bottom + 176, "shear", inUnit(shear, "shear"));
+  if (hasBed()) drawPressure(root, f, page, bottom + 316);
+}
+
+// Values of distributed loads, in the middle of each of their runs of elements.
+function sayLineLoads(f, { X, Y }, say) {
+  for (const { value, polynomial, elements } of f.load.uniform || []) {
+    if (polynomial) continue;
+    const has = numbersIn(elements);
+    for (const [first, last] of runsOf(structure.nodes.slice(1).map((_, e) => has(e + 1)))) {
+      if (has(first + 1)) say(X((structure.nodes[first].x + structure.nodes[last + 1].x) / 2), Y(0) + (value > 0 ? 58 : -42), inUnit(rough(value), "load"), "value");
+    }
+  }
 }
 
 // ---- what a plate has besides ----
@@ -359,7 +394,7 @@ let field = null;   // what is shown
 // With levels that are the same in all states.
 function fieldsOf() {
   const known = { w: "deflection w", mx: "moment mx", my: "moment my", mxy: "twisting moment mxy" };
-  if (structure.pairs.some((p) => p.bed)) known.pressure = "foundation pressure";
+  if (hasBed()) known.pressure = "foundation pressure";
   return Object.entries(known).map(([name, words]) => {
     const [low, high] = spread(frames.flatMap((f) => spread(atNodes(f, name))));
     const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
@@ -563,27 +598,43 @@ function marksOn(root, page, spots) {
 
 let page = null;  // of the last picture
 
-function drawPicture(f, holder) {
+// A sketch has the undeformed structure alone, with what holds and loads it.
+function drawPicture(f, holder, isSketch = false) {
   if (scene === null) return;
   page = pageOf(widthOf(holder));
   const { width, bottom } = page;
+  const colours = isSketch ? undefined : field;
   const was = scene.at.map((at) => page.spot(projected(at)));
   const spots = scene.at.map((_, i) => page.spot(projected(movedTo(f, i, scene.times))));
-  const root = canvas(holder, width, bottom + (isBeam() ? 310 : field ? 80 : 30), stateWords(f));
-  const title = isBeam() ? inUnit("Deflection", "w") : "Displacement";
-  root.classList.toggle("on-colours", field !== undefined);
-  root.append(panelTitle(16, 18, `${title}, drawn ${timesWords(scene.times)}${isBeam() || width < 520 ? "" : `; ${views[view].words}`}`));
+  const below = isSketch ? 40 : isBeam() ? (hasBed() ? 450 : 310) : field ? 80 : 30;
+  const root = canvas(holder, width, bottom + below, isSketch ? "Sketch of the system" : stateWords(f));
+  const title = isSketch ? "The system; distances of faces are" : isBeam() ? `${inUnit("Deflection", "w")},` : "Displacement,";
+  root.classList.toggle("on-colours", colours !== undefined);
+  root.append(panelTitle(16, 18, `${title} drawn ${timesWords(scene.times)}${isBeam() || width < 520 ? "" : `; ${views[view].words}`}`));
   drawEdges(root, was, "was");
-  if (field) drawColours(root, f, spots);
-  if (isBeam()) drawBeam(root, f, page);
+  if (colours) drawColours(root, f, spots);
+  if (isBeam()) drawBeam(root, f, page, isSketch);
   else drawEdges(root, spots, "member");
   root.append(marksAt(scene.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
   page.on = marksOn(root, page, spots);
   drawPoints(root, f, page.on);
   drawPairs(root, pairsOf(f), page.on);
   drawSupports(root, f, page.on);
+  if (isSketch && isBeam()) sayLineLoads(f, page, page.on.say);
   if (!isBeam()) drawAxes(root, page);
-  if (field) drawScaleOfColours(root, 62, bottom + 40, width - 86);
+  if (colours) drawScaleOfColours(root, 62, bottom + 40, width - 86);
+}
+
+// The picture that is shown as a file of its own: with the page's rules for pictures, in the colours of light. Not every program
+// that draws SVG knows variables.
+function savePicture() {
+  const copy = byId("picture").firstChild.cloneNode(true);
+  const [root, ...rules] = [...document.styleSheets].flatMap((s) => [...s.cssRules]).filter((r) => /^(:root|svg)/.test(r.selectorText));
+  const text = [...rules.map((r) => r.cssText), 'svg { background: var(--panel); font-family: "DejaVu Sans", Arial, sans-serif; }'].join("\n");
+  copy.prepend(svg("style", {}, text.replace(/var\((--\w+)\)/g, (_, name) => root.style.getPropertyValue(name).trim())));
+  const link = element("a", { href: URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(copy)], { type: "image/svg+xml" })), download: "picture.svg" });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
 // What the pictures of all states have in common, once the result is read.

@@ -44,7 +44,7 @@ function drawChart(f) {
     `Load against the ${moves()} of ${placed(followed.name)}, ${frames.length} states; now load ${rough(measure(f))}, ${moves()} ${rough(deflection(f))}`);
   scaleAlong(root, ticks(x0, x1, Math.floor(width / 95)), X, bottom, room.top);
   scaleUp(root, ticks(y0, y1, 5), Y, room.left, width - room.right, 8);
-  const sum = ofMatrix ? "Sum of the loads" : inUnit("Sum of the loads, positive up", "force");
+  const sum = ofMatrix ? "Sum of the loads" : inUnit(width < 520 ? "Sum of the loads" : "Sum of the loads, positive up", "force");
   root.append(panelTitle(room.left, 18, byForce ? sum : "Steps of load applied"),
     axisWord(width - room.right, height - 12, `${ofMatrix ? moves() : inUnit("deflection w", "w")} of ${placed(followed.name)}, which moves most`, "end"));
   const [x, y] = spot(f);
@@ -158,16 +158,30 @@ const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.
 const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
+// The ends of so many steps, in their order: those with the largest values, of each quantity relative to the largest of all.
+function endsOf(what, most) {
+  const { steps } = result;
+  if (steps.length <= most) return steps;
+  cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
+  const sizes = Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)));
+  const share = steps.map((_, i) => Math.max(0, ...sizes.map((all) => all[i] / (Math.max(...all) || 1))));
+  const kept = new Set(steps.map((_, i) => i).sort((a, b) => share[b] - share[a]).slice(0, most));
+  return steps.filter((_, i) => kept.has(i));
+}
+
 function endTables() {
-  const steps = result.steps.slice(0, 24);
-  if (steps.length < result.steps.length) cuts.add(`Tables have the ends of ${steps.length} of ${result.steps.length} steps.`);
+  const steps = endsOf("Tables", 24);
   const quantities = Object.keys(steps[0]?.extremes || {});
   const most = (list, key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
   const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v) => ({ number: v.value, at: placeOf(v) }))),
     most(s.pairs, "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), most(s.reactions, "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`),
     markOf(s.certificate)];
+  const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
+  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), ...[b.pressure.min, b.pressure.max].map((v) => [{ number: v.value, at: placeOf(v) }]), b.contact]));
   return [
+    ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), "Reaction", "Certificate"], steps.map(row)),
+    ...tableOf("Pressure and contact of beds", ["Step", "Bed", ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
     ...besideEachOther(steps, inUnit("Contact forces", "force"), ["Pair", ...placeHead(), "Surface"],
       places.pairs.map((p) => [String(p.pair), ...placeCells(p), p.surface]), (s, i) => s.pairs[i].force),
     ...besideEachOther(steps, reactionsTitle, [...placeHead(), "What"], places.supports.map((s) => [...placeCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value),
@@ -186,45 +200,106 @@ function besideEachOther(steps, title, names, begins, read) {
   return tables;
 }
 
-function envelopeTables({ pairs, reactions, states, ...ranges }) {
+function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
   const when = (v) => `step ${v.step}, increment ${v.increment}`;
   const bound = (v, at = when(v)) => [{ number: v.value ?? v.force_max, at }];
+  const sizeOf = (r) => Math.max(...r.slice(-2).flat().map((v) => Math.abs(v.number ?? 0)));
   return states === 0 ? [] : [
+    ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. " +
+      "The pointer is told which step a piece of a curve is of; a click shows the end of that step."))] : []),
     ...tableOf("Least and largest of all increments", ["Quantity", "Least", "Largest"],
       Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
     ...tableOf(inUnit("Largest contact force of each pair", "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
-      pairs.map((p, i) => [String(p.pair), ...placeCells(places.pairs[i]), places.pairs[i].surface, bound(p)])),
+      pairs.map((p, i) => [String(p.pair), ...placeCells(places.pairs[i]), places.pairs[i].surface, bound(p)]), 40, sizeOf),
     ...tableOf(reactionsTitle, [...placeHead(), "What", "Least", "Largest"],
-      places.supports.map((s, i) => [...placeCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)])),
+      places.supports.map((s, i) => [...placeCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)]), 40, sizeOf),
   ];
 }
 
-function structureRows() {
-  if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["Dofs", structure.dofs.length]];
-  const { columns, nodes, D, nu, EI } = structure;
-  const range = ([low, high]) => (low === high ? short(low) : `${short(low)} to ${short(high)}`);
-  const along = ["Nodes along x", columns ?? nodes.length];
-  const x = [inLength("x"), range(spread(nodes.map((n) => n.x)))];
-  if (EI) return [along, x, [inUnit("EI", "EI"), range(spread(EI))]];
-  return [along, x, ["Nodes along y", nodes.length / columns], [inLength("y"), range(spread(nodes.map((n) => n.y)))], [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
+// The curves of the envelope, one quantity above another.
+function drawEnvelope() {
+  const holder = byId("curves");
+  if (!holder) return;
+  const { x, ...curves } = result.envelope.curves;
+  const width = widthOf(holder);
+  const ends = [x[0], x[x.length - 1]];
+  const X = (v) => 74 + ((v - ends[0]) / (ends[1] - ends[0])) * (width - 104);
+  const root = canvas(holder, width, 144 * 3 + 44, "Envelope: least and largest deflection, moment and shear along the beam");
+  Object.entries(curves).forEach(([name, { min, max, min_step, max_step }], k) => {
+    const range = result.envelope[name];
+    const Y = scaleOfStrip(root, { X, ends }, 8 + 144 * k, name, quantityHead(name), spread([0, range.min.value, range.max.value]), toldOf(range));
+    const spots = (values, [first, last]) => values.slice(first, last + 1).map((v, i) => [X(x[first + i]), Y(v)]);
+    const whole = [0, x.length - 1];
+    root.append(path([...spots(max, whole), ...spots(min, whole).reverse()], `${name}-area`, "Z"));
+    for (const [values, steps, bound] of [[min, min_step, "Least"], [max, max_step, "Largest"]]) {
+      for (const [first, last] of runsOf(steps)) {
+        const points = spots(values, [first, Math.min(last + 1, x.length - 1)]);
+        const words = `${bound} ${name} from x = ${rough(x[first])} to ${rough(x[last])}: step ${stepName(result.steps[steps[first] - 1])}`;
+        const piece = titled(words, path(points, name), path(points, "under-pointer"));
+        piece.addEventListener("click", () => show(frames.findIndex((f) => f.end && f.step === steps[first])));
+        root.append(piece);
+      }
+    }
+  });
+  scaleAlong(root, ticks(...ends, Math.floor(width / 75)), X, 144 * 3 + 12);
 }
 
+const rangeWords = ([low, high]) => (low === high ? short(low) : `${short(low)} to ${short(high)}`);
+
+function structureRows() {
+  if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["Dofs", structure.dofs.length]];
+  const { columns, nodes, D, nu, E, thickness, EI } = structure;
+  const along = ["Nodes along x", columns ?? nodes.length];
+  const x = [inLength("x"), rangeWords(spread(nodes.map((n) => n.x)))];
+  if (EI) return [along, x, ...runsOf(EI).map(([first, last]) => [inUnit(`EI from x = ${short(nodes[first].x)} to ${short(nodes[last + 1].x)}`, "EI"), EI[first]])];
+  return [along, x, ["Nodes along y", nodes.length / columns], [inLength("y"), rangeWords(spread(nodes.map((n) => n.y)))],
+    ...(E ? [[inUnit("Young's modulus E", "stress"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
+}
+
+const mostRows = 1000;  // of a table of input: far more than a person reads
 const inputTables = () => [
-  ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows()),
+  ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows(), mostRows),
   ...tableOf("Supports: fixed, or the stiffness of a spring", [...placeHead(), "Dof", "Held"],
-    places.supports.map((s) => [...placeCells(s), s.dof, s.spring === null ? "fixed" : short(s.spring)])),
+    gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, s.dof, s.spring === null ? "fixed" : short(s.spring)]), mostRows),
   ...tableOf("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
-    places.pairs.map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, p.state === "contact" ? "in contact" : "separated"])),
-  ...tableOf("Loads and settlements at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s))),
+    places.pairs.filter((p) => !p.bed).map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, startWords(p)]), mostRows),
+  ...tableOf("Beds: a pair at each node, whose stiffness is the modulus times the node's share", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
+    gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
+      .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)]), mostRows),
+  ...tableOf("Loads and settlements at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s)), mostRows, (r) => Math.abs(r[3]) || 0),
 ];
+
+const modulus = (p) => p.stiffness / p.bed;
+const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
+
+// "1 to 9, 12"
+const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
+
+// What differs by its place alone is one row where there is much of it: [the first one, cells of all places, all].
+function gathered(list, keyOf, fewest = 13) {
+  const groups = new Map();
+  for (const one of list) groups.set(keyOf(one), [...(groups.get(keyOf(one)) || []), one]);
+  return [...groups.values()].flatMap((of) => (ofMatrix || of.length < fewest ? of.map((one) => [one, placeCells(one), [one]])
+    : [[of[0], [numbersWords(of.map((one) => one.name)), ...["x", "y"].slice(0, placeHead().length - 1).map((axis) => rangeWords(spread(of.map((one) => one[axis]))))], of]]));
+}
 
 function loadRows(s) {
   const { uniform = [], settlement = [] } = s.load;
   const polynomial = (a) => a.map((c, i) => `${short(c)}${i === 0 ? "" : i === 1 ? " x" : ` x^${i}`}`).join(" + ");
-  const pointRows = (load, words) => pointsOf({ load }).map((p) => [stepName(s), words + (p.dof ?? ""), placed(p.name), p.value]);
-  const rows = [...uniform.map((d) => [stepName(s), isBeam() ? "per length" : "pressure", `elements ${d.elements}`, d.polynomial ? polynomial(d.polynomial) : d.value]),
-    ...pointRows(s.load, ""), ...pointRows({ point: settlement }, "settlement ")];
+  const at = (p) => placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`);
+  const pointRows = (load, words, what) => pointsOf({ load }).map((p) => [stepName(s), ofMatrix ? words : words + what(p), at(p), p.value]);
+  const rows = [...uniform.map((d) => [stepName(s), inUnit(isBeam() ? "per length" : "pressure", "load"), elementsWords(d.elements), d.polynomial ? polynomial(d.polynomial) : d.value]),
+    ...pointRows(s.load, "", whatHolds), ...pointRows({ point: settlement }, "settlement ", (p) => inUnit(p.dof, p.dof))];
   return rows.length > 0 ? rows : [[stepName(s), "resultant of all loads", "", sumOf(s)]];
+}
+
+// Elements of a load, of a beam with their places.
+function elementsWords(elements) {
+  if (elements === "all") return "all elements";
+  const numbers = Array.isArray(elements) ? numbersWords(elements) : elements.replace("..", " to ");
+  if (!isBeam() || Array.isArray(elements)) return `elements ${numbers}`;
+  const [first, last] = elements.split("..").map(Number);
+  return `elements ${numbers}, x = ${short(structure.nodes[first - 1].x)} to ${short(structure.nodes[last].x)}`;
 }
 
 // ---- what stands still: head, certificate, unit 26, legend ----
@@ -252,7 +327,15 @@ function showHead() {
   byId("size").textContent = [...size, [places.pairs.length, "pair"], [result.steps.length, "load step"], [increments.length, "increment"]]
     .map(([n, what]) => counted(n, what)).join(", ");
   byId("verdict").replaceChildren(...verdicts().map(([text, kind]) => element("li", { class: kind }, text)));
+  showTitleOnSheets(result.title.trim() || file);
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
+}
+
+// The boxes in the margins of paper have no text of the page, so that the title goes into their rule.
+function showTitleOnSheets(title) {
+  const inCss = title.replace(/[^\p{L}\p{N} .,:;()+-]/gu, (c) => `\\${c.codePointAt(0).toString(16)} `);
+  byId("sheets")?.remove();
+  document.head.append(element("style", { id: "sheets" }, `@page { @top-left { content: "${inCss}"; } }`));
 }
 
 function showCertificate() {
@@ -314,6 +397,7 @@ function showLegend() {
     [there((p) => p.look === "f" && p.closed), "at its face, in contact, no force", () => pairMark("f", 11, 9, 5, true)],
     [places.pairs.length > 0, "face, hatched behind", () => shape("M2 8h18M4 8l-4 6M10 8l-4 6M16 8l-4 6", "face-line")],
     [there((p) => p.force > 0), "contact force", () => arrow(11, 17, 0, -15, "force")],
+    [there((p) => p.look === "c"), "where a pressed face stood", () => line(0, 9, 22, 9, "spring")],
     [loaded, "load", () => arrow(11, 1, 0, 15, "load")],
     [true, "undeformed", () => line(0, 9, 22, 9, "was")],
     [places.supports.some((s) => s.direction <= 3), "support", () => shape("M11 3l7 12h-14Z", "support")],
@@ -330,6 +414,7 @@ function offerFields() {
   byId("field-label").hidden = byId("field").hidden = fields.length === 0;
   byId("field").replaceChildren(...fields.map(({ name, words }) => element("option", { value: name }, words)));
   byId("field").value = field && field.name;
+  byId("save").hidden = scene === null;
 }
 
 // ---- where we are ----
@@ -353,6 +438,7 @@ function show(n) {
   byId("state").textContent = stateWords(f);
   draw();
   drawChart(f);
+  drawEnvelope();
   showPairs(f);
   markCurrentRow(f);
 }
@@ -369,9 +455,30 @@ function listen() {
     width = innerWidth;
     show(current);
   });
-  // On paper there is the final state.
-  addEventListener("beforeprint", () => { printing = true; show(frames.length - 1); });
-  addEventListener("afterprint", () => { printing = false; show(current); });
+  byId("save").addEventListener("click", savePicture);
+  addEventListener("beforeprint", () => { printing = true; drawSheets(); show(frames.length - 1); });
+  addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
+}
+
+// On paper there is the final state. Before it are the input, with a sketch; behind it the ends of steps, of a plate in each quantity.
+function drawSheets() {
+  byId("structure").before(byId("input"));
+  if (scene === null) return;
+  const drawn = (f, words, isSketch = false) => {
+    const holder = element("div", { class: "picture" });
+    drawPicture(f, holder, isSketch);
+    return element("figure", { class: "print-only" }, holder, element("figcaption", {}, words));
+  };
+  const loaded = result.steps[result.steps.length - 1];
+  const final = frames[frames.length - 1];
+  byId("system").replaceChildren(...(loaded ? [drawn({ ...frames[0], load: loaded.load }, `The undeformed structure with supports, pairs and the loads of step ${stepName(loaded)}.`, true)] : []));
+  const chosen = field;
+  const quantities = fields.length > 0 ? fields : [undefined];
+  const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor(12 / quantities.length))).map((s) => s.step));
+  const wanted = frames.filter((f) => f.end && (steps.has(f.step) || f === final)).flatMap((f) => quantities.map((of) => ({ f, of })));
+  byId("ends-drawn").replaceChildren(...wanted.filter(({ f, of }) => f !== final || of !== chosen).map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
+  field = chosen;
+  showCuts();
 }
 
 // The state with the largest deflection.
@@ -392,8 +499,9 @@ function load(given, state = null) {
 
 function showRest() {
   fill("ends", "Results at the ends of steps", "", ...endTables());
-  fill("envelope", "Envelope of the path", "", ...(result.envelope ? envelopeTables(result.envelope) : []));
-  fill("input", "Input", "", ...inputTables());
+  fill("envelope", `Envelope of the ${result.steps.some((s) => s.start === "zero") ? "combinations" : "path"}`, "", ...(result.envelope ? envelopeTables(result.envelope) : []));
+  drawEnvelope();
+  fill("input", "Input", "", element("div", { id: "system" }), ...inputTables());
   showCalls();
   showCertificate();
   showLog();

@@ -132,6 +132,13 @@ function lineLoadOf(f) {
     .reduce((sum, { value, polynomial = [value] }) => sum + polynomial.reduceRight((y, a) => y * x + a, 0), 0);
 }
 
+// Where equal values follow one another in a list: [first, last].
+function runsOf(values) {
+  const runs = [];
+  values.forEach((v, i) => (i > 0 && v === values[i - 1] ? (runs[runs.length - 1][1] = i) : runs.push([i, i])));
+  return runs;
+}
+
 // The least and the largest number of a list; [0, 0] where there is none.
 function spread(values) {
   let [low, high] = [Infinity, -Infinity];
