@@ -209,6 +209,7 @@ class Result(Answer):
         super().__init__(answer)
         self._again = again
         self._texts: dict[str, str] = {}
+        self._drawable: Optional[Record] = None  # this result with its structure, where that is in another one
 
     page = _text_of("page", "The report as one HTML page, as `contct run --html` writes it")
     log = _text_of("log", "Unit 26 of the leading kernel (`--log`)")
@@ -232,6 +233,88 @@ class Result(Answer):
             return None
         return (f'<iframe srcdoc="{html.escape(page)}" title="{html.escape(self.title)}" sandbox="allow-scripts"'
                 ' style="width: 100%; height: 45em; border: 0"></iframe>')
+
+
+    def plot(self, quantity: str = "w", step: int = -1, ax: Any = None) -> Any:
+        """Draw the end of a step with matplotlib, and return the axes. The first use runs the problem again, for its structure.
+
+        quantity  "w", of a beam also "moment" or "shear": dots are at extremes, squares at pairs in contact, bars at the faces of
+                  the others. Of a plate: the deflection in colours
+        step      which of `steps`: 0 is step 1, -1 the last one
+        ax        where to draw; None: axes of a new figure
+        """
+        shown = self._with_structure()
+        kind, end = shown.structure.kind, shown.steps[step]
+        allowed = {"beam": ["w", "moment", "shear"], "plate": ["w"]}.get(kind, [])
+        if quantity not in allowed:
+            raise InputError(f"plot: found quantity {quantity!r} of a {kind}; allowed: {', '.join(allowed) or 'beams and plates'}")
+        if ax is None:
+            try:
+                ax = importlib.import_module("matplotlib.pyplot").subplots()[1]
+            except ImportError as error:
+                raise ImportError(f"contct.Result.plot: {error}. It needs matplotlib (Debian: python3-matplotlib)") from error
+        length, force = (f" [{shown.units.length}]", f" [{shown.units.force}]") if shown.units else ("", "")
+        words = quantity + {"w": length, "shear": force, "moment": (force + length).replace("] [", " ")}[quantity]
+        title = f"Step {end.step}" + (f", {end.name}" if end.name else "")
+        if kind == "beam":
+            _plot_beam(shown, end, quantity, ax)
+            ax.set(xlabel="x" + length, ylabel=words, title=title)
+        else:
+            _plot_plate(shown, end, ax)
+            ax.set(xlabel="x" + length, ylabel="y" + length, title=f"{title}: {words}", aspect="equal")
+        return ax
+
+    def _with_structure(self) -> Record:
+        if "structure" not in self and self._drawable is None:
+            if self._again is None:
+                raise InputError("plot: found a result without its structure; allowed: what contct.run follows")
+            source, options = self._again
+            self._drawable = Record(_ask(_library.contct_run, source, {**options, "states": True})["result"])
+        return self if self._drawable is None else self._drawable
+
+
+def _hermite(h: float, y0: float, y1: float, slope0: float, slope1: float, a: float, b: float) -> float:
+    return y0 * b * b * (1 + 2 * a) + y1 * a * a * (1 + 2 * b) + h * (slope0 * a * b * b - slope1 * a * a * b)
+
+
+def _along(shown: Record, end: Record, quantity: str) -> tuple[list[float], list[float]]:
+    """x and the quantity along a beam, between nodes too: exact where the load along an element is linear, as in the page."""
+    nodes, stiffness = shown.structure.nodes, shown.structure.EI
+    parts = max(2, 480 // len(stiffness))
+    xs, ys = [], []
+    for e, EI in enumerate(stiffness):
+        h = nodes[e + 1].x - nodes[e].x
+        w0, t0, w1, t1 = end.displacement[2 * e:2 * e + 4]
+        (m0, m1), (v0, v1) = end.elements[e].moment, end.elements[e].shear
+        # Curvatures at the ends, less what the cubic of deflections and slopes has.
+        k0, k1 = m0 / EI - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h, m1 / EI - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h
+        for a, b in ((k / parts, 1 - k / parts) for k in range(parts + 1)):
+            xs.append(nodes[e].x + a * h)
+            ys.append(_hermite(h, m0, m1, v0, v1, a, b) if quantity == "moment"
+                      else 6 * a * b * (m1 - m0) / h + v0 * b * (1 - 3 * a) + v1 * a * (3 * a - 2) if quantity == "shear"
+                      else _hermite(h, w0, w1, t0, t1, a, b) + (h * a * b) ** 2 / 2 * (k0 * b + k1 * a))
+    return xs, ys
+
+
+def _plot_beam(shown: Record, end: Record, quantity: str, ax: Any) -> None:
+    ax.axhline(0, color="0.8", linewidth=1)
+    xs, ys = _along(shown, end, quantity)
+    ax.plot(xs, ys, color={"w": "black", "moment": "tab:blue", "shear": "tab:orange"}[quantity], label=quantity)
+    extremes = [end.extremes[quantity][bound] for bound in ("min", "max")]
+    ax.plot([v.x for v in extremes], [v.value for v in extremes], "o", color="0.3", markersize=4, label="extremes")
+    near = 2.5 * max(abs(v.value) for v in extremes)  # a face much farther away would flatten the line
+    for state, mark, label in (("contact", "s", "in contact"), ("separated", "_", "face")):
+        pairs = [pair for pair, now in zip(shown.structure.pairs, end.pairs) if quantity == "w" and now.state == state]
+        marked = [(shown.structure.nodes[p.node - 1].x, end.w[p.node - 1] if mark == "s" else p.face) for p in pairs
+                  if mark == "s" or near == 0 or abs(p.face) <= near]
+        ax.plot([x for x, _ in marked], [y for _, y in marked], mark, color="tab:brown", label=label)
+
+
+def _plot_plate(shown: Record, end: Record, ax: Any) -> None:
+    nodes, columns = shown.structure.nodes, shown.structure.columns
+    rows = [list(end.w[at:at + columns]) for at in range(0, len(nodes), columns)]
+    drawn = ax.contourf([node.x for node in nodes[:columns]], [node.y for node in nodes[::columns]], rows, 12, cmap="YlOrBr_r")
+    ax.figure.colorbar(drawn, ax=ax)
 
 
 def _count(number: int, thing: str) -> str:

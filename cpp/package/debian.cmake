@@ -112,7 +112,7 @@ arrays where NumPy is installed. The module brings the solver as a library and
 needs no program beside it.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11)")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "contct, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "contct, python3-numpy, python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python3-contct/postinst
     ${CMAKE_CURRENT_LIST_DIR}/python3-contct/prerm)
 

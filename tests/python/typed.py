@@ -11,6 +11,7 @@ again: contct.Result = contct.run(Path("beam.toml"), kernels=("fortran", "cpp"),
 forces: list[float] = [pair.force for pair in result.steps[-1].pairs]
 events: list[tuple[float, str]] = [(i.fraction, event.change) for i in result.steps[0].increments for event in i.events]
 proved: bool = result.certified
+axes: Any = result.plot("moment", step=0)
 texts: list[str] = [result.page, result.log, result.trace, result.proof, contct.to_toml(problem), *result.messages]
 
 exact: contct.Exact = contct.exact("beam.toml", rule="1989", kernels=["fortran"])

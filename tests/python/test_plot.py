@@ -1,0 +1,96 @@
+"""Result.plot: what matplotlib is given to draw, against closed forms."""
+import pickle
+import sys
+
+
+import pytest
+
+import contct
+
+L, EI, q = 6.0, 1000.0, -12.0
+
+
+@pytest.fixture
+def simple():
+    """A beam on two supports under a constant load, two elements; a stop in the middle that it does not reach."""
+    return {"title": "simple", "units": {"length": "m", "force": "kN"},
+            "beam": {"length": L, "elements": 2, "EI": EI}, "support": [{"nodes": [1, 3], "fix": "w"}],
+            "contact": [{"node": 2, "surface": "below", "face": -0.3, "stiffness": 1e4}],
+            "step": [{"name": "half", "uniform": q / 2}, {"uniform": q}]}
+
+
+def drawn(axes):
+    """Lines by their labels: x and y."""
+    return {line.get_label(): (list(line.get_xdata()), list(line.get_ydata())) for line in axes.lines}
+
+
+@pytest.fixture
+def matplotlib():
+    found = pytest.importorskip("matplotlib")
+    found.use("Agg")
+    yield found
+    sys.modules["matplotlib.pyplot"].close("all")
+
+
+def test_a_beam_is_drawn_exactly_between_its_nodes(simple, matplotlib):
+    result = contct.run(simple, kernels="corrected")
+    closed_forms = {"w": lambda x: q * x * (L**3 - 2 * L * x**2 + x**3) / (24 * EI), "moment": lambda x: -q * x * (L - x) / 2,
+                    "shear": lambda x: -q * (L / 2 - x)}
+    for quantity, formula in closed_forms.items():
+        xs, ys = drawn(result.plot(quantity))[quantity]
+        assert len(xs) > 400 and xs[0] == 0 and xs[-1] == L
+        assert ys == pytest.approx([formula(x) for x in xs], abs=1e-9)
+    assert result.plot().get_ylabel() == "w [m]"
+
+
+def test_a_step_is_chosen_by_its_index(simple, matplotlib):
+    axes = contct.run(simple, kernels="corrected").plot("moment", step=0)
+    assert max(drawn(axes)["moment"][1]) == pytest.approx(-q / 2 * L**2 / 8)
+    assert axes.get_title() == "Step 1, half" and axes.get_ylabel() == "moment [kN m]" and axes.get_xlabel() == "x [m]"
+
+
+def test_faces_are_bars_and_pairs_in_contact_are_where_the_beam_is(simple, matplotlib):
+    assert drawn(contct.run(simple, kernels="corrected").plot())["face"] == ([3.0], [-0.3])
+    simple["contact"][0]["face"] = -0.1
+    pressed = contct.run(simple, kernels="corrected")
+    lines = drawn(pressed.plot())
+    assert lines["in contact"] == ([3.0], [pressed.steps[1].w[1]]) and pressed.steps[1].w[1] < -0.1
+    assert lines["face"] == ([], [])
+
+
+def test_a_face_far_away_is_not_drawn(simple, matplotlib):
+    simple["contact"][0]["face"] = -100.0
+    assert drawn(contct.run(simple, kernels="corrected").plot())["face"] == ([], [])
+
+
+def test_extremes_between_nodes_are_dots(simple, matplotlib):
+    simple["beam"]["elements"] = 1
+    simple["support"][0]["nodes"] = [1, 2]
+    del simple["contact"]
+    xs, ys = drawn(contct.run(simple, kernels="corrected").plot("moment"))["extremes"]
+    assert (xs[1], ys[1]) == pytest.approx((L / 2, -q * L**2 / 8))
+
+
+def test_a_plate_is_drawn_in_colours_on_axes_that_are_given(matplotlib):
+    plate = {"plate": {"x": [0.0, 1.0, 3.0], "y": [0.0, 2.0], "D": 1.0, "nu": 0.3},
+             "support": [{"nodes": [1, 4], "fix": ["w", "wx", "wy"]}], "step": [{"uniform": -0.01}]}
+    result = contct.run(plate, kernels="corrected")
+    given = pytest.importorskip("matplotlib.pyplot").subplots()[1]
+    assert result.plot(ax=given) is given
+    low, high = given.figure.axes[1].get_ylim()  # of the bar beside it
+    assert low <= min(result.steps[0].w) < 0.5 * low and high >= 0
+    assert given.get_xlim() == (0.0, 3.0) and given.get_ylim() == (0.0, 2.0) and given.get_title() == "Step 1: w"
+    with pytest.raises(contct.InputError, match="found quantity 'moment' of a plate; allowed: w$"):
+        result.plot("moment")
+
+
+def test_what_cannot_be_drawn_is_refused(simple, monkeypatch):
+    result = contct.run(simple, kernels="corrected")
+    with pytest.raises(contct.InputError, match="found quantity 'mx' of a beam; allowed: w, moment, shear"):
+        result.plot("mx")
+    with pytest.raises(contct.InputError, match="allowed: what contct.run follows"):
+        contct.certify(simple, [[0.0] * 6]).plot()
+    monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
+    with pytest.raises(ImportError, match="It needs matplotlib"):
+        result.plot()
+    assert pickle.loads(pickle.dumps(result)) == result
