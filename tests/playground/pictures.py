@@ -27,7 +27,7 @@ try:
         browser.value("document.querySelector('[data-scene]').scrollIntoView()")
         browser.wait_for("document.querySelector('[data-lives]') !== null")
         browser.value(f"({script}, 0)")
-        text = browser.value("savedPicture(scenes[0].picture.firstChild)") + "\n"
+        text = browser.value("fileOf(scenes[0].picture.firstChild)") + "\n"
         file = folder / f"{name}.svg"
         if not file.exists() or file.read_text(encoding="utf-8") != text:
             different.append(name)

@@ -625,14 +625,18 @@ function drawPicture(f, holder, isSketch = false) {
   if (colours) drawScaleOfColours(root, 62, bottom + 40, width - 86);
 }
 
-// The picture that is shown as a file of its own: with the page's rules for pictures, in the colours of light. Not every program
-// that draws SVG knows variables.
-function savePicture() {
-  const copy = byId("picture").firstChild.cloneNode(true);
+// A picture as a file of its own: with the page's rules for pictures, in the colours of light. Not every program that draws SVG
+// knows variables.
+function fileOf(picture) {
+  const copy = picture.cloneNode(true);
   const [root, ...rules] = [...document.styleSheets].flatMap((s) => [...s.cssRules]).filter((r) => /^(:root|svg)/.test(r.selectorText));
   const text = [...rules.map((r) => r.cssText), 'svg { background: var(--panel); font-family: "DejaVu Sans", Arial, sans-serif; }'].join("\n");
   copy.prepend(svg("style", {}, text.replace(/var\((--\w+)\)/g, (_, name) => root.style.getPropertyValue(name).trim())));
-  const link = element("a", { href: URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(copy)], { type: "image/svg+xml" })), download: "picture.svg" });
+  return new XMLSerializer().serializeToString(copy);
+}
+
+function savePicture() {
+  const link = element("a", { href: URL.createObjectURL(new Blob([fileOf(byId("picture").firstChild)], { type: "image/svg+xml" })), download: "picture.svg" });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
