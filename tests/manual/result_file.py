@@ -45,8 +45,9 @@ PLATE = """
 [plate]
 size = [1.0, 1.0]
 elements = [2, 2]
-D = 1.0
+E = 10.92
 nu = 0.3
+thickness = 1.0
 [[support]]
 nodes = "1..3"
 fix = ["w", "wx", "wy"]
@@ -96,6 +97,7 @@ def runs(root, plugin):
     yield MECHANISM, ["--final-only"], 4
     for text in (PLATE, MANY_PARTS, SETTLED_BEAM):
         yield text, ["--envelope"], 0
+    yield PLATE, ["--html", "page.html"], 0
     for part in ("problems/pb07-three-gap-supports", "problems/pp05a-free-plate-on-bed-n8", "structures/frame", "structures/calculix/console"):
         yield root / f"reference/{part}.toml", ["--html", "page.html"], 0
 
