@@ -22,6 +22,11 @@ std::uint64_t margin_of(small_call<double> c, branch what, std::size_t pair) {
   return *margin;
 }
 
+/// Every decision counts.
+bool any(branch /*b*/, std::size_t /*pair*/) {
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("each IF of the listing is counted by its outcome") {
@@ -62,7 +67,7 @@ TEST_CASE("an event within EPSMUL by one ULP has the margin of that ULP, and one
 TEST_CASE("a gap one ULP below EPSGAP is at its face by one ULP, which is the call's narrowest decision") {
   small_call<double> c({{0.0, 1.0, std::nextafter(1e-10, 0.0), separated, face_above}});
   CHECK(margin_of(c, branch::stationary, 0) == 1);
-  const std::optional<decision> least = narrowest_decision(c.ask().answered(), 8);
+  const std::optional<decision> least = narrowest_decision(c.ask().answered(), 8, any);
   REQUIRE(least);
   CHECK(words_of(*least) == "pair 1: IF (ABS(GAP).LT.EPSGAP) was true by 1 ULP");
 }
@@ -88,7 +93,7 @@ TEST_CASE("with NaN there is no count, and the words say so") {
 TEST_CASE("margins of a 4-byte call are counted in 4-byte numbers") {
   const auto face = static_cast<double>(std::nextafter(1e-10F, 0.0F));
   small_call<double> c({{0.0, 1.0, face, separated, face_above}});
-  const std::optional<decision> least = narrowest_decision(c.ask().answered(), 4);
+  const std::optional<decision> least = narrowest_decision(c.ask().answered(), 4, any);
   REQUIRE(least);
   CHECK(least->what == branch::stationary);
   CHECK(least->ulps == 1);

@@ -6,6 +6,7 @@ library's member out. Before the mutants of a source it goes the same way as it 
 """
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -21,6 +22,7 @@ from edits import edited  # noqa: E402
 
 CPU_SECONDS = 5  # a mutant that lives takes a tenth of a second
 LEAST = 100
+LEAST_TOLD = 25
 UNMUTATED = "(as it is)"
 
 
@@ -58,7 +60,7 @@ def build_program(build, file, source, folder):
 
 
 def noticed(file, folder):
-    """The first trace that shows the mutant, in words; None where none does."""
+    """(the first trace that shows the mutant, in words, or None where none does; the IFs that the traces' branch margins name)"""
     def limited():
         resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -68,37 +70,51 @@ def noticed(file, folder):
     if done.returncode == 2:
         raise ValueError(done.stderr)
     said = [line for line in done.stdout.splitlines() if ": mismatch; " in line]
-    return None if done.returncode == 0 else Path(said[0].split(": ")[0]).stem if said else f"ends with {done.returncode}"
+    named = re.findall(r"branch margin: (?:pair \d+: )?IF \((.*?)\) was", done.stderr)
+    seen = None if done.returncode == 0 else Path(said[0].split(": ")[0]).stem if said else f"ends with {done.returncode}"
+    return seen, named
 
 
 def tried(build, file, name, replacements):
-    """(is it as it has to be, what came of it)"""
+    """(is it as it has to be, what came of it, the IFs that are named)"""
+    named = []
     try:
         with tempfile.TemporaryDirectory() as folder:
             build_program(build, file, edited((ROOT / file).read_text(), replacements), Path(folder))
-            seen = noticed(file, Path(folder))
+            seen, named = noticed(file, Path(folder))
     except ValueError as wrong:
-        return False, f"is none: {wrong}"
+        return False, f"is none: {wrong}", named
     except subprocess.TimeoutExpired:
         seen = "hangs"
     if seen is None:
-        return name == UNMUTATED, "lives"
-    return name != UNMUTATED, f"is noticed: {seen}"
+        return name == UNMUTATED, "lives", named
+    return name != UNMUTATED, f"is noticed: {seen}", named
 
 
 def main(build_file, first=None):
     build = json.loads(Path(build_file).read_text())
     trials = []
-    for source in tomllib.loads((HERE / "mutants.toml").read_text())["source"]:
+    table = tomllib.loads((HERE / "mutants.toml").read_text())
+    faults = {name: conditions for conditions, names in table["faulty"] for name in names}
+    margins = {}
+    for source in table["source"]:
         trials.append((source["file"], UNMUTATED, []))
         some = source["mutants"][:first and int(first)]
         trials += [(source["file"], name, [(old, new)]) for name, old, new in some]
     wrong = 0
     with ThreadPoolExecutor(os.cpu_count()) as workers:
-        for (file, name, _), (good, words) in zip(trials, workers.map(lambda t: tried(build, *t), trials)):
+        for (file, name, _), (good, words, named) in zip(trials, workers.map(lambda t: tried(build, *t), trials)):
+            faulty = faults.get(name) if file.endswith(".f") else None
+            if faulty:
+                margins[name] = bool(named) and all(condition in faulty for condition in named)
+                words += f"; its branch margins name {' and '.join(sorted(set(named))) or 'nothing'}"
             print(f"{'' if good else 'WRONG: '}{file}, {name}: {words}", flush=True)
             wrong += not good
     print(f"{len(trials)} kernels, mutants and as they are, {wrong} wrong")
+    told = sum(margins.values())
+    print(f"the branch margins name the faulty IF, and no other, for {told} of {len(margins)} mutants of an IF")
+    if first is None and told < LEAST_TOLD:
+        return f"found {told} mutants whose branch margins name the faulty IF; allowed: {LEAST_TOLD} or more"
     if first is None and len(trials) < LEAST:
         return f"found {len(trials)} mutants; allowed: {LEAST} or more"
     return 1 if wrong else 0

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -121,6 +123,9 @@ struct decision {
                        ///< there is where one of them is NaN
 };
 
+/// The margin of IF (ISEP(I).EQ.1), which compares whole numbers: larger than any other.
+inline constexpr std::uint64_t whole_numbers = std::numeric_limits<std::uint64_t>::max() - 1;
+
 /// Keep a decision in `least` that was taken by less than the one there. IF (ISEP(I).EQ.1) compares whole
 /// numbers and has no margin: it is left out.
 inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t pair, bool outcome,
@@ -129,8 +134,10 @@ inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t 
   least = decision{b, b == branch::no_events ? -1 : static_cast<int>(pair), outcome, ulps};
 }
 
-/// The decision of a call of a kernel of `real_bytes` that was taken by least; none when there was none.
-[[nodiscard]] std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes);
+/// The decision of a call of a kernel of `real_bytes` that was taken by least, among those of which `counts`
+/// says so, by branch and pair from 0; IF (ISEP(I).EQ.1) where there is no other, and none without any.
+[[nodiscard]] std::optional<decision> narrowest_decision(
+    const answered_call& c, int real_bytes, const std::function<bool(branch, std::size_t)>& counts);
 
 /// "pair 3: IF (DIFF.LT.EPSMUL) was false by 1 ULP".
 [[nodiscard]] std::string words_of(const decision& d);

@@ -55,19 +55,55 @@ std::string ulp_words(const mismatch& d) {
   return std::string(" (") + std::to_string(d.ulps) + " ULP)";
 }
 
+/// Where another answer differs from the leader's, as far as this tells which IF went another way.
+struct differences {
+  differences(const answered_call& c, const call_outputs& other)
+      : of_smin(!same_bits(c.c.smin, other.smin)), no_event(c.c.smin == 1.0) {
+    for (std::size_t i = other.ss.size(); i-- > 0;) {
+      if (!same_bits(c.c.ss[i], other.ss[i])) ss = i;
+      if (c.c.isep[i] != other.isep[i]) isep = i;
+      toggled = toggled || other.isep[i] != c.isep_before[i];
+    }
+    both_toggled =
+        isep && c.c.isep[*isep] != c.isep_before[*isep] && other.isep[*isep] != c.isep_before[*isep];
+  }
+
+  /// Does the first difference depend on this decision of that pair?
+  [[nodiscard]] bool depends_on(branch b, std::size_t pair) const {
+    if (b <= branch::check_positive) return ss == pair;
+    if (b <= branch::s_is_smallest) return !ss && of_smin;
+    if (ss || of_smin) return false;
+    if (b == branch::no_events) return no_event || !toggled;
+    return !isep || (isep == pair && both_toggled == (b == branch::was_separated));
+  }
+
+  std::optional<std::size_t> ss, isep;  // the first pairs, from 0
+  bool of_smin, no_event;
+  bool toggled = false;       // by the other, any pair
+  bool both_toggled = false;  // the pair `isep`, to different statuses
+};
+
 /// The branch margin.
 std::string margin_words(const mismatch_report& f) {
   const std::optional<decision>& least = f.narrowest;
-  if (!least) return "branch margin: no decision in this call";
+  if (!least) return "branch margin: the difference depends on no IF";
   const bool with_nan = least->ulps == std::numeric_limits<std::uint64_t>::max();
   const bool tie = least->ulps <= tie_ulps;
   return "branch margin: " + words_of(*least) +
-         (tie        ? ": a tie, which rounding may decide the other way"
-          : with_nan ? ""
-                     : "; all other margins are as large or larger: not a tie, so a bug");
+         (tie ? ": a tie, which rounding may decide the other way"
+          : with_nan
+              ? ""
+              : "; the other margins on which the value depends are as large or larger: not a tie, so a bug");
 }
 
 }  // namespace
+
+std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes,
+                                           const call_outputs& other) {
+  const differences d(c, other);
+  return narrowest_decision(c, real_bytes,
+                            [&d](branch b, std::size_t pair) { return d.depends_on(b, pair); });
+}
 
 std::optional<mismatch> compare_text(std::string_view leader, std::string_view follower, tally& t,
                                      text_equality equality) {
@@ -136,7 +172,7 @@ const std::optional<mismatch>& follower::ask(const answered_call& c) {
 void follower::note(const mismatch& found, const answered_call& c) {
   if (first_ && first_->call <= c.number) return;
   first_ = mismatch_report{c.number, leader_.name, kernel_->facts().name, found,
-                           narrowest_decision(c, leader_.real_bytes)};
+                           narrowest_decision(c, leader_.real_bytes, answer_)};
 }
 
 bool comparable(const trace_header& h, const kernel_facts& k) {

@@ -34,6 +34,13 @@ struct mismatch {
   std::uint64_t ulps = 0;  ///< distance of two numbers; 0 for ISEP and the text
 };
 
+/// The narrowest decision of the leader's call on which the difference of another answer to it depends, given
+/// what comes before it and is equal: of SS(i) the IFs that choose it; of SMIN, where no SS differs, those
+/// that choose the smallest; of ISEP(i) and the text what follows from SMIN and SS. None where no IF went
+/// another way.
+[[nodiscard]] std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes,
+                                                         const call_outputs& other);
+
 /// How many values have been compared, and how many of them differed.
 struct tally {
   std::int64_t values = 0;
@@ -102,11 +109,11 @@ struct mismatch_report {
   std::string leader;     ///< names of the kernels
   std::string follower;
   mismatch where;
-  std::optional<decision> narrowest;  ///< of the leader in that call
+  std::optional<decision> narrowest;  ///< of the leader in that call, on which the difference depends
 };
 
 /// Two lines: "call 7: mine differs in SS(3): fortran has 0x1p-1, mine has 0x1p-2 (4503599627370496 ULP)",
-/// and its branch margin: the narrowest decision of the call, and what follows from it.
+/// and its branch margin: the narrowest decision on which that depends, and what follows from it.
 [[nodiscard]] std::vector<std::string> words_of(const mismatch_report& f);
 
 /// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be

@@ -187,7 +187,7 @@ std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make, co
     const auto text = leader.facts().has_text ? std::optional<std::string_view>(out.text) : std::nullopt;
     const answered_call whole{answered, in.isep, text, std::ssize(c.leader)};
     (void)asked.ask(whole);
-    c.what.narrowest = narrowest_decision(whole, leader.facts().real_bytes);
+    c.what.narrowest = narrowest_decision(whole, leader.facts().real_bytes, asked.answer());
   }
   const std::optional<mismatch>& last = asked.difference();
   if (!last || (!field.empty() && last->field != field)) return {};
