@@ -132,6 +132,10 @@ inline std::vector<bad_input> bad_units_and_steps() {
        "step[1].settlement[2].w", "node 1, a second time in this step", "each dof once"},
       {"a settlement without a value", step_with("settlement = [ { node = 1 } ]\n"), "13:16",
        "step[1].settlement[1]", "a settlement without w or theta", "at least one"},
+      {"a point load without brackets", step_with("point = { node = 3, w = 1 }\n"), "13:9", "step[1].point",
+       "a table", "[ { .. } ], with brackets around the braces"},
+      {"a decimal comma behind thousands", with("1.0e4", "10.000,5"), "3:", "", "not TOML",
+       "a decimal point, 4.0 for 4,0"},
       {"a decimal comma", with("-0.004", "-0,004"), "10:", "", "not TOML", "a decimal point, 4.0 for 4,0"},
   };
 }

@@ -153,13 +153,13 @@ TEST_CASE("one number stands for all things, and an array has one for each") {
 TEST_CASE("a decimal comma is recognised in a line that is no TOML, and not where there is none") {
   const auto nothing = [](const toml_value&) { return 0; };
   const std::string hint = "(a number takes a decimal point, 4.0 for 4,0)";
-  for (const char* line :
-       {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]", "n = { a = 1, w = -60,5 }"}) {
+  for (const char* line : {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]",
+                           "n = { a = 1, w = -60,5 }", "n = 10.000,5", "n = { w = -1.250.000,75 }"}) {
     INFO(line);
     CHECK_THAT(refusal("a = 1\n" + std::string(line), nothing), Contains("f.toml:2:") && Contains(hint));
   }
   for (const char* line :
-       {"n = [1,2", "n = , 3", "n = 4 5", "n = \"1,5", "n = [1,,2]", ",", "n = 4,", "= 1"}) {
+       {"n = [1,2", "n = , 3", "n = 4 5", "n = \"1,5", "n = [1,,2]", ",", "n = 4,", "= 1", "n = [1.5,2"}) {
     INFO(line);
     CHECK_THAT(refusal("a = 1\n" + std::string(line), nothing), Contains("f.toml:2:") && !Contains(hint));
   }

@@ -39,6 +39,15 @@ bool same_word(std::string_view a, std::string_view lower) {
   });
 }
 
+/// A line that was meant for a header may be quoted; any other may hold what the message's reader must not
+/// see.
+bool is_like_header(std::string_view line) {
+  constexpr std::string_view word = "market";
+  const auto same_letter = [](char a, char lower) { return a == lower || a == lower - 'a' + 'A'; };
+  return line.front() == '%' ||
+         std::search(line.begin(), line.end(), word.begin(), word.end(), same_letter) != line.end();
+}
+
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
 
 /// Lines of a file with numbers. One warning tells how many of these are not the shortest decimals of their
@@ -78,8 +87,7 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
                      same_word(lines.field(4), symmetry);
   const bool array = sound && may_be_array && same_word(lines.field(2), "array");
   if (!sound || (!array && !same_word(lines.field(2), "coordinate")))
-    lines.refuse(same_word(lines.field(0), "%%matrixmarket") ? in_quotes(lines.here())
-                                                             : field_words(lines.here(), "a line"),
+    lines.refuse(is_like_header(lines.here()) ? in_quotes(lines.here()) : field_words(lines.here(), "a line"),
                  allowed);
   return array;
 }

@@ -47,7 +47,8 @@ std::string_view comma_hint(const toml::node& node, std::size_t meant) {
   return twice ? point_not_comma : "";
 }
 
-/// Has a line that is no TOML a decimal comma in it? "= 4,0", or "0,05" anywhere: no whole number begins so.
+/// Has a line that is no TOML a decimal comma in it? "= 4,0", "= 10.000,5", or "0,05" anywhere: no whole
+/// number begins so.
 bool has_decimal_comma(std::string_view line) {
   const auto digits_from = [line](std::size_t at) {
     const std::size_t end = line.find_first_not_of("0123456789", at);
@@ -56,7 +57,9 @@ bool has_decimal_comma(std::string_view line) {
   for (std::size_t at = line.find(','); at != std::string_view::npos; at = line.find(',', at + 1)) {
     const std::size_t before = line.find_last_not_of("0123456789", at == 0 ? 0 : at - 1);
     if (before == std::string_view::npos || before + 1 >= at || digits_from(at + 1) == 0) continue;
-    const std::size_t equals = line.find_last_not_of(" \t+-", before);
+    const std::size_t first = line.find_last_not_of("0123456789.", before);  // dots between thousands
+    const std::size_t equals =
+        first == std::string_view::npos ? first : line.find_last_not_of(" \t+-", first);
     if (equals != std::string_view::npos && line[equals] == '=') return true;
     if (line[at + 1] == '0' && digits_from(at + 1) > 1) return true;
   }
@@ -222,6 +225,7 @@ toml_value toml_value::table() const {
 std::vector<toml_value> toml_value::tables() const {
   if (required("at least one table").is_table() && is_top_level())
     refuse(fmt::format("at least one table, each under [[{}]] in double brackets", name_));
+  if (is_table()) refuse("an array of at least one table: [ { .. } ], with brackets around the braces");
   std::vector<toml_value> all = entries("an array of at least one table", 1);
   for (const toml_value& t : all)
     if (!t.is_table()) t.refuse("a table");
