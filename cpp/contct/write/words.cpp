@@ -209,8 +209,42 @@ std::string digit_warning(std::span<const step_record> steps) {
       worst->end.step, digits, worst->rcond);
 }
 
+namespace {
+
+/// The stiffest of the pairs, as a share of the structure's own stiffness at its dof, where the rounding of w
+/// there may come to more than the force of the pair; empty where all are softer.
+std::string stiffness_advice(const run_result& r) {
+  constexpr double rigid = 1e8;  // as a share: a stiffer pair gives nearly the same digits
+  constexpr double too_stiff = 1e12;
+  double most = too_stiff;
+  std::string words;
+  for (std::size_t i = 0; i < r.structure.pairs.size(); ++i) {
+    const int dof = r.structure.dof_of_pair(i);
+    const double own = r.structure.stiffness.diagonal(r.structure.row_of(dof));
+    const double stiffness = r.structure.pairs[i].stiffness;
+    if (r.structure.fixed[dof] != 0 || own == 0.0 || stiffness <= most * own) continue;
+    most = stiffness / own;
+    const double digit = std::pow(10.0, std::floor(std::log10(rigid * own)));
+    words = fmt::format(
+        "the cause may be the stiffness {:g} of {}, {:.0e} times that of the structure there: the rounding "
+        "of w "
+        "may change its force by as much as the force itself. The largest useful stiffness is {:.0e}: what "
+        "is "
+        "stiffer is as rigid, to about 7 digits",
+        stiffness, pair_words(r.what, i), most, std::floor(rigid * own / digit) * digit);
+  }
+  return words;
+}
+
+}  // namespace
+
 std::vector<std::string> complaints_of(const run_result& r) {
   std::vector<std::string> lines = certificate_complaints(r);
+  const std::string of_stiffness = stiffness_advice(r);
+  if (!of_stiffness.empty() && (!lines.empty() || r.end.status == path_status::not_factored)) {
+    lines.push_back(of_stiffness);
+    return lines;
+  }
   // Where not even bounds are proved, the other rule may prove none either.
   const bool is_bounded =
       std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });

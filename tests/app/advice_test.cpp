@@ -1,0 +1,26 @@
+// What a person is advised who cannot sign yet.
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+TEST_CASE("too stiff a spring is named as the cause, and the stiffness that is advised is certified") {
+  const scratch_folder dir;
+  const std::string file = "reference/problems/pb01-cantilever-tip-stop.toml";
+  std::filesystem::copy(root / file, dir.path() / "pb1.toml");
+  std::string text = dir.read("pb1.toml");
+  const auto with_stiffness = [&](const std::string& stiffness) {
+    std::string changed = text;
+    dir.write("own.toml", changed.replace(changed.find("5.0e4"), 5, stiffness));
+    return contct_program(dir.path(), {"run", "own.toml", "--kernels", "corrected", "--strict"});
+  };
+  // The structure's own stiffness at the tip's w is 12 EI / h^3 = 1.2e5.
+  const finished f = with_stiffness("1e30");
+  CHECK(f.exit == 3);
+  CHECK_THAT(f.err, Contains("the stiffness 1e+30 of pair 1 (node 3, below), 8e+24 times") &&
+                        Contains("the largest useful stiffness is 1e+13", Catch::CaseSensitive::No));
+  const finished better = with_stiffness("1e13");
+  CHECK(better.exit == 0);
+  CHECK(better.err.empty());
+}
