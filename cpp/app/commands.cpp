@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "app/problem_runs.hpp"
@@ -18,103 +20,58 @@
 #include "contct/write/exact_output.hpp"
 
 namespace contct {
+
+// Made of reference/cookbook by embed.cmake.
+extern const std::string_view beam_toml, plate_toml, crane_toml, slab_toml, base_plate_toml, racks_toml,
+    rail_toml, bed_toml, matrix_toml, matrix_mtx, matrix_dof, matrix_xyz;
+
 namespace {
 
 namespace fs = std::filesystem;
 
-// Problems to start from, with every key explained.
+/// A file of reference/cookbook, built in.
+struct cookbook_file {
+  std::string_view name, text;
+};
 
-constexpr const char* new_beam = R"(# A beam over two one-sided supports. Change the numbers, then:
-#     contct check FILE   # what it is, without solving it
-#     contct run FILE
-# Deflections, faces and forces are positive up.
+/// A problem to start from: files[0], and the files that it names.
+struct recipe {
+  std::string_view kind, what;
+  std::vector<cookbook_file> files;
+};
 
-title = "My beam"
+std::vector<recipe> recipes() {
+  return {
+      {"beam", "a beam over two one-sided supports; every key is explained", {{"beam.toml", beam_toml}}},
+      {"plate", "a plate on the ground, with a stop; every key is explained", {{"plate.toml", plate_toml}}},
+      {"crane", "a crane runway that lifts off its last bracket", {{"crane.toml", crane_toml}}},
+      {"slab", "a strip of a slab on soil, under an axle", {{"slab.toml", slab_toml}}},
+      {"base-plate", "a column's base plate on grout, with bolts", {{"base-plate.toml", base_plate_toml}}},
+      {"racks", "a pipe over racks, at a nozzle that rises", {{"racks.toml", racks_toml}}},
+      {"rail", "a rail on sleepers that cannot pull, under a wheel", {{"rail.toml", rail_toml}}},
+      {"bed", "a footing on soil, under an eccentric load", {{"bed.toml", bed_toml}}},
+      {"matrix",
+       "a grillage, by the stiffness matrix of another program",
+       {{"matrix.toml", matrix_toml},
+        {"matrix.mtx", matrix_mtx},
+        {"matrix.dof", matrix_dof},
+        {"matrix.xyz", matrix_xyz}}},
+  };
+}
 
-[units]                 # labels for what is printed; all numbers must be in these units
-length = "m"
-force  = "kN"
+recipe recipe_of(const std::string& kind) {
+  std::vector<std::string> kinds;
+  for (const recipe& r : recipes()) {
+    if (r.kind == kind) return r;
+    kinds.emplace_back(r.kind);
+  }
+  throw std::invalid_argument(
+      fmt::format("KIND: found {}{}; allowed: {}", kind, did_you_mean(kind, kinds), joined(kinds, ", ")));
+}
 
-[beam]
-length       = 4.0      # or node coordinates: x = [0.0, 1.0, 2.5]
-element_size = 0.5      # a node at every x that this file names, and no element longer than this
-EI           = 1.0e4    # bending stiffness; or pieces: [ { to = 1.5, value = 1.0e4 }, { to = 4.0, value = 2.0e4 } ]
-
-[[support]]             # permanent, and working both ways
-x   = 0.0               # or several: x = [0.0, 4.0]; or by number from 1: node = 1, nodes = "1..3"
-fix = ["w", "theta"]    # w is the deflection, theta the slope dw/dx
-# spring = { w = 2.0e3 }  # elastic instead of fixed
-
-[[contact]]             # one-sided supports, a pair at each x; pairs are numbered in this order
-x         = [2.0, 4.0]
-surface   = "below"     # the faces are below the beam; or "above"
-face      = [-0.010, -0.030]  # where they are; 0 touches from the start. One value for all, or one for each
-stiffness = 5.0e4       # of the pairs' springs; a large one is a hard stop
-
-# [[bed]]               # a one-sided spring under every node, for ground that cannot pull
-# modulus = 2.0e3       # force per length and deflection
-# face    = -0.050
-
-[[step]]                # loads are totals at the end of the step, reached proportionally from those before
-name    = "load"
-uniform = -8.0          # force per length
-point   = [ { x = 4.0, w = -20.0 } ]  # w is a force, theta a moment
-# settlement = [ { x = 0.0, w = -0.005 } ]  # moves a fixed dof: the total at the end of the step
-
-[[step]]                # the point load is taken off again
-name    = "unload"
-uniform = -8.0
-)";
-
-constexpr const char* new_plate =
-    R"(# A plate on ground that cannot pull, with a stop above. Change the numbers, then:
-#     contct check FILE   # what it is, without solving it
-#     contct run FILE
-# Deflections, faces and forces are positive up.
-
-title = "My plate"
-
-[units]                 # labels for what is printed; all numbers must be in these units
-length = "m"
-force  = "N"
-
-[plate]
-size      = [2.0, 1.0]  # or the grid lines: x = [0.0, 0.5, 2.0], y = [0.0, 1.0]
-elements  = [8, 4]      # node of grid point (i, j), both from 0: j * 9 + i + 1, so 45 nodes
-E         = 2.1e11      # E, nu and thickness; or D and nu
-nu        = 0.3
-thickness = 0.01
-
-# [[support]]           # permanent, and working both ways: w, and the slopes wx = dw/dx and wy = dw/dy
-# at  = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [2.0, 1.0]]  # grid points; or nodes = [1, 9, 37, 45]
-# fix = ["w"]
-
-[[bed]]                 # a one-sided spring under every node: the modulus times its share of the area
-modulus = 1.0e6         # force per area and deflection
-face    = 0.0
-
-[[contact]]             # one more pair: the stop
-at        = [2.0, 1.0]  # the far corner
-surface   = "above"
-face      = 0.001       # above the plate, so at least 0
-stiffness = 1.0e6
-
-[[step]]                # loads are totals at the end of the step, reached proportionally from those before
-name    = "weight"
-uniform = -770.0        # pressure: the plate's own weight
-
-[[step]]
-name    = "corner load"
-uniform = -770.0
-point   = [ { at = [0.0, 0.0], w = -4000.0 } ]  # a force at the near corner: the far one lifts off
-)";
-
-const char* problem_of(const std::string& shape) {
-  if (shape == "beam") return new_beam;
-  if (shape == "plate") return new_plate;
-  throw std::invalid_argument("SHAPE: found " + shape +
-                              did_you_mean(shape, std::vector<std::string>{"beam", "plate"}) +
-                              "; allowed: beam or plate");
+void list_recipes() {
+  print_text("contct new KIND writes a commented problem file to start from. The kinds are:\n");
+  for (const recipe& r : recipes()) print_text(fmt::format("  {:<12}{}\n", r.kind, r.what));
 }
 
 /// A name that is taken, if only by a link that leads nowhere, is never written to.
@@ -142,13 +99,25 @@ fs::path folder_of_prover(const fs::path& program) {
 
 }  // namespace
 
-/// A commented problem file to start from.
+/// A commented problem file to start from. The files that it names go beside it.
 exit_status run_command(const new_options& options) {
-  const char* const text = problem_of(options.shape);
-  const std::string file = options.file.empty() ? options.shape + ".toml" : options.file;
-  if (file != "-") refuse_taken(file);
-  write_file(file, text);
-  if (file != "-") print_text(fmt::format("{} is written; next: contct run {}\n", file, file));
+  if (options.kind.empty()) {
+    list_recipes();
+    return exit_status::bad_input;
+  }
+  const recipe wanted = recipe_of(options.kind);
+  const std::string file = options.file.empty() ? std::string(wanted.files[0].name) : options.file;
+  if (file == "-") {
+    write_file(file, wanted.files[0].text);
+    return exit_status::solved;
+  }
+  std::vector<std::string> places = {file};
+  for (const cookbook_file& f : std::span(wanted.files).subspan(1))
+    places.push_back((fs::path(file).parent_path() / f.name).string());
+  for (const std::string& place : places) refuse_taken(place);
+  for (std::size_t i = 0; i < places.size(); ++i) write_file(places[i], wanted.files[i].text);
+  print_text(fmt::format("{} {} written; next: contct run {}\n", joined(places, ", "),
+                         places.size() == 1 ? "is" : "are", file));
   return exit_status::solved;
 }
 

@@ -67,7 +67,8 @@ struct exact_options : problem_options {
 };
 
 struct new_options {
-  std::string shape, file;
+  std::string kind;  ///< empty: the kinds are listed
+  std::string file;
 };
 
 struct verify_options {

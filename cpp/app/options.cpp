@@ -23,6 +23,7 @@ struct example {
 constexpr example all_examples[] = {
     {"contct new beam beam.toml", "a commented problem to start from"},
     {"contct new plate plate.toml", "the same for a plate"},
+    {"contct new crane", "one of the jobs of the cookbook"},
     {"contct run beam.toml", "the path, FORTRAN and C++ in lockstep"},
     {"contct run beam.toml --json result.json --log unit26.txt",
      "all numbers, and what the listing writes to unit 26"},
@@ -87,6 +88,9 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
     return error + meant + advice;
   }
   std::string words = "a command is missing";
+  if (!unknown.empty() && unknown.front().ends_with(".toml"))
+    return fmt::format("\"{}\" is no command of contct; a problem file is run by: contct run {}{}",
+                       unknown.front(), unknown.front(), advice);
   if (!unknown.empty()) {
     const bool option = is_option(unknown.front());
     words =
@@ -268,10 +272,11 @@ void declare_exact(option_parser& p, CLI::App* c) {
 
 void declare_new(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<new_options>(c);
-  c->add_option("SHAPE", o.shape, "beam or plate")->required();
-  add_file(c, "FILE", o.file,
-           "The file to write; by default beam.toml or plate.toml. An existing file is not overwritten. - "
-           "is standard output");
+  c->add_option("KIND", o.kind, "What to start from, such as beam or crane; without it the kinds are listed");
+  add_file(
+      c, "FILE", o.file,
+      "The file to write; by default KIND.toml. Files that it names go beside it. An existing file is not "
+      "overwritten. - is standard output, for the problem file alone");
 }
 
 void declare_verify(option_parser& p, CLI::App* c) {

@@ -36,7 +36,7 @@ _contct() {
   if [[ $cur == -* || $help != *"Positionals:"* ]]; then
     _contct_words "$cur" "$words"
   elif [[ $command:$prev == new:new ]]; then
-    _contct_words "$cur" "beam plate"
+    _contct_words "$cur" "$("$program" new | sed -nE 's/^  ([a-z-]+) .*/\1/p')"
   else
     _contct_files "$cur"
   fi

@@ -112,6 +112,9 @@ TEST_CASE("a line that has no meaning is refused with what may have been meant")
                         "are: run, check, explain, "));
   CHECK_THAT(refusal({"--versoin"}),
              StartsWith("\"--versoin\" is no option of contct (did you mean \"--version\"?)"));
+  CHECK_THAT(refusal({"crane.toml"}),
+             StartsWith("\"crane.toml\" is no command of contct; a problem file is run "
+                        "by: contct run crane.toml\n"));
   CHECK_THAT(refusal({"walk"}), !Contains("did you mean"));
   CHECK_THAT(refusal({}), StartsWith("a command is missing; the commands are: "));
   CHECK_THAT(refusal({"run", "f", "--josn=x"}),

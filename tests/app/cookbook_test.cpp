@@ -1,0 +1,113 @@
+// reference/cookbook: every kind that `contct new` writes runs and is certified, and a number of each agrees
+// with the hand check that reference/cookbook.md shows.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+#include "nlohmann/json.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+/// The result of a kind's file, as it is written.
+json solved(const std::string& kind) {
+  const scratch_folder dir;
+  REQUIRE(contct_program(dir.path(), {"new", kind}).exit == 0);
+  const finished f = contct_program(
+      dir.path(), {"run", kind + ".toml", "--kernels", "corrected", "--strict", "--json", "out.json"});
+  INFO(f.out << f.err);
+  REQUIRE(f.exit == 0);
+  return json::parse(dir.read("out.json"));
+}
+
+/// What all pairs on this side press with.
+double force_of(const json& step, const std::string& surface) {
+  double sum = 0.0;
+  for (const json& pair : step["pairs"])
+    if (pair["surface"] == surface) sum += pair["force"].get<double>();
+  return sum;
+}
+
+/// (modulus / 4 EI)^(1/4), of Winkler's beam.
+double decay(double modulus, double EI) {
+  return std::pow(modulus / (4 * EI), 0.25);
+}
+
+}  // namespace
+
+TEST_CASE("contct new without a kind lists the kinds, which are the files of the cookbook, and ends with 2") {
+  const finished f = contct_program(".", {"new"});
+  CHECK(f.exit == 2);
+  int kinds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root / "reference/cookbook")) {
+    if (entry.path().extension() != ".toml") continue;
+    CHECK_THAT(f.out, Contains("\n  " + entry.path().stem().string() + " "));
+    ++kinds;
+  }
+  CHECK(std::count(f.out.begin(), f.out.end(), '\n') == kinds + 1);
+  CHECK(kinds == 9);
+}
+
+TEST_CASE("contct new writes the files that a problem names beside it, and overwrites none of them") {
+  const scratch_folder dir;
+  std::filesystem::create_directory(dir.path() / "own");
+  const finished f = contct_program(dir.path(), {"new", "matrix", "own/grillage.toml"});
+  CHECK_THAT(f.out,
+             Contains("own/grillage.toml, own/matrix.mtx, own/matrix.dof, own/matrix.xyz are written"));
+  CHECK(contct_program(dir.path(), {"check", "own/grillage.toml"}).exit == 0);
+  const finished again = contct_program(dir.path(), {"new", "matrix", "own/second.toml"});
+  CHECK(again.exit == 2);
+  CHECK_THAT(again.err, Contains("own/matrix.mtx, which exists already"));
+  CHECK_FALSE(std::filesystem::exists(dir.path() / "own/second.toml"));
+}
+
+TEST_CASE("crane: the column's reaction is that of moments about the left bearing once the bracket is left") {
+  const json step = solved("crane")["steps"][1];
+  CHECK(step["pairs"][0]["state"] == "separated");
+  CHECK(step["reactions"][1]["value"].get<double>() ==
+        Approx((1.17 * 12 * 6 + 75.0 * 2 + 75.0 * 4) / 6).epsilon(1e-9));
+}
+
+TEST_CASE("slab: under the axle the settlement is that of an infinite beam, beside that of the weight") {
+  const json step = solved("slab")["steps"][1];
+  const double w = 6.25 / 4e4 + 100 * decay(4e4, 4.3e4) / (2 * 4e4);
+  CHECK(step["w"][24].get<double>() == Approx(-w).epsilon(1e-3));
+}
+
+TEST_CASE("base-plate: the grout presses with the column's force and the bolts' together") {
+  const json step = solved("base-plate")["steps"][1];
+  const double of_bolts = force_of(step, "above");
+  CHECK(of_bolts > 50.0);
+  CHECK(force_of(step, "below") == Approx(80.0 + of_bolts).epsilon(1e-9));
+}
+
+TEST_CASE("racks: the last rack carries what a propped cantilever does whose clamp rises") {
+  const json step = solved("racks")["steps"][1];
+  CHECK(step["pairs"][0]["state"] == "separated");
+  const double force = 3 * 0.8 * 8 / 8 - 3 * 4772 * 0.015 / (8 * 8 * 8);
+  CHECK(step["pairs"][1]["force"].get<double>() == Approx(force).epsilon(1e-3));
+}
+
+TEST_CASE(
+    "rail: under the wheel the rail settles as an infinite beam does, but for the sleepers that leave") {
+  const json step = solved("rail")["steps"][1];
+  const double w = (0.6 + 112.5 * decay(5e4, 6380.0) / 2) / 5e4;
+  CHECK(step["w"][24].get<double>() == Approx(-w).epsilon(0.01));
+}
+
+TEST_CASE("bed: the pressed edge settles as that of a rigid footing beyond its kern") {
+  const json step = solved("bed")["steps"][1];
+  const double e = 240.0 / 300.0;
+  CHECK(step["w"][30].get<double>() == Approx(-2 * 300.0 / (3 * (1.5 - e)) / 5e4).epsilon(0.01));
+}
+
+TEST_CASE("matrix: a girder of the grillage bends as a simple beam where both are loaded alike") {
+  const json step = solved("matrix")["steps"][0];
+  CHECK(step["w"][6].get<double>() == Approx(-40.0 * 512 / (48 * 2.1e8 * 8.36e-5)).epsilon(1e-9));
+}
