@@ -1,6 +1,6 @@
 """Writes matrix.mtx, matrix.dof and matrix.xyz into the folder where it runs: what your program would hand to contct.
 
-A grillage of two girders along x and three cross beams along y. Dofs of a node: w, and the rotations x = dw/dy, y = -dw/dx.
+A grillage of two girders along x and three cross beams along y. Dofs of a node: z, and the rotations rx = dz/dy, ry = -dz/dx.
 """
 EI = {"x": 2.1e8 * 8.36e-5, "y": 2.1e8 * 1.943e-5}  # IPE 300 and IPE 200, kN m^2
 GJ = {"x": 8.1e7 * 2.01e-7, "y": 8.1e7 * 6.98e-8}
@@ -9,11 +9,11 @@ BEAMS = [(f"{g}{i}", f"{g}{i + 1}", "x") for g in "ab" for i in range(1, 5)] + [
 
 
 def element(first, second, along):
-    """{(dof, dof): stiffness}, from the bending of w and the slope along the beam, and the twist."""
+    """{(dof, dof): stiffness}, from the bending of z and the slope along the beam, and the twist."""
     h = abs(NODES[second][0] - NODES[first][0]) + abs(NODES[second][1] - NODES[first][1])
     k, sign = EI[along] / h**3, -1.0 if along == "x" else 1.0
-    slope, twist = ("y", "x") if along == "x" else ("x", "y")
-    bent = [(f"{first}.w", 1.0), (f"{first}.{slope}", sign), (f"{second}.w", 1.0), (f"{second}.{slope}", sign)]
+    slope, twist = ("ry", "rx") if along == "x" else ("rx", "ry")
+    bent = [(f"{first}.z", 1.0), (f"{first}.{slope}", sign), (f"{second}.z", 1.0), (f"{second}.{slope}", sign)]
     beam = [[12 * k, 6 * k * h, -12 * k, 6 * k * h], [6 * k * h, 4 * k * h * h, -6 * k * h, 2 * k * h * h],
             [-12 * k, -6 * k * h, 12 * k, -6 * k * h], [6 * k * h, 2 * k * h * h, -6 * k * h, 4 * k * h * h]]
     entries = {(p, q): s * t * beam[i][j] for i, (p, s) in enumerate(bent) for j, (q, t) in enumerate(bent)}
@@ -23,7 +23,7 @@ def element(first, second, along):
 
 
 def main():
-    labels = [f"{node}.{dof}" for node in NODES for dof in "wxy"]
+    labels = [f"{node}.{dof}" for node in NODES for dof in ("z", "rx", "ry")]
     place = {label: i + 1 for i, label in enumerate(labels)}
     total = {}
     for beam in BEAMS:
