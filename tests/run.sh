@@ -27,7 +27,7 @@ need_program
 need "to test" catch2 pkgconf python3 python3-jsonschema groff-base
 need "for quicker exact numbers" libgmp-dev || true  # without it a few tests have fewer problems
 need "to prove the kernels" python3-capstone python3-z3 || true  # those tests are skipped where they cannot be had
-need "to test contct.py" python3-pytest python3-numpy python3-matplotlib mypy || true  # those tests are skipped where they cannot be had
+need "to test contct.py" python3-pytest python3-numpy python3-scipy python3-matplotlib python3-getfem mypy || true  # those tests are skipped where they cannot be had
 
 # build NAME: configure and build the preset of that name, quietly unless it fails.
 build() {

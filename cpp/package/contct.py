@@ -28,6 +28,7 @@ import json
 import operator
 import os
 import re
+import tempfile
 import tomllib
 from decimal import Decimal
 from fractions import Fraction
@@ -204,12 +205,22 @@ class Result(Answer):
     certified: bool
     steps: list[Record]
 
-    def __init__(self, answer: dict[str, Any], again: Optional[tuple[_Source, dict[str, Any]]] = None) -> None:
-        """`again`: what `run` was asked; its pages and texts are made from it."""
+    def __init__(self, answer: dict[str, Any], again: Optional[tuple[_Source, dict[str, Any]]] = None,
+                 right: Union[None, _Source, Result] = None) -> None:
+        """`again`: what `run` was asked; its pages and texts are made from it. `right`: of `certify`, see `answer`."""
         super().__init__(answer)
-        self._again = again
+        self._again, self._right = again, right
         self._texts: dict[str, str] = {}
         self._drawable: Optional[Record] = None  # this result with its structure, where that is in another one
+
+    @property
+    def answer(self) -> Result:
+        """Of `certify`: the right answer, the equilibrium under each step's load, which is certified itself."""
+        if self._right is None:
+            raise InputError("found a result of contct.run; allowed: `answer` of what contct.certify returns")
+        if not isinstance(self._right, Result):
+            self._right = Result(_ask(_library.contct_run, self._right, {"final_only": True}))
+        return self._right
 
     page = _text_of("page", "The report as one HTML page, as `contct run --html` writes it")
     log = _text_of("log", "Unit 26 of the leading kernel (`--log`)")
@@ -641,26 +652,102 @@ def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: 
                                                          "increment": increment}))
 
 
-def certify(problem: Problem, displacement: Any, *, closed: Optional[Iterable[Iterable[int]]] = None,
-            folder: Folder = None, allow_outside: bool = False) -> Result:
+def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] = None, pairs: Iterable[Sequence[Any]] = (),
+            loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, folder: Folder = None,
+            allow_outside: bool = False) -> Result:
     """Bounds on the errors of states that another program, or a formula, gives.
 
+    problem       a problem as `run` takes it; or a stiffness matrix: a SciPy sparse matrix, or what else has `tocoo()`
     displacement  for each of the first steps the displacement of every dof, under the step's whole load: a list of states,
                   an array with a row for each, or one state. Beams have w, theta of node 1, then of node 2, ..; plates w,
-                  wx, wy; lengths and slopes, positive up
+                  wx, wy; lengths and slopes, positive up. With a matrix: one state, in the order of its rows
     closed        for each state the numbers of the pairs that are in contact, from 1. None: those whose faces it touches
-                  or enters
+                  or enters. With a matrix: one list
 
-    The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments.
+    With a matrix also, where a dof is a row of the matrix, from 0, or a label:
+    pairs         the one-sided springs: (dof, "below" or "above", face, stiffness)
+    loads         a vector, or a dict {dof: load}
+    supports      fixed dofs; or a dict {dof: stiffness of a spring, or None where it is fixed}. The matrix is that without
+                  them, or with them where it is positive definite
+    labels        a name for each dof, as messages and results have it. None: "0", "1", ..
+
+    The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments; its `answer` is the right one.
     """
+    if hasattr(problem, "tocoo"):
+        with tempfile.TemporaryDirectory() as files:
+            written = _matrix_problem(problem, pairs, loads, supports, labels, Path(files))
+            lists = None if closed is None else [list(closed)]
+            try:
+                found = certify(written, [displacement], closed=lists, folder=files)
+                _ = found.answer  # while the files are there
+                return found
+            except InputError as error:
+                raise InputError(error.message, error.file and Path(error.file).name, error.line, error.column) from None
+    if pairs or loads is not None or supports or labels is not None:
+        raise InputError("certify: found pairs, loads, supports or labels beside a problem, which has its own; allowed: these with a "
+                         "matrix")
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)
     states = [state.tolist() if hasattr(state, "tolist") else state for state in states]
     if not any(hasattr(state, "__iter__") for state in states):
         states = [states]
     options = {"displacement": [[_finite(x, i, j) for j, x in enumerate(state, 1)] for i, state in enumerate(states, 1)],
-               "closed": None if closed is None else [[operator.index(pair) for pair in pairs] for pairs in closed]}
-    return Result(_ask(_library.contct_certify, source, options))
+               "closed": None if closed is None else [[operator.index(pair) for pair in of_state] for of_state in closed]}
+    return Result(_ask(_library.contct_certify, source, options), right=source)
+
+
+def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
+    """The lower triangle, (row, column, value) from 0; entries of one place are summed up."""
+    entries: dict[tuple[int, int], float] = {}
+    coo = matrix.tocoo()
+    if coo.shape[0] != coo.shape[1]:
+        raise InputError(f"matrix: found {coo.shape[0]} rows and {coo.shape[1]} columns; allowed: a square matrix")
+    for row, column, value in zip(coo.row.tolist(), coo.col.tolist(), coo.data.tolist()):
+        entries[row, column] = entries.get((row, column), 0.0) + value
+    largest = max((abs(value) for value in entries.values()), default=0.0)
+    for (row, column), value in entries.items():
+        across = entries.get((column, row), 0.0)
+        if not abs(value - across) <= 1e-12 * largest:
+            raise InputError(f"matrix: found {value!r} in row {row}, column {column}, and {across!r} across the diagonal; allowed: a "
+                             "symmetric matrix of finite numbers")
+    return [(row, column, value) for (row, column), value in entries.items() if row >= column]
+
+
+def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, supports: Any, labels: Optional[Sequence[str]],
+                    folder: Path) -> dict[str, Any]:
+    """A problem whose files are in this folder."""
+    entries, size = _symmetric_entries(matrix), matrix.shape[0]
+    names = [str(name) for name in labels] if labels is not None else [str(row) for row in range(size)]
+    if len(names) != size:
+        raise InputError(f"labels: found {len(names)}; allowed: {size}, one for each dof")
+
+    def name_of(dof: Union[int, str], where: str) -> str:
+        if isinstance(dof, str):
+            return dof
+        if not 0 <= operator.index(dof) < size:
+            raise InputError(f"{where}: found dof {dof}; allowed: a row of the matrix, from 0 to {size - 1}, or a label")
+        return names[dof]
+
+    if not isinstance(loads, Mapping):
+        vector = [float(load) for load in (() if loads is None else loads)]
+        if len(vector) != size:
+            raise InputError(f"loads: found {_count(len(vector), 'number')}; allowed: {size}, one for each dof, or a dict")
+        loads = dict(enumerate(vector))
+    springs = supports if isinstance(supports, Mapping) else dict.fromkeys(supports)
+    lines = [f"{row + 1} {column + 1} {float(value)!r}" for row, column, value in entries]
+    heading = f"%%MatrixMarket matrix coordinate real symmetric\n{size} {size} {len(lines)}\n"
+    (folder / "matrix").write_text(heading + "\n".join(lines) + "\n")
+    (folder / "labels").write_text("\n".join(names) + "\n")
+    contacts = []
+    for number, pair in enumerate(pairs, 1):
+        if len(pair) != 4:
+            raise InputError(f"pairs: found {len(pair)} values in pair {number}; allowed: dof, surface, face, stiffness")
+        contacts.append(dict(zip(("dof", "surface", "face", "stiffness"), (name_of(pair[0], f"pair {number}"), *pair[1:]))))
+    held = [{"dof": name_of(dof, "supports"), ("fix" if spring is None else "spring"): True if spring is None else spring}
+            for dof, spring in springs.items()]
+    points = [{"dof": name_of(dof, "loads"), "value": value} for dof, value in loads.items()]
+    problem: dict[str, Any] = {"matrix": {"stiffness": "matrix", "dofs": "labels"}, "support": held, "contact": contacts, "step": [{"point": points}]}
+    return {key: value for key, value in problem.items() if value}
 
 
 def _finite(number: Any, state: int, dof: int) -> float:

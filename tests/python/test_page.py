@@ -1,4 +1,4 @@
-"""reference/python.md and the course's notebook: every example runs and prints what is shown."""
+"""reference/python.md and the notebooks: every example runs and prints what is shown."""
 import ast
 import contextlib
 import io
@@ -43,12 +43,15 @@ def test_every_example_prints_what_the_page_shows(folder):
     assert compared >= 50 and wild <= 1
 
 
-def test_the_notebooks_stored_outputs_are_what_its_cells_print():
+@pytest.mark.parametrize("notebook, needs, least", [("course/sweep", [], 7), ("certify", ["scipy", "getfem"], 5)])
+def test_the_stored_outputs_of_a_notebook_are_what_its_cells_print(notebook, needs, least):
+    for module in needs:
+        pytest.importorskip(module)
     names, compared = {"__name__": "__main__"}, 0
-    for cell in json.loads((ROOT / "reference/course/sweep.ipynb").read_text())["cells"]:
+    for cell in json.loads((ROOT / f"reference/{notebook}.ipynb").read_text())["cells"]:
         if cell["cell_type"] == "code":
             stored = [("".join(out.get("text", "")), "".join(out.get("data", {}).get("text/plain", ""))) for out in cell["outputs"]]
-            out, value = printed("".join(cell["source"]), names, "sweep.ipynb")
+            out, value = printed("".join(cell["source"]), names, notebook)
             assert ("".join(text for text, _ in stored), "".join(plain for _, plain in stored) or None) == (out, value)
             compared += len(stored)
-    assert compared >= 7
+    assert compared >= least

@@ -21,6 +21,9 @@ deflections: list[list[Fraction]] = [step.w for step in exact.steps]
 kind: str = contct.check(problem).kind
 winner: Any = contct.explain(problem, step=1, increment=1).increments[0].winner
 bounds: contct.Result = contct.certify(problem, [[0.0, 0.0]], closed=[[1]])
+stiffness: Any = None
+of_matrix: contct.Result = contct.certify(stiffness, [0.0], pairs=[(0, "below", 0.0, 1.0)], loads={0: -1.0}, supports=[1], labels=["u"])
+right: bool = of_matrix.answer.certified
 ss, smin, isep, text = contct.call("fortran", [0.0], [1.0], [0.5], [1], [1], [1])
 
 

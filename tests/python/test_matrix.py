@@ -1,0 +1,114 @@
+"""contct.certify of a stiffness matrix in memory: what is proved of displacements that another program gives."""
+import contct
+import pytest
+
+
+class Coo:
+    """What `tocoo` gives, without SciPy."""
+
+    def __init__(self, size, entries, columns=None):
+        self.shape = (size, columns or size)
+        self.row, self.col, self.data = (Column(part) for part in zip(*entries))
+
+    def tocoo(self):
+        return self
+
+
+class Column(list):
+    def tolist(self):
+        return list(self)
+
+
+# A chain of three springs of 1000 from a wall, entries of both triangles, one of them in two parts. A stop of 1000 is
+# 0.002 below its end. Under 3 the free end goes to -0.009; with the stop 1000 / 3 u + 1000 (u + 0.002) = -3 gives
+# u = -0.00375, and the stop presses with 1.75.
+CHAIN = Coo(3, [(0, 0, 1500.0), (0, 0, 500.0), (0, 1, -1000.0), (1, 0, -1000.0), (1, 1, 2000.0), (1, 2, -1000.0),
+                (2, 1, -1000.0), (2, 2, 1000.0)])
+STOP = [(2, "below", -0.002, 1000.0)]
+LOADS = [0.0, 0.0, -3.0]
+RIGHT = [-0.00125, -0.0025, -0.00375]
+
+
+def test_the_right_state_of_a_matrix_is_certified():
+    found = contct.certify(CHAIN, RIGHT, pairs=STOP, loads=LOADS)
+    assert found.certified and found.exit == 0 and found.messages == []
+    assert found.steps[0].error.w < 1e-15
+    assert found.steps[0].pairs[0].state == "contact" and found.steps[0].pairs[0].force == pytest.approx(1.75, rel=1e-12)
+
+
+def test_a_state_that_passes_its_stop_is_not_certified_and_the_answer_is_the_right_one():
+    found = contct.certify(CHAIN, [-0.003, -0.006, -0.009], pairs=STOP, loads=LOADS, closed=[])
+    assert not found.certified and found.exit == 3
+    assert found.steps[0].certificate.penetration == pytest.approx(0.007 / 0.009, rel=1e-9)
+    assert found.steps[0].error.w >= 0.00525  # what the free end is off by
+    assert found.answer.certified and list(found.answer.steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
+
+
+def test_a_pair_that_the_other_program_glued_pulls():
+    up = [0.0, 0.0, 3.0]
+    glued = [0.00025, 0.0005, 0.00075]  # 1000 / 3 u + 1000 (u + 0.002) = 3
+    found = contct.certify(CHAIN, glued, pairs=STOP, loads=up, closed=[1])
+    assert not found.certified and "pair 1 (dof 2, below) pulls with 2.75" in found.messages[0]
+    assert found.answer.steps[0].displacement[2] == pytest.approx(0.009, rel=1e-12)
+
+
+def test_an_error_is_bounded_closely():
+    off = [u * (1 + 1e-9) for u in RIGHT]
+    found = contct.certify(CHAIN, off, pairs=STOP, loads=LOADS)
+    assert found.certified and 3.75e-12 <= found.steps[0].error.w <= 3.75e-11
+
+
+def test_dofs_are_rows_from_0_or_labels():
+    by_label = contct.certify(CHAIN, RIGHT, pairs=[("c", "below", -0.002, 1000.0)], loads={"c": -3.0}, labels=["a", "b", "c"])
+    assert by_label.certified and by_label.steps[0].pairs[0].dof == "c"
+    assert contct.certify(CHAIN, RIGHT, pairs=STOP, loads={2: -3.0}).certified
+
+
+def test_supports_are_fixed_or_springs():
+    # Without its wall the chain moves freely; a spring of 1000 at the first dof is the wall.
+    free = Coo(3, [(0, 0, 1000.0), (0, 1, -1000.0), (1, 0, -1000.0), (1, 1, 2000.0), (1, 2, -1000.0), (2, 1, -1000.0), (2, 2, 1000.0)])
+    assert contct.certify(free, RIGHT, pairs=STOP, loads=LOADS, supports={0: 1000.0}).certified
+    # Fixed: 500 u + 1000 (u + 0.002) = -3.
+    u = -5 / 1500
+    assert contct.certify(free, [0.0, u / 2, u], pairs=STOP, loads=LOADS, supports=[0]).certified
+
+
+@pytest.mark.parametrize("wrong, words", [
+    ({"pairs": [(3, "below", 0.0, 1.0)]}, "pair 1: found dof 3; allowed: a row of the matrix, from 0 to 2, or a label"),
+    ({"pairs": [(2, "below", 0.0)]}, "pairs: found 3 values in pair 1; allowed: dof, surface, face, stiffness"),
+    ({"pairs": [(2, "beside", 0.0, 1.0)]}, 'contact[1].surface: found "beside"; allowed: "below" or "above"'),
+    ({"pairs": [("x", "below", 0.0, 1.0)]}, 'contact[1].dof: found "x"'),
+    ({"loads": [1.0]}, "loads: found 1 number; allowed: 3, one for each dof, or a dict"),
+    ({"loads": None}, "loads: found 0 numbers; allowed: 3"),
+    ({"labels": ["a"]}, "labels: found 1; allowed: 3, one for each dof"),
+    ({"supports": [-1]}, "supports: found dof -1"),
+    ({"closed": [2]}, "closed: found 2; allowed: pairs from 1 to 1"),
+])
+def test_what_is_wrong_beside_a_matrix_is_refused(wrong, words):
+    with pytest.raises(contct.InputError) as refused:
+        contct.certify(CHAIN, RIGHT, **{"pairs": STOP, "loads": LOADS, **wrong})
+    assert words in str(refused.value)
+
+
+@pytest.mark.parametrize("matrix, words", [
+    (Coo(2, [(0, 0, 1.0), (1, 0, -1.0), (1, 1, 1.0)]), "matrix: found -1.0 in row 1, column 0, and 0.0 across the diagonal; allowed: a symm"),
+    (Coo(2, [(0, 0, float("nan")), (1, 1, 1.0)]), "allowed: a symmetric matrix of finite numbers"),
+    (Coo(2, [(0, 0, 1.0)], columns=3), "matrix: found 2 rows and 3 columns; allowed: a square matrix"),
+    (Coo(2, [(0, 0, -1.0), (1, 1, 1.0)]), "a stiffness matrix is positive semidefinite"),
+])
+def test_a_matrix_that_is_no_stiffness_is_refused(matrix, words):
+    with pytest.raises(contct.InputError) as refused:
+        contct.certify(matrix, [0.0, 0.0], pairs=[(0, "below", 0.0, 1.0)], loads=[0.0, -1.0])
+    assert words in str(refused.value) and "/" not in str(refused.value)
+
+
+def test_what_belongs_to_a_matrix_is_refused_beside_a_problem(beam):
+    with pytest.raises(contct.InputError, match="beside a problem, which has its own"):
+        contct.certify(beam, [0.0] * 6, loads=[0.0] * 6)
+
+
+def test_any_state_that_is_given_has_its_answer_and_a_run_has_none(beam):
+    found = contct.certify(beam, [0.0] * 6)
+    assert found.answer.certified and found.answer.steps[0].w[2] == pytest.approx(-10 * 8 / 3e4, rel=1e-12)
+    with pytest.raises(contct.InputError, match="contct.certify"):
+        contct.run(beam).answer
