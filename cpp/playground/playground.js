@@ -114,7 +114,7 @@ function handle(attributes, words, begin) {
   made.addEventListener("pointerdown", (event) => {
     event.preventDefault();
     dragging = { to: begin(), x: event.clientX, y: event.clientY };
-    held = { times: scene.times, size: scene.size, most: scene.most, box: scene.box };
+    held = { times: scene.times };
   });
   made.addEventListener("keydown", (event) => {
     const step = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];

@@ -177,7 +177,8 @@ def center(script):
     return value(f"(() => {{ const b = ({script}).getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})()")
 
 
-def drag(script, dx, dy, steps=6):
+def drag(script, dx, dy, steps=6, before_release=None):
+    """Gives what `before_release` is worth while the button is still held."""
     value(f"({script}).scrollIntoView({{block: 'center'}})")
     x, y = center(script)
     mouse = lambda kind, x, y: browser.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1, clickCount=1)
@@ -185,7 +186,9 @@ def drag(script, dx, dy, steps=6):
     for i in range(1, steps + 1):
         mouse("mouseMoved", x + dx * i / steps, y + dy * i / steps)
         value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    seen = value(before_release) if before_release else None
     mouse("mouseReleased", x + dx, y + dy)
+    return seen
 
 
 def number(key):
@@ -226,6 +229,9 @@ def dragging():
     check(text().count("\n") == pathlib.Path(PB07).read_text().count("\n"),
           "nothing else of the text changes")
     check("NOT equal" not in value("document.getElementById('verdict').textContent"), "both kernels are compared while dragged")
+    shown = ("(() => { const box = document.querySelector('#picture svg').getBoundingClientRect();"
+             " return [...document.querySelectorAll('#picture .face-line')].every(l => l.getBoundingClientRect().bottom < box.bottom && l.getBoundingClientRect().top > box.top); })()")
+    check(drag(handle("face of pair 2"), 0, 200, before_release=shown), "a face that is dragged far stays in the picture")
     uniform = number("step[4].uniform")
     drag(handle("uniform load"), 0, 40)
     check(number("step[4].uniform") < uniform, "a load that is pulled down is larger")

@@ -525,14 +525,14 @@ const movedTo = (f, i, times) => scene.at[i].map((x, axis) => x + (scene.along[i
 const faceAt = (p, times) => scene.at[p.at].map((x, axis) => x + (axis === p.direction - 1 ? times * p.face : 0));
 
 // How many times as large displacements are drawn, and the room that the structure takes in all states: the same in all of
-// them. Faces that are much farther away than the structure moves have no room.
-function frameScene() {
+// them. Faces that are much farther away than the structure moves have no room. While something is dragged the enlargement `kept` stays.
+function frameScene(kept) {
   const was = scene.drawn.map((i) => projected(scene.at[i]));
   const size = Math.max(...[0, 1].map((k) => { const [low, high] = spread(was.map((at) => at[k])); return high - low; }));
   const reach = largest((f) => scene.drawn.map((i) => Math.hypot(...scene.along[i].map((u) => (u < 0 ? 0 : f.u[u])))));
-  const near = places.pairs.filter((p) => p.at >= 0 && p.direction >= 1 && p.direction <= 3 && (reach === 0 || Math.abs(p.face) <= 2.5 * reach));
+  const near = places.pairs.filter((p) => p.at >= 0 && p.direction >= 1 && p.direction <= 3 && (reach === 0 || Math.abs(p.face) <= (kept ? 6 : 2.5) * reach));
   const most = near.reduce((far, p) => Math.max(far, Math.abs(p.face)), reach);
-  const times = magnificationFor(most, (isBeam() ? 0.21 : 0.13) * size);
+  const times = kept ?? magnificationFor(most, (isBeam() ? 0.21 : 0.13) * size);
   const box = [Infinity, -Infinity, Infinity, -Infinity];
   const take = ([x, y]) => [Math.min(box[0], x), Math.max(box[1], x), Math.min(box[2], y), Math.max(box[3], y)].forEach((v, k) => { box[k] = v; });
   was.forEach(take);
@@ -651,5 +651,5 @@ function preparePicture() {
   field = fields.find((f) => field && f.name === field.name) || fields[0];
   scene = structure.nodes.length > 0 ? sceneOf() : null;
   view = scene ? fittingView() : 0;
-  if (scene) Object.assign(scene, held || frameScene());
+  if (scene) Object.assign(scene, frameScene(held?.times));
 }
