@@ -41,9 +41,15 @@ std::string bed_words(const problem& p, const bed& b) {
 }
 
 std::string step_words(const load& l) {
-  const std::vector<std::pair<std::size_t, const char*>> parts = {{l.distributed.size(), "distributed load"},
-                                                                  {l.points.size(), "point load"},
-                                                                  {l.settlements.size(), "settlement"}};
+  const auto placed = [&l](std::initializer_list<load_kind> kinds) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        l.placed, [&](const placed_load& p) { return std::ranges::find(kinds, p.what) != kinds.end(); }));
+  };
+  const std::vector<std::pair<std::size_t, const char*>> parts = {
+      {l.distributed.size() + placed({load_kind::force}), "distributed load"},
+      {l.points.size() + placed({load_kind::point, load_kind::moment}), "point load"},
+      {placed({load_kind::curvature}), "imposed curvature"},
+      {l.settlements.size(), "settlement"}};
   std::vector<std::string> words;
   if (!l.name.empty()) words.push_back(in_quotes(l.name));
   for (const auto& [count, what] : parts)

@@ -31,6 +31,22 @@ TEST_CASE("an event's load is told in the words of the problem file") {
   CHECK(load_path(passes).words_at(2, 6.0 / 7 + 1e-12, 24) != "w 0 at node 3");
 }
 
+TEST_CASE("a load that need not follow the mesh is told with its place") {
+  const auto words = [](load_kind what, double from, double to, model m = beam{{0, 4}, {1.0}}) {
+    problem p;
+    p.geometry = std::move(m);
+    p.steps.resize(1);
+    p.steps[0].placed = {{what, from, to, {-5}, {0.25, 0.75}}};
+    return load_path(p).words_at(1, 0.5, 60);
+  };
+  CHECK(words(load_kind::force, 1, 2.5) == "uniform -2.5 from 1 to 2.5");
+  CHECK(words(load_kind::curvature, 0, 3) == "curvature -2.5 from 0 to 3");
+  CHECK(words(load_kind::point, 3.3, 3.3) == "w -2.5 at x = 3.3");
+  CHECK(words(load_kind::moment, 3.3, 3.3) == "theta -2.5 at x = 3.3");
+  CHECK(words(load_kind::force, 0.5, 1, plate{{0, 1}, {0, 1}, 1.0, 0.3}) ==
+        "uniform -2.5 from (0.5, 0.25) to (1, 0.75)");
+}
+
 TEST_CASE("a plate's loads are told in its own words") {
   const problem p = parse_problem(good_plate, "pb.toml");
   CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");

@@ -53,8 +53,19 @@ double off_extremes(const std::vector<double>& p, const value_range& printed, do
   return beyond + std::abs(polynomial_at(p, 1.0) - right_end) + close;
 }
 
+/// The deflection in the middle of an element of length h.
+double middle_of(const std::vector<element_line>& pieces, double h) {
+  double left = h / 2;
+  for (const element_line& line : pieces) {
+    if (left <= line.h) return polynomial_at(line.w, left / line.h);
+    left -= line.h;
+  }
+  return polynomial_at(pieces.back().w, 1.0);
+}
+
 /// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
 /// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
+/// So it is where loads break an element into pieces, too: the loads are those of the equilibrium.
 void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
   const std::vector<value_range> printed =
       ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
@@ -62,20 +73,27 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
   by_quantity& error = bounds.error;
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {
-    const element_line line = lines.at(e);
+    const std::vector<element_line> pieces = lines.pieces(e);
+    const element_line& last = pieces.back();
+    double h = 0.0;
+    for (const element_line& line : pieces) h += line.h;
     const std::size_t right = 2 * e + 2;
-    const double slope = std::abs(polynomial_at(line.slope, 1.0) - state.displacement[right + 1]);
-    const double of_slope = line.h / 4 * (error[quantity::slope].value_or(0.0) + slope);
+    const double slope = std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
+    const double of_slope = h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.
-    const double of_load = 0x1p-80 * line.load_size * line.h;
-    bounds.size.take(quantity::w, std::abs(polynomial_at(line.w, 0.5)));
-    if (line.load_size != 0.0) {  // otherwise both are largest at the ends
-      inside.take(quantity::shear, of_load + off_extremes(line.shear, printed[2], lines.ends().at(e, 0)[1]));
-      inside.take(quantity::moment,
-                  of_load * line.h + off_extremes(line.moment, printed[1], lines.ends().at(e, 1)[1]));
+    const double of_load = 0x1p-80 * last.load_size * h;
+    bounds.size.take(quantity::w, std::abs(middle_of(pieces, h)));
+    for (const element_line& line : pieces) {
+      const auto off = [&](const std::vector<double>& p, std::size_t name, double right_end) {
+        return off_extremes(p, printed[name], &line == &last ? right_end : polynomial_at(p, 1.0));
+      };
+      if (line.load_size != 0.0) {  // otherwise both are largest at the ends
+        inside.take(quantity::shear, of_load + off(line.shear, 2, lines.ends().at(e, 0)[1]));
+        inside.take(quantity::moment, of_load * h + off(line.moment, 1, lines.ends().at(e, 1)[1]));
+      }
+      inside.take(quantity::w,
+                  of_load * h * h * h / b.EI[e] + of_slope + off(line.w, 0, state.displacement[right]));
     }
-    inside.take(quantity::w, of_load * line.h * line.h * line.h / b.EI[e] + of_slope +
-                                 off_extremes(line.w, printed[0], state.displacement[right]));
   }
   for (const quantity q : {quantity::w, quantity::moment, quantity::shear})
     if (error[q]) error.take(q, *error[q] + inside[q].value_or(0.0));

@@ -297,4 +297,35 @@ std::array<Number, 12> plate_unit_load(const Number& a, const Number& b) {
   return f;
 }
 
+/// The integrals of 2 + 3 u - u^3, 1 + u, u^3 - u and u^3 + u^2 - u - 1, of which the shape functions are
+/// products, with u = xi xi_k, over xi from `from` to `to`.
+template <class Number>
+std::array<Number, 4> shape_integrals(int xi_k, const Number& from, const Number& to) {
+  std::array<Number, 5> power{};  // of u^(n - 1)
+  Number low(1);
+  Number high(1);
+  for (int n = 1; n < 5; ++n) {
+    low = low * from * xi_k;
+    high = high * to * xi_k;
+    power[n] = (high - low) * xi_k / n;
+  }
+  return {2 * power[1] + 3 * power[2] - power[4], power[1] + power[2], power[4] - power[2],
+          power[4] + power[3] - power[2] - power[1]};
+}
+
+/// Work of a unit pressure on the part from xi[0] to xi[1] and eta[0] to eta[1], each between -1 and 1.
+template <class Number>
+std::array<Number, 12> plate_unit_load_on(const Number& a, const Number& b, const std::array<Number, 2>& xi,
+                                          const std::array<Number, 2>& eta) {
+  std::array<Number, 12> f{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto u = shape_integrals(corners[k].xi, xi[0], xi[1]);
+    const auto v = shape_integrals(corners[k].eta, eta[0], eta[1]);
+    f[3 * k] = a * b * (u[0] * v[1] - u[1] * v[2]) / 8;
+    f[3 * k + 1] = corners[k].xi * a * a * b * u[3] * v[1] / 8;
+    f[3 * k + 2] = corners[k].eta * b * b * a * u[1] * v[3] / 8;
+  }
+  return f;
+}
+
 }  // namespace contct::formulas

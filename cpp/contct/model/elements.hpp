@@ -10,6 +10,7 @@
 
 #include "contct/model/element_formulas.hpp"
 #include "contct/model/line.hpp"
+#include "contct/model/placed_loads.hpp"
 
 namespace contct {
 
@@ -42,9 +43,18 @@ class beam_elements {
     return formulas::beam_stiffness(EI(e), h_[e]);
   }
 
-  /// Call visit(element, work) for every load on every element.
+  /// Call visit(element, work) for every load on every element; where some need not follow the mesh, for all
+  /// the loads on an element together.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
+    if (!l.placed.empty()) {
+      for_each_exact_work<Number>(beam_, l, [&](int e, const std::array<Number, 4>& force) {
+        element_work<Number, 4> work{dofs_of(e), force, {}};
+        for (std::size_t i = 0; i < 4; ++i) work.size[i] = size_of(force[i]);
+        visit(e, work);
+      });
+      return;
+    }
     if constexpr (std::is_same_v<Number, double>) {
       for_each_loaded_element(l, count(), [&](int e, std::span<const double> polynomial) {
         const auto force = formulas::beam_load_between(polynomial, beam_.x[e], h_[e]);
@@ -146,14 +156,10 @@ class plate_elements {
     return formulas::plate_unit_load(own.a, own.b);
   }
 
-  /// The pressure on an element, and the magnitudes that it is the sum of.
-  struct summed_pressure {
-    Number value{};
-    double size = 0.0;
-  };
   /// On every element: all the distributed loads together.
-  [[nodiscard]] std::vector<summed_pressure> pressures(const load& l) const {
-    std::vector<summed_pressure> sums(count());
+  [[nodiscard]] std::vector<summed_pressure<Number>> pressures(const load& l) const {
+    if (!l.placed.empty()) return exact_pressures<Number>(plate_, l);
+    std::vector<summed_pressure<Number>> sums(count());
     for (const distributed_load& d : l.distributed) {
       const std::vector<Number> q = coefficients_of<Number>(d);
       if (q.size() != 1) throw std::invalid_argument("the pressure on a plate's element is constant");
@@ -168,17 +174,9 @@ class plate_elements {
   /// Call visit(element, work) for every element, with all the loads on it together.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
-    if (l.distributed.empty()) return;
-    const std::vector<summed_pressure> pressure = pressures(l);
-    for (int e = 0; e < count(); ++e) {
-      const vector unit = unit_pressure_on(e);
-      element_work<Number, 12> work{dofs_of(e), {}, {}};
-      for (std::size_t i = 0; i < 12; ++i) {
-        work.force[i] = pressure[e].value * unit[i];
-        work.size[i] = pressure[e].size * size_of(unit[i]);
-      }
-      visit(e, work);
-    }
+    if (l.distributed.empty() && l.placed.empty()) return;
+    const std::vector<summed_pressure<Number>> pressure = pressures(l);
+    for (int e = 0; e < count(); ++e) visit(e, work_on(e, pressure[e]));
   }
 
   [[nodiscard]] vector displacement(int e, std::span<const Number> u) const {
@@ -220,14 +218,13 @@ class plate_elements {
 
   /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
-    const std::vector<summed_pressure> pressure = pressures(l);
+    const std::vector<summed_pressure<Number>> pressure = pressures(l);
     for (int e = 0; e < count(); ++e) {
-      const std::array<int, 12> dofs = dofs_of(e);
       const vector held = forces(e, u);
-      const vector unit = unit_pressure_on(e);
+      const element_work<Number, 12> work = work_on(e, pressure[e]);
       for (std::size_t i = 0; i < 12; ++i) {
-        need[dofs[i]] += held[i];
-        need[dofs[i]] -= pressure[e].value * unit[i];
+        need[work.dofs[i]] += held[i];
+        need[work.dofs[i]] -= work.force[i];
       }
     }
   }
@@ -243,6 +240,16 @@ class plate_elements {
   }
 
  private:
+  [[nodiscard]] element_work<Number, 12> work_on(int e, const summed_pressure<Number>& pressure) const {
+    const vector unit = unit_pressure_on(e);
+    element_work<Number, 12> work{dofs_of(e), {}, {}};
+    for (std::size_t i = 0; i < 12; ++i) {
+      work.force[i] = pressure.on_parts ? (*pressure.on_parts)[i] : pressure.value * unit[i];
+      work.size[i] = pressure.on_parts ? size_of(work.force[i]) : pressure.size * size_of(unit[i]);
+    }
+    return work;
+  }
+
   const plate& plate_;
   std::vector<Number> width_, height_;  // of columns and rows of elements
   Number D_, nu_;

@@ -57,16 +57,22 @@ class extremes {
     if (v.value > most_.shown.value) most_.follow(v, from);
   }
 
-  /// The line of a beam's element. Its ends, by `left_value` and `right_value`, are not computed from the
-  /// polynomial.
-  void take_element(const element_line& line, int e, const poly& p, double left_value, double right_value) {
-    take({left_value, line.left, 0.0, e}, line.left);
-    take({right_value, line.left + line.h, 0.0, e + 1}, line.left);
-    const poly hull = bernstein_of(p);
-    const auto [least, most] = std::ranges::minmax(hull);
-    if (least >= least_.shown.value && most <= most_.shown.value) return;
-    for (const double t : zeros_of(derivative(p)))
-      take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
+  /// Quantity `of` along element `e` of a beam. Its ends, by `left_value` and `right_value`, are not computed
+  /// from the polynomials.
+  void take_element(const std::vector<element_line>& pieces, int e, poly element_line::*of, double left_value,
+                    double right_value) {
+    for (const element_line& line : pieces) {
+      const poly& p = line.*of;
+      const bool first = &line == &pieces.front();
+      const bool last = &line == &pieces.back();
+      take({first ? left_value : p.front(), line.left, 0.0, first ? e : -1}, line.left);
+      take({last ? right_value : polynomial_at(p, 1.0), line.right, 0.0, last ? e + 1 : -1}, line.left);
+      const poly hull = bernstein_of(p);
+      const auto [least, most] = std::ranges::minmax(hull);
+      if (least >= least_.shown.value && most <= most_.shown.value) continue;
+      for (const double t : zeros_of(derivative(p)))
+        take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
+    }
   }
 
   [[nodiscard]] value_range range() const { return {name_, least_.shown, most_.shown}; }
@@ -103,12 +109,12 @@ std::vector<value_range> ranges(const beam& b, const load& l, std::span<const do
   extremes moment("moment", start(first.moment.front()));
   extremes shear("shear", start(first.shear.front()));
   for (int e = 0; e < b.elements(); ++e) {
-    const element_line line = lines.at(e);
+    const std::vector<element_line> pieces = lines.pieces(e);
     const auto shears = lines.ends().at(e, 0);
     const auto moments = lines.ends().at(e, 1);
-    w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
-    moment.take_element(line, e, line.moment, moments[0], moments[1]);
-    shear.take_element(line, e, line.shear, shears[0], shears[1]);
+    w.take_element(pieces, e, &element_line::w, w_at(u, e), w_at(u, e + 1));
+    moment.take_element(pieces, e, &element_line::moment, moments[0], moments[1]);
+    shear.take_element(pieces, e, &element_line::shear, shears[0], shears[1]);
   }
   return {w.range(), moment.range(), shear.range()};
 }
@@ -160,10 +166,8 @@ std::vector<double> bernstein_of(std::span<const double> p) {
 value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
                                 int last) {
   extremes w("w", {w_at(u, first), b.x[first], 0.0, first});
-  for (int e = first; e < last; ++e) {
-    const element_line line = lines.at(e);
-    w.take_element(line, e, line.w, w_at(u, e), w_at(u, e + 1));
-  }
+  for (int e = first; e < last; ++e)
+    w.take_element(lines.pieces(e), e, &element_line::w, w_at(u, e), w_at(u, e + 1));
   return w.range();
 }
 
@@ -172,6 +176,16 @@ beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
     : beam_(b), u_(u), ends_(results_in_elements(model{b}, l, u)), loads_(b.elements()) {
   if (!element_values.empty()) ends_.values.assign(element_values.begin(), element_values.end());
   for (const auto& h : line<double_double>(b.x, b.runs).lengths()) h_.push_back(h.hi);
+  if (!l.placed.empty()) {
+    for (auto& [e, pieces] : pieces_of(b, l)) {
+      if (pieces.size() == 1 && pieces[0].is_plain()) {
+        loads_[e] = {std::move(pieces[0].q), pieces[0].size};
+      } else {
+        pieces_.emplace(e, std::move(pieces));
+      }
+    }
+    return;
+  }
   for_each_polynomial<double_double>(b, l, [&](int e, const auto& on) {
     auto& sum = loads_[e];
     sum.q.resize(std::max(sum.q.size(), on.q.size()));
@@ -180,31 +194,103 @@ beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
   });
 }
 
+namespace {
+
+/// What is known at the left end of an element or a piece of one.
+template <class Number>
+struct line_start {
+  Number w, slope, moment, shear;
+};
+
+template <class Number>
+struct line_of {
+  std::vector<Number> w, moment, shear;
+
+  /// Under the load q(t) and an imposed curvature.
+  line_of(const line_start<Number>& left, const std::vector<Number>& q, const Number& h, const Number& EI,
+          const Number& curvature)
+      : w(q.size() + 4), moment(q.size() + 2), shear(q.size() + 1) {
+    shear[0] = left.shear;
+    moment[0] = left.moment;
+    moment[1] = left.shear * h;
+    for (std::size_t j = 0; j < q.size(); ++j) {  // dV/dx = q, dM/dx = V
+      const auto n = static_cast<double>(j);
+      shear[j + 1] = q[j] * h / (n + 1);
+      moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
+    }
+    w[0] = left.w;
+    w[1] = left.slope * h;
+    for (std::size_t i = 0; i < moment.size(); ++i) {  // EI (w'' - curvature) = M
+      const auto n = static_cast<double>(i);
+      w[i + 2] = moment[i] * h * h / EI / (n + 1) / (n + 2);
+    }
+    w[2] += curvature * h * h / 2;
+  }
+
+  [[nodiscard]] line_start<Number> right_end(const Number& h) const {
+    line_start<Number> end{};
+    for (const Number& c : w) end.w += c;
+    for (std::size_t i = 1; i < w.size(); ++i) end.slope += w[i] * static_cast<double>(i) / h;
+    for (const Number& c : moment) end.moment += c;
+    for (const Number& c : shear) end.shear += c;
+    return end;
+  }
+};
+
+/// With the slope, dw/dx.
+element_line completed(element_line line) {
+  for (const double d : derivative(line.w)) line.slope.push_back(d / line.h);
+  return line;
+}
+
+poly in_doubles(const std::vector<double_double>& p) {
+  poly rounded;
+  for (const double_double& c : p) rounded.push_back(c.hi);
+  return rounded;
+}
+
+double sum_of_sizes(const poly& p) {
+  double sum = 0.0;
+  for (const double x : p) sum += std::abs(x);
+  return sum;
+}
+
+}  // namespace
+
 element_line beam_lines::at(int e) const {
   const double h = h_[e];
-  const double EI = beam_.EI[e];
-  poly q;
-  for (const double_double& of_power : loads_[e].q) q.push_back(of_power.hi);
-  const std::size_t size = q.size();
-  element_line line{beam_.x[e], h, poly(size + 4), {}, {}, {}, q, loads_[e].size};
-  line.shear.assign(size + 1, 0.0);
-  line.moment.assign(size + 2, 0.0);
-  line.shear[0] = ends_.at(e, 0)[0];
-  line.moment[0] = ends_.at(e, 1)[0];
-  line.moment[1] = line.shear[0] * h;
-  for (std::size_t j = 0; j < size; ++j) {  // dV/dx = q, dM/dx = V
-    const auto n = static_cast<double>(j);
-    line.shear[j + 1] = q[j] * h / (n + 1);
-    line.moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
+  const poly q = in_doubles(loads_[e].q);
+  const line_of<double> line({w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]}, q, h,
+                             beam_.EI[e], 0.0);
+  return completed({beam_.x[e], h, beam_.x[e] + h, line.w, {}, line.moment, line.shear, q, loads_[e].size});
+}
+
+/// From the left in 32 digits: each coefficient is then rounded once. What that is off by is below 2^-80 of
+/// the loads and the largest shear and moment, which load_size has.
+std::vector<element_line> beam_lines::pieces(int e) const {
+  const auto broken = pieces_.find(e);
+  if (broken == pieces_.end()) return {at(e)};
+  line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
+  std::vector<element_line> all;
+  double size = 0.0;
+  for (const element_piece& p : broken->second) {
+    left.shear += p.force;
+    left.moment -= p.moment;  // of a moment that works on the slope
+    const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);
+    all.push_back(completed({p.left,
+                             p.h.hi,
+                             p.right,
+                             in_doubles(line.w),
+                             {},
+                             in_doubles(line.moment),
+                             in_doubles(line.shear),
+                             in_doubles(p.q)}));
+    const double h = h_[e];
+    size += p.size + sum_of_sizes(all.back().shear) / h + sum_of_sizes(all.back().moment) / (h * h);
+    left = line.right_end(p.h);
   }
-  line.w[0] = w_at(u_, e);
-  line.w[1] = u_[2 * e + 1] * h;
-  for (std::size_t i = 0; i < line.moment.size(); ++i) {  // EI w'' = M
-    const auto n = static_cast<double>(i);
-    line.w[i + 2] = line.moment[i] * h * h / EI / (n + 1) / (n + 2);
-  }
-  for (double d : derivative(line.w)) line.slope.push_back(d / h);
-  return line;
+  for (element_line& line : all) line.load_size = size;
+  return all;
 }
 
 std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,

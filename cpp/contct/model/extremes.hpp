@@ -2,19 +2,22 @@
 // quantity is largest and smallest.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "contct/model/element_formulas.hpp"
+#include "contct/model/placed_loads.hpp"
 #include "contct/model/problem.hpp"
 
 namespace contct {
 
-/// An element of a beam, exactly: the solution of EI w_xxxx = q with the displacements of its nodes. Each
-/// quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see polynomial_at).
+/// An element of a beam, or a piece of one, exactly: the solution of EI w_xxxx = q with the displacements of
+/// its nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see
+/// polynomial_at).
 struct element_line {
-  double left = 0.0, h = 0.0;
+  double left = 0.0, h = 0.0, right = 0.0;
   std::vector<double> w, slope, moment, shear, load;
   double load_size = 0.0;  ///< see load_on_element
 };
@@ -27,8 +30,11 @@ class beam_lines {
   beam_lines(const beam& b, const load& l, std::span<const double> u,
              std::span<const double> element_values = {});
 
-  /// Element `e`, from 0.
+  /// Element `e`, from 0, from its left end as if no load began, ended or stood inside.
   [[nodiscard]] element_line at(int e) const;
+  /// The pieces of element `e` between the places where loads begin, end or stand: itself where there are
+  /// none. A load at a place makes the shear or the moment jump there.
+  [[nodiscard]] std::vector<element_line> pieces(int e) const;
   /// Shear and moment at the ends of the elements.
   [[nodiscard]] const element_results& ends() const { return ends_; }
 
@@ -38,6 +44,7 @@ class beam_lines {
   element_results ends_;
   std::vector<double> h_;                              // of each element
   std::vector<load_on_element<double_double>> loads_;  // likewise; without coefficients: none
+  std::map<int, std::vector<element_piece>> pieces_;   // of those that loads break, or curve
 };
 
 /// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the

@@ -5,22 +5,13 @@
 #include "contct/number/rational.hpp"
 
 namespace contct {
-
 namespace {
-
-/// The number of a kind that is nearest to an exact one.
-template <class Number>
-Number nearest(const rational& x) {
-  if constexpr (std::is_same_v<Number, double>) return contct::rounded(x);
-  if constexpr (std::is_same_v<Number, double_double>) return long_rounded(x);
-  if constexpr (std::is_same_v<Number, rational>) return x;
-}
 
 template <class Number>
 std::vector<Number> nearest(std::span<const rational> exactly) {
   std::vector<Number> all;
   all.reserve(exactly.size());
-  for (const rational& x : exactly) all.push_back(nearest<Number>(x));
+  for (const rational& x : exactly) all.push_back(contct::nearest<Number>(x));
   return all;
 }
 

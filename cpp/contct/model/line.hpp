@@ -87,6 +87,13 @@ class line {
     return number_of<Number>(p.start) + length * static_cast<int>(point - p.first) / p.run.elements;
   }
 
+  /// What a coordinate of the file means: the point itself where it is a point's, otherwise its decimal.
+  [[nodiscard]] Number place(double x) const {
+    const auto at_or_above = std::lower_bound(x_.begin(), x_.end(), x);
+    if (at_or_above == x_.end() || *at_or_above != x) return number_of<Number>(x);
+    return at(static_cast<std::size_t>(at_or_above - x_.begin()));
+  }
+
   /// From a point to the next one: not a difference of rounded points.
   [[nodiscard]] Number length(std::size_t interval) const {
     if (parts_.empty()) return difference_of<Number>(x_[interval + 1], x_[interval]);

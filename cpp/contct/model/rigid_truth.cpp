@@ -208,32 +208,58 @@ struct rigid_truth::shape : rigid_shape<rational> {
     const std::vector<rational> q = coefficients_of<rational>(d);
     const int columns = along_x.points().intervals();
     if (!along_y) {
-      for_each_run(d.elements, columns, [&](int first, int last) { add_strip(q, first, last, work); });
+      for_each_run(d.elements, columns, [&](int first, int last) {
+        add_strip(q, along_x.points().at(first), along_x.points().at(last + 1), work);
+      });
       return;
     }
-    if (d.elements.empty()) add_rectangle(q[0], 0, 0, columns, along_y->points().intervals(), work);
-    for (const int e : d.elements) add_rectangle(q[0], e % columns, e / columns, 1, 1, work);
+    if (d.elements.empty()) add_elements(q[0], 0, 0, columns, along_y->points().intervals(), work);
+    for (const int e : d.elements) add_elements(q[0], e % columns, e / columns, 1, 1, work);
+  }
+
+  /// A curvature does no work.
+  void add_placed(const placed_load& p, motion_numbers& work) const {
+    std::vector<rational> q;
+    for (const double a : p.polynomial) q.push_back(decimal_of(p.factor) * decimal_of(a));
+    const line<rational>& x = along_x.points();
+    if (along_y) {
+      const line<rational>& y = along_y->points();
+      add_rectangle(q[0], {x.place(p.from), x.place(p.to)}, {y.place(p.across[0]), y.place(p.across[1])},
+                    work);
+    } else if (p.what == load_kind::force) {
+      add_strip(q, x.place(p.from), x.place(p.to), work);
+    } else if (p.what == load_kind::point) {
+      subtract(work, {rational(1), along_x.across(x.place(p.from)), rational(0)}, -q[0]);
+    } else if (p.what == load_kind::moment) {
+      work[1] += q[0] / along_x.half();
+    }
   }
 
  private:
-  void add_strip(std::span<const rational> q, int first, int last, motion_numbers& work) const {
-    const integrals over = integrate(q, along_x.points().at(first), along_x.points().at(last + 1));
+  void add_strip(std::span<const rational> q, const rational& from, const rational& to,
+                 motion_numbers& work) const {
+    const integrals over = integrate(q, from, to);
     work[0] += over.plain;
     work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
   }
 
-  /// A uniform pressure acts at the middle of the rectangle of so many elements beside and above that one.
-  void add_rectangle(const rational& pressure, int left, int below, int beside, int above,
-                     motion_numbers& work) const {
-    const auto ends = [](const centred_line<rational>& l, int first, int count) {
-      return std::pair(l.points().at(first), l.points().at(first + count));
-    };
-    const auto [x1, x2] = ends(along_x, left, beside);
-    const auto [y1, y2] = ends(*along_y, below, above);
-    const rational force = pressure * (x2 - x1) * (y2 - y1);
+  using ends = std::pair<rational, rational>;
+
+  /// A uniform pressure acts at the middle of its rectangle.
+  void add_rectangle(const rational& pressure, const ends& x, const ends& y, motion_numbers& work) const {
+    const rational force = pressure * (x.second - x.first) * (y.second - y.first);
     work[0] += force;
-    work[1] += force * along_x.across((x1 + x2) / 2);
-    work[2] += force * along_y->across((y1 + y2) / 2);
+    work[1] += force * along_x.across((x.first + x.second) / 2);
+    work[2] += force * along_y->across((y.first + y.second) / 2);
+  }
+
+  /// On so many elements beside and above that one.
+  void add_elements(const rational& pressure, int left, int below, int beside, int above,
+                    motion_numbers& work) const {
+    const auto of = [](const centred_line<rational>& l, int first, int count) {
+      return ends(l.points().at(first), l.points().at(first + count));
+    };
+    add_rectangle(pressure, of(along_x, left, beside), of(*along_y, below, above), work);
   }
 };
 
@@ -271,6 +297,7 @@ rigid_work rigid_truth::work_of(const load& l) const {
   for (const point_load& p : l.points)
     subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof), -decimal_of(p.value));
   for (const distributed_load& d : l.distributed) shape_->add_distributed(d, work->all);
+  for (const placed_load& p : l.placed) shape_->add_placed(p, work->all);
   return rigid_work(std::move(work));
 }
 

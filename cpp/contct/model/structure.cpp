@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace contct {
@@ -14,20 +15,33 @@ load mix(const load& before, const load& after, double fraction) {
   std::map<std::pair<int, int>, double> points;
   std::map<std::vector<int>, std::vector<double>> distributed;
   std::map<std::pair<int, int>, double> settlements;
+  std::map<std::tuple<load_kind, double, double, std::array<double, 2>>, std::vector<double>> placed;
   for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
     for (const point_load& p : part->points) points[{p.node, p.dof}] += share * p.value;
     for (const distributed_load& d : part->distributed)
       add_polynomial(distributed[d.elements], d.polynomial, share);
     for (const prescribed_displacement& g : part->settlements)
       settlements[{g.node, g.dof}] += share * g.value;
+    for (const placed_load& p : part->placed)
+      add_polynomial(placed[{p.what, p.from, p.to, p.across}], values_of(p), share);
   }
   load sum;
   for (const auto& [place, value] : points) sum.points.push_back({place.first, place.second, value});
   for (const auto& [elements, polynomial] : distributed) sum.distributed.push_back({polynomial, elements});
   for (const auto& [place, value] : settlements)
     sum.settlements.push_back({place.first, place.second, value});
+  for (const auto& [at, polynomial] : placed) {
+    const auto& [what, from, to, across] = at;
+    sum.placed.push_back({what, from, to, polynomial, across});
+  }
   sum.name = after.name;
   return sum;
+}
+
+std::vector<double> values_of(const placed_load& p) {
+  std::vector<double> values;
+  add_polynomial(values, p.polynomial, p.factor);
+  return values;
 }
 
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +32,23 @@ struct distributed_load {
   std::vector<std::vector<double>> parts = {};
 };
 
+/// What a load that need not follow the mesh is: a force per length or area, a force or a moment at a place,
+/// or a curvature that a beam has without any moment, as of a temperature gradient.
+enum class load_kind { force, point, moment, curvature };
+
+/// Such a load. Its coordinates are those of nodes or grid lines where they are equal to them as decimals;
+/// elsewhere they are decimals.
+struct placed_load {
+  load_kind what = load_kind::force;
+  double from = 0.0, to = 0.0;     ///< along x, from < to; a point has its place twice, which is no node
+  std::vector<double> polynomial;  ///< along a beam, as a distributed load's; otherwise one number
+  std::array<double, 2> across{};  ///< a plate's rectangle: from and to along y
+  double factor = 1.0;             ///< times this: an exact product of the decimals
+};
+
+/// Its polynomial times its factor, in doubles.
+[[nodiscard]] std::vector<double> values_of(const placed_load& p);
+
 /// What a support moves one dof of one node to.
 struct prescribed_displacement {
   int node;      ///< from 0
@@ -44,6 +62,7 @@ struct load {
   std::vector<distributed_load> distributed;
   std::vector<prescribed_displacement> settlements = {};
   std::string name = {};  ///< of the step that ends with it, for people; may be empty
+  std::vector<placed_load> placed = {};
 };
 
 /// The load at share `fraction` of the way from `before` to `after`, with equal places merged.

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "contct/number/double_double.hpp"
 
@@ -46,6 +47,14 @@ void allocate_as_new_does();
 [[nodiscard]] double rounded(const rational& x);
 /// The nearest double, and the nearest one to what that leaves.
 [[nodiscard]] double_double long_rounded(const rational& x);
+
+/// The number of a kind that is nearest to an exact one.
+template <class Number>
+[[nodiscard]] Number nearest(const rational& x) {
+  if constexpr (std::is_same_v<Number, double>) return contct::rounded(x);
+  if constexpr (std::is_same_v<Number, double_double>) return long_rounded(x);
+  if constexpr (std::is_same_v<Number, rational>) return x;
+}
 
 /// "p/q" in lowest terms, or "p".
 [[nodiscard]] std::string fraction_words(const rational& x);

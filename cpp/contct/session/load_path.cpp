@@ -11,7 +11,7 @@ namespace {
 
 /// How much there is to write: a list of scattered elements counts by its length.
 std::size_t parts_of(const load& l) {
-  std::size_t parts = l.points.size() + l.settlements.size();
+  std::size_t parts = l.points.size() + l.settlements.size() + l.placed.size();
   for (const distributed_load& d : l.distributed)
     parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
   return parts;
@@ -34,11 +34,26 @@ load_words settlement_words(const model& m, const std::vector<prescribed_displac
   return {"settle " + name, g.value, " at " + place_words(m, g.node)};
 }
 
+/// Of one that need not follow the mesh, alone.
+load_words words_for(const model& m, const placed_load& p) {
+  const double value = values_of(p)[0];
+  if (p.what == load_kind::point || p.what == load_kind::moment)
+    return {p.what == load_kind::point ? "w " : "theta ", value, fmt::format(" at x = {:.6g}", p.from)};
+  const bool of_plate = std::holds_alternative<plate>(m.kind);
+  return {p.what == load_kind::force ? "uniform " : "curvature ", value,
+          of_plate ? fmt::format(" from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", p.from, p.across[0], p.to,
+                                 p.across[1])
+                   : fmt::format(" from {:.6g} to {:.6g}", p.from, p.to)};
+}
+
 load_words words_for(const model& m, const load& l, const resultant& r) {
   const bool of_matrix = std::holds_alternative<assembled>(m.kind);
-  if (!l.settlements.empty() && l.points.empty() && l.distributed.empty())
+  const bool placed_alone = l.points.empty() && l.distributed.empty() && l.settlements.empty();
+  if (placed_alone && l.placed.size() == 1 && l.placed[0].polynomial.size() == 1)
+    return words_for(m, l.placed[0]);
+  if (!l.settlements.empty() && l.points.empty() && l.distributed.empty() && l.placed.empty())
     return settlement_words(m, l.settlements);
-  if (!l.settlements.empty()) return {of_matrix ? "sum " : "force ", r.force};
+  if (!l.settlements.empty() || !l.placed.empty()) return {of_matrix ? "sum " : "force ", r.force};
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
     return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), p.value,

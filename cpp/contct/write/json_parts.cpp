@@ -143,6 +143,29 @@ json agreement_json(std::int64_t calls, const tally& compared) {
   return {{"calls", calls}, {"values_compared", compared.values}, {"mismatches", compared.mismatches}};
 }
 
+namespace {
+
+void put_values(json& entry, const std::vector<double>& polynomial) {
+  const bool constant = polynomial.size() == 1;
+  entry[constant ? "value" : "polynomial"] = constant ? json(polynomial[0]) : json(polynomial);
+}
+
+/// Among the lists of a load: as the problem file has it.
+void put_placed(json& out, const model& m, const placed_load& p) {
+  const std::vector<double> values = values_of(p);
+  if (p.what == load_kind::point || p.what == load_kind::moment) {
+    out["point"].push_back({{"x", p.from}, {p.what == load_kind::point ? "w" : "theta", values[0]}});
+    return;
+  }
+  json& entry = out[p.what == load_kind::force ? "uniform" : "curvature"].emplace_back();
+  put_values(entry, values);
+  const bool of_plate = std::holds_alternative<plate>(m.kind);
+  entry["from"] = of_plate ? json({p.from, p.across[0]}) : json(p.from);
+  entry["to"] = of_plate ? json({p.to, p.across[1]}) : json(p.to);
+}
+
+}  // namespace
+
 json load_json(const model& m, const load_path& loads, int step, double fraction, bool whole) {
   const resultant r = loads.resultant_at(step, fraction);
   const auto names = dof_names(m);
@@ -152,11 +175,11 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
   if (!whole && loads.has_many_parts(step)) return out;
   const load l = loads.at(step, fraction);
   for (const distributed_load& d : l.distributed) {
-    const bool constant = d.polynomial.size() == 1;
-    out["uniform"].push_back(
-        {{constant ? "value" : "polynomial", constant ? json(d.polynomial[0]) : json(d.polynomial)},
-         {"elements", elements_json(d.elements)}});
+    json& entry = out["uniform"].emplace_back();
+    put_values(entry, d.polynomial);
+    entry["elements"] = elements_json(d.elements);
   }
+  for (const placed_load& p : l.placed) put_placed(out, m, p);
   for (const point_load& p : l.points) {
     json& point = out["point"].emplace_back();
     put_place(point, m, p.node);

@@ -1,0 +1,290 @@
+#include "contct/model/placed_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contct/model/line.hpp"
+#include "contct/number/rational.hpp"
+
+namespace contct {
+namespace {
+
+/// Polynomials, constant first.
+using exact_poly = std::vector<rational>;
+
+rational polynomial_value(const exact_poly& p, const rational& t) {
+  rational sum;
+  for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
+  return sum;
+}
+
+exact_poly slope_of(const exact_poly& p) {
+  exact_poly d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
+  return d;
+}
+
+/// Of the product of two polynomials, between these ends.
+rational integral_of_product(const exact_poly& p, const exact_poly& q, const rational& from,
+                             const rational& to) {
+  exact_poly primitive(p.size() + q.size());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t k = 0; k < q.size(); ++k)
+      primitive[i + k + 1] += p[i] * q[k] / static_cast<int>(i + k + 1);
+  return polynomial_value(primitive, to) - polynomial_value(primitive, from);
+}
+
+exact_poly exactly(const placed_load& p) {
+  exact_poly values;
+  for (const double a : p.polynomial) values.push_back(decimal_of(p.factor) * decimal_of(a));
+  return values;
+}
+
+/// The first and the last of a line's intervals that a load from `from` to `to` acts on; a place has the one
+/// in which it is.
+std::pair<int, int> intervals_of(const std::vector<double>& x, double from, double to) {
+  const auto most = static_cast<std::ptrdiff_t>(x.size()) - 2;
+  const std::ptrdiff_t first = std::upper_bound(x.begin(), x.end(), from) - x.begin() - 1;
+  const std::ptrdiff_t last = std::lower_bound(x.begin(), x.end(), to) - x.begin() - 1;
+  const std::ptrdiff_t begin = std::clamp<std::ptrdiff_t>(first, 0, most);
+  return {static_cast<int>(begin), static_cast<int>(std::clamp<std::ptrdiff_t>(last, begin, most))};
+}
+
+/// The part of interval `i` between two coordinates, as shares of its length.
+std::array<rational, 2> part_of(const line<rational>& points, const std::vector<double>& x, int i,
+                                double from, double to) {
+  const auto share = [&](double at) { return (points.place(at) - points.at(i)) / points.length(i); };
+  return {from > x[i] ? share(from) : rational(0), to < x[i + 1] ? share(to) : rational(1)};
+}
+
+/// A load in exact numbers. Those on whole elements reach from minus to plus infinity.
+struct source {
+  load_kind what;
+  double from, to;
+  exact_poly values;
+};
+
+/// What a source does on one element, in t = (x - left) / h from 0 to 1.
+struct acting {
+  load_kind what;
+  std::array<rational, 2> part;
+  exact_poly values;
+};
+
+/// All loads on a beam, element by element.
+class beam_sources {
+ public:
+  beam_sources(const beam& b, const load& l) : beam_(b), points_(b.x, b.runs), on_(b.elements()) {
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    for (const distributed_load& d : l.distributed) {
+      for_each_loaded_element(d, b.elements(), [this](int e) { on_[e].push_back(all_.size()); });
+      all_.push_back({load_kind::force, -everywhere, everywhere, coefficients_of<rational>(d)});
+    }
+    for (const placed_load& p : l.placed) {
+      const auto [first, last] = intervals_of(b.x, p.from, p.to);
+      for (int e = first; e <= last; ++e) on_[e].push_back(all_.size());
+      all_.push_back({p.what, p.from, p.to, exactly(p)});
+    }
+  }
+
+  [[nodiscard]] bool acts_on(int e) const { return !on_[e].empty(); }
+  [[nodiscard]] rational h(int e) const { return points_.length(e); }
+  [[nodiscard]] rational EI(int e) const { return number_of<rational>(beam_.EI[e]); }
+  /// The coordinate of a place in an element.
+  [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
+
+  [[nodiscard]] std::vector<acting> on(int e) const {
+    std::vector<acting> all;
+    for (const std::size_t i : on_[e]) {
+      const source& s = all_[i];
+      acting a{s.what, part_of(points_, beam_.x, e, s.from, s.to), s.values};
+      if (s.what == load_kind::force && s.values.size() > 1)
+        a.values = formulas::in_element<rational>(s.values, points_.at(e), h(e));
+      all.push_back(std::move(a));
+    }
+    return all;
+  }
+
+  /// Do the same constant loads act on all of both elements, which are equal? Not always noticed.
+  [[nodiscard]] bool are_alike(int e, int other) const {
+    const auto is_same_on_both = [&](std::size_t i) {
+      const source& s = all_[i];
+      return s.values.size() == 1 && s.from <= beam_.x[std::min(e, other)] &&
+             s.to >= beam_.x[std::max(e, other) + 1];
+    };
+    return on_[e] == on_[other] && beam_.EI[e] == beam_.EI[other] && h(e) == h(other) &&
+           std::all_of(on_[e].begin(), on_[e].end(), is_same_on_both);
+  }
+
+ private:
+  const beam& beam_;
+  line<rational> points_;
+  std::vector<source> all_;
+  std::vector<std::vector<std::size_t>> on_;  // [elements] which of them
+};
+
+/// Add the work of `a` on Hermite's functions. An imposed curvature does that of EI curvature on their
+/// curvatures.
+void add_work(const acting& a, const rational& h, const rational& EI, std::array<rational, 4>& force) {
+  static const std::array<exact_poly, 4> shapes = {
+      {{1, 0, -3, 2}, {0, 1, -2, 1}, {0, 0, 3, -2}, {0, 0, -1, 1}}};
+  const auto& [from, to] = a.part;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const exact_poly slope = slope_of(shapes[i]);
+    rational work;
+    if (a.what == load_kind::force) work = h * integral_of_product(a.values, shapes[i], from, to);
+    if (a.what == load_kind::point) work = a.values[0] * polynomial_value(shapes[i], from);
+    if (a.what == load_kind::moment) work = a.values[0] * polynomial_value(slope, from) / h;
+    if (a.what == load_kind::curvature)
+      work = EI * a.values[0] * (polynomial_value(slope, to) - polynomial_value(slope, from)) / h;
+    force[i] += i % 2 == 0 ? work : work * h;
+  }
+}
+
+/// What acts between two places of an element, with the loads at the first of them.
+element_piece piece_between(const std::vector<acting>& all, const rational& from, const rational& to,
+                            const rational& h, const rational& EI) {
+  exact_poly q(1);
+  rational curvature;
+  rational force;
+  rational moment;
+  for (const acting& a : all) {
+    const bool covers = a.part[0] <= from && to <= a.part[1];
+    if (a.what == load_kind::force && covers) {
+      q.resize(std::max(q.size(), a.values.size()));
+      for (std::size_t i = 0; i < a.values.size(); ++i) q[i] += a.values[i];
+    }
+    if (a.what == load_kind::curvature && covers) curvature += a.values[0];
+    if (a.what == load_kind::point && a.part[0] == from) force += a.values[0];
+    if (a.what == load_kind::moment && a.part[0] == from) moment += a.values[0];
+  }
+  element_piece p{0.0, 0.0, long_rounded(h * (to - from)), long_rounded(EI), {}, long_rounded(curvature)};
+  p.force = long_rounded(force);
+  p.moment = long_rounded(moment);
+  for (const rational& c : formulas::in_element<rational>(q, from, to - from)) {
+    p.q.push_back(long_rounded(c));
+    p.size += std::abs(p.q.back().hi);
+  }
+  const double length = contct::rounded(h);
+  p.size += std::abs(p.force.hi) / length + std::abs(p.moment.hi) / (length * length);
+  return p;
+}
+
+std::vector<rational> cuts_of(const std::vector<acting>& all) {
+  std::vector<rational> cuts = {0, 1};
+  for (const acting& a : all) cuts.insert(cuts.end(), a.part.begin(), a.part.end());
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  return cuts;
+}
+
+/// Add the pressure of a rectangle to the elements in it: to `whole`, or, where it ends inside one, to
+/// `part`.
+void add_rectangle(const plate& p, const placed_load& l, std::vector<rational>& whole,
+                   std::map<int, std::array<rational, 12>>& part) {
+  const line<rational> along_x(p.x, p.x_runs);
+  const line<rational> along_y(p.y, p.y_runs);
+  const rational pressure = exactly(l)[0];
+  const auto [left, right] = intervals_of(p.x, l.from, l.to);
+  const auto [below, above] = intervals_of(p.y, l.across[0], l.across[1]);
+  const auto from_middle = [](const std::array<rational, 2>& shares) {
+    return std::array<rational, 2>{2 * shares[0] - 1, 2 * shares[1] - 1};
+  };
+  const auto is_whole = [](const std::array<rational, 2>& at) { return at[0] == -1 && at[1] == 1; };
+  for (int j = below; j <= above; ++j) {
+    const auto eta = from_middle(part_of(along_y, p.y, j, l.across[0], l.across[1]));
+    for (int i = left; i <= right; ++i) {
+      const auto xi = from_middle(part_of(along_x, p.x, i, l.from, l.to));
+      const int e = j * (p.columns() - 1) + i;
+      if (is_whole(xi) && is_whole(eta)) {
+        whole[e] += pressure;
+        continue;
+      }
+      const auto unit =
+          formulas::plate_unit_load_on<rational>(along_x.length(i) / 2, along_y.length(j) / 2, xi, eta);
+      std::array<rational, 12>& sum = part[e];
+      for (std::size_t k = 0; k < 12; ++k) sum[k] += pressure * unit[k];
+    }
+  }
+}
+
+}  // namespace
+
+template <class Number>
+void for_each_exact_work(const beam& b, const load& l,
+                         const std::function<void(int, const std::array<Number, 4>&)>& visit) {
+  const beam_sources sources(b, l);
+  std::array<Number, 4> force{};
+  for (int e = 0; e < b.elements(); ++e) {
+    if (!sources.acts_on(e)) continue;
+    if (e == 0 || !sources.are_alike(e, e - 1)) {
+      std::array<rational, 4> sum;
+      const rational h = sources.h(e);
+      const rational EI = sources.EI(e);
+      for (const acting& a : sources.on(e)) add_work(a, h, EI, sum);
+      for (std::size_t i = 0; i < 4; ++i) force[i] = nearest<Number>(sum[i]);
+    }
+    visit(e, force);
+  }
+}
+
+template <class Number>
+std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load& l) {
+  std::vector<rational> whole(p.elements());
+  std::map<int, std::array<rational, 12>> part;
+  for (const distributed_load& d : l.distributed) {
+    const exact_poly q = coefficients_of<rational>(d);
+    for_each_loaded_element(d, p.elements(), [&](int e) { whole[e] += q[0]; });
+  }
+  for (const placed_load& r : l.placed) add_rectangle(p, r, whole, part);
+  std::vector<summed_pressure<Number>> all(p.elements());
+  for (int e = 0; e < p.elements(); ++e) {
+    all[e].value = nearest<Number>(whole[e]);
+    all[e].size = size_of(all[e].value);
+  }
+  const line<rational> along_x(p.x, p.x_runs);
+  const line<rational> along_y(p.y, p.y_runs);
+  for (const auto& [e, sum] : part) {
+    const int columns = p.columns() - 1;
+    const auto unit =
+        formulas::plate_unit_load<rational>(along_x.length(e % columns) / 2, along_y.length(e / columns) / 2);
+    std::array<Number, 12> force;
+    for (std::size_t k = 0; k < 12; ++k) force[k] = nearest<Number>(sum[k] + whole[e] * unit[k]);
+    all[e].on_parts = force;
+  }
+  return all;
+}
+
+std::map<int, std::vector<element_piece>> pieces_of(const beam& b, const load& l) {
+  std::map<int, std::vector<element_piece>> all;
+  const beam_sources sources(b, l);
+  for (int e = 0; e < b.elements(); ++e) {
+    if (!sources.acts_on(e)) continue;
+    const std::vector<acting> on = sources.on(e);
+    const std::vector<rational> cuts = cuts_of(on);
+    const auto x_at = [&](std::size_t cut) {
+      if (cut == 0) return b.x[e];
+      return cut + 1 == cuts.size() ? b.x[e + 1] : contct::rounded(sources.x_at(e, cuts[cut]));
+    };
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+      all[e].push_back(piece_between(on, cuts[i], cuts[i + 1], sources.h(e), sources.EI(e)));
+      all[e].back().left = x_at(i);
+      all[e].back().right = x_at(i + 1);
+    }
+  }
+  return all;
+}
+
+template void for_each_exact_work(const beam&, const load&,
+                                  const std::function<void(int, const std::array<double, 4>&)>&);
+template void for_each_exact_work(const beam&, const load&,
+                                  const std::function<void(int, const std::array<double_double, 4>&)>&);
+template void for_each_exact_work(const beam&, const load&,
+                                  const std::function<void(int, const std::array<rational, 4>&)>&);
+template std::vector<summed_pressure<double>> exact_pressures(const plate&, const load&);
+template std::vector<summed_pressure<double_double>> exact_pressures(const plate&, const load&);
+template std::vector<summed_pressure<rational>> exact_pressures(const plate&, const load&);
+
+}  // namespace contct
