@@ -29,6 +29,7 @@ OWN_TABLES = {
     "`[plate]`": ("plate", "[plate]\n%s\n"),
     "`[matrix]`": ("matrix", "[matrix]\n%s\n"),
     "`[calculix]`": ("matrix", "[calculix]\n%s\n"),
+    "A `curvature`": ("beam", BEAM % "EI = 1" + "[[step]]\ncurvature = [ { %s } ]\n"),
     "`face` of a `[[bed]]`": ("beam", BEAM % "EI = 1" + "[[bed]]\nmodulus = 1\nface = { %s }\n"),
 }
 STRUCTURES_TABLES = {

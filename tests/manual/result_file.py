@@ -41,6 +41,19 @@ uniform = -1.0
 uniform = [ { value = -1.0 }, { polynomial = [0.0, 1.0e-3], elements = "2..3" } ]
 point = [ { x = 2.0, w = 12.0, theta = 0.5 } ]
 """
+PARTS = """
+[beam]
+length = 4.0
+elements = 2
+EI = 1.0e4
+[[support]]
+x = [0.0, 4.0]
+fix = "w"
+[[step]]
+uniform = [ { value = -1.0, from = 0.5, to = 2.5 } ]
+point = [ { x = 1.3, w = 12.0, theta = 0.5 } ]
+curvature = [ { value = 1.0e-3, to = 3.0 } ]
+"""
 PLATE = """
 [plate]
 size = [1.0, 1.0]
@@ -52,7 +65,7 @@ thickness = 1.0
 nodes = "1..3"
 fix = ["w", "wx", "wy"]
 [[step]]
-uniform = 1.0
+uniform = [ { value = 1.0, from = [0.1, 0.2], to = [0.9, 0.3] } ]
 point = [ { node = 5, w = 1.0, wx = 1.0, wy = 1.0 } ]
 settlement = [ { node = 1, wx = 1.0e-3, wy = 1.0e-3 }, { node = 2, w = 1.0e-3 } ]
 """
@@ -95,7 +108,7 @@ def runs(root, plugin):
     yield root / "reference/problems/divergences/near-tie.toml", ["--strict"], 3
     yield MECHANISM, ["--envelope"], 4
     yield MECHANISM, ["--final-only"], 4
-    for text in (PLATE, MANY_PARTS, SETTLED_BEAM):
+    for text in (PLATE, MANY_PARTS, SETTLED_BEAM, PARTS):
         yield text, ["--envelope"], 0
     yield PLATE, ["--html", "page.html"], 0
     for part in ("problems/pb07-three-gap-supports", "problems/pp05a-free-plate-on-bed-n8", "structures/frame", "structures/calculix/console"):

@@ -34,14 +34,64 @@ inline std::vector<bad_input> bad_coordinates() {
       {"an x before the beam", with("node = 1\n", "x = [0, -1]\n"), "5:9", "support[1].x[2]", "-1", "from 0"},
       {"an x that is text", with("node = 1\n", "x = \"left\"\n"), "5:5", "support[1].x", "\"left\"",
        "number"},
-      {"a point load between nodes", with("{ node = 3, w", "{ x = 1.25, w"), "13:17", "step[1].point[1].x",
-       "1.25", "1 (node 2) and 2 (node 3)"},
+      {"a point load beyond the beam", with("{ node = 3, w", "{ x = [1.25, 2.25], w"), "13:24",
+       "step[1].point[1].x[2]", "2.25, which is outside", "from 0 to 2"},
+      {"a point load twice between two nodes", with("{ node = 3, w", "{ x = [1.25, 1.25], w"), "13:24",
+       "step[1].point[1].x[2]", "this a second time", "each of them once"},
+      {"a point load between nodes of no dof", with("{ node = 3, w = -60.0", "{ x = 1.25"), "13:11",
+       "step[1].point[1]", "a point load without w or theta", "at least one of w, theta"},
+      {"a point load at a node and an x", with("{ node = 3, w", "{ x = 1.25, node = 3, w"), "13:30",
+       "step[1].point[1].node", "beside x", "either x, or node or nodes"},
+      {"a settlement between nodes", step_with("settlement = [ { x = 1.25, w = -1 } ]\n"), "13:22",
+       "step[1].settlement[1].x", "1.25", "1 (node 2) and 2 (node 3)"},
       {"a point beside the grid", plate_with("node = 6\n", "at = [0.25, 1.0]\n"), "11:7", "contact[1].at[1]",
        "0.25, where there is no grid line along x", "the nearest are 0 and 0.5; grid lines are set by"},
       {"a point outside the plate", plate_with("node = 6\n", "at = [[1.0, 1.0], [1.0, 3]]\n"), "11:25",
        "contact[1].at[2][2]", "3, which is outside", "from 0 to 1"},
       {"a beam's x on a plate", plate_with("node = 6\n", "x = 1.0\n"), "11:1", "contact[1].x", "unknown",
        "node, nodes, at"},
+  };
+}
+
+/// Loads from one coordinate to another.
+inline std::vector<bad_input> bad_parts() {
+  const auto uniform = [](const std::string& keys) {
+    return step_with("uniform = [ { value = -1, " + keys + " } ]\n");
+  };
+  const auto curvature = [](const std::string& keys) {
+    return step_with("curvature = [ { " + keys + " } ]\n");
+  };
+  const auto on_plate = [](const std::string& keys) {
+    return plate_with("value = -1.0", "value = -1.0, " + keys);
+  };
+  return {
+      {"a load that ends before it begins", uniform("from = 1.5, to = 0.5"), "13:44", "step[1].uniform[1].to",
+       "0.5", "more than 1.5, where this begins"},
+      {"a load of no length", uniform("from = 0.5, to = 0.5"), "13:44", "step[1].uniform[1].to", "0.5",
+       "more than 0.5"},
+      {"a load that begins where the beam ends", uniform("from = 2"), "13:34", "step[1].uniform[1].from", "2",
+       "more than 2, where this begins"},
+      {"a load from outside the beam", uniform("from = -0.5"), "13:34", "step[1].uniform[1].from",
+       "-0.5, which is outside the structure", "from 0 to 2"},
+      {"a load to no number", uniform("to = nan"), "13:32", "step[1].uniform[1].to", "nan", "finite number"},
+      {"a load on elements and from a place", uniform("from = 0.5, elements = [1]"), "13:50",
+       "step[1].uniform[1].elements", "beside from or to", "either elements, or from and to"},
+      {"a load from a corner along a beam", uniform("from = [0, 0]"), "13:34", "step[1].uniform[1].from",
+       "an array of 2", "finite number"},
+      {"a pressure from a number", on_plate("from = 0.25"), "16:36", "step[1].uniform[1].from", "0.25",
+       "a corner of the rectangle, [x, y]"},
+      {"a pressure beyond the plate", on_plate("to = [0.5, 1.5]"), "16:40", "step[1].uniform[1].to[2]",
+       "1.5, which is outside", "from 0 to 1"},
+      {"a rectangle upside down", on_plate("from = [0.0, 0.5], to = [0.5, 0.25]"), "16:59",
+       "step[1].uniform[1].to[2]", "0.25", "more than 0.5, where this begins"},
+      {"a curvature without a value", curvature("from = 1"), "13:15", "step[1].curvature[1].value", "missing",
+       "finite number"},
+      {"a curvature that ends before it begins", curvature("value = 1, to = 0"), "13:33",
+       "step[1].curvature[1].to", "0", "more than 0"},
+      {"a curvature on elements", curvature("value = 1, elements = [1]"), "13:28",
+       "step[1].curvature[1].elements", "unknown", "value, from, to"},
+      {"a curvature of a plate", plate_with("[[step]]", "[[step]]\ncurvature = [ { value = 1 } ]"), "16:13",
+       "step[1].curvature", "this with a plate", "D (1 + nu) curvature per length"},
   };
 }
 
@@ -234,7 +284,8 @@ inline std::vector<bad_input> bad_tables() {
 /// All of them.
 inline std::vector<bad_input> bad_inputs() {
   std::vector<bad_input> all = bad_tables();
-  for (const auto& more : {bad_plates(), bad_coordinates(), bad_meshes(), bad_pairs(), bad_units_and_steps()})
+  for (const auto& more :
+       {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_pairs(), bad_units_and_steps()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -29,6 +29,50 @@ TEST_CASE("point loads at several coordinates are one load at each") {
   CHECK((l.points[4].node == 1 && l.points[4].value == 5));
 }
 
+TEST_CASE("a point load between nodes stands where the file says, one at a node's coordinate at the node") {
+  const load l = step_of("point = [ { x = [1.0, 1.25], w = -1, theta = 3 } ]\n");
+  REQUIRE(l.points.size() == 2);
+  CHECK((l.points[1].node == 1 && l.points[1].dof == 1 && l.points[1].value == 3));
+  REQUIRE(l.placed.size() == 2);
+  CHECK(
+      (l.placed[0].what == load_kind::point && l.placed[0].from == 1.25 && l.placed[0].polynomial[0] == -1));
+  CHECK((l.placed[1].what == load_kind::moment && l.placed[1].polynomial[0] == 3));
+}
+
+TEST_CASE("a load without from begins where the beam does, one without to ends where it ends") {
+  const load l = step_of(
+      "uniform = [ { value = 1, from = 0.5 }, { polynomial = [2, 3], to = 1.5 } ]\n"
+      "curvature = [ { value = 4 } ]\n");
+  REQUIRE(l.placed.size() == 3);
+  CHECK((l.placed[0].from == 0.5 && l.placed[0].to == 2));
+  CHECK((l.placed[1].from == 0 && l.placed[1].to == 1.5 && l.placed[1].polynomial[1] == 3));
+  CHECK((l.placed[2].what == load_kind::curvature && l.placed[2].from == 0 && l.placed[2].to == 2));
+}
+
+TEST_CASE("a load on a plate is between two corners, where they are missing those of the plate") {
+  const auto read = [](const std::string& keys) {
+    return parse_problem(plate_with("value = -1.0", "value = -1.0, " + keys), "pb.toml")
+        .steps.at(0)
+        .placed.at(0);
+  };
+  const placed_load part = read("from = [0.25, 0.5]");
+  CHECK((part.from == 0.25 && part.to == 1.0));
+  CHECK((part.across[0] == 0.5 && part.across[1] == 1.0));
+  CHECK(read("to = [0.75, 0.25]").across[1] == 0.25);
+}
+
+TEST_CASE("a place of a load that is a node's up to rounding is the node's, and others make no node") {
+  const problem p = parse_problem(
+      "[beam]\nlength = 0.7\nelements = 7\nEI = 1\n[[support]]\nx = 0\nfix = [\"w\", \"theta\"]\n"
+      "[[step]]\nuniform = [ { value = 1, from = 0.3, to = 0.33 } ]\npoint = [ { x = 0.62, w = 1 } ]\n",
+      "pb.toml");
+  const beam& b = std::get<beam>(p.geometry.kind);
+  CHECK(b.nodes() == 8);
+  CHECK(p.steps.at(0).placed.at(0).from == b.x.at(3));
+  CHECK(p.steps[0].placed[0].to == 0.33);
+  CHECK(p.steps[0].placed.at(1).from == 0.62);
+}
+
 TEST_CASE("a step may hold nothing but settlements of fixed dofs") {
   const load l = step_of("settlement = [ { x = 0, w = -0.01, theta = 0.5 } ]\n");
   CHECK(l.points.empty());

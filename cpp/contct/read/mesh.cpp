@@ -70,12 +70,23 @@ std::optional<int> find_coordinate(std::span<const double> among, double x) {
   return static_cast<int>(nearest);
 }
 
-int coordinate_row::index_of(const toml_value& named) const {
-  const double x = named.real(any_real);
-  if (const auto found = find_coordinate(values, x)) return *found;
+void coordinate_row::refuse_outside(const toml_value& named, double x) const {
   if (x < values.front() || x > values.back())
     named.refuse(fmt::format("{}, which is outside the structure", x),
                  fmt::format("a number from {} to {}", values.front(), values.back()));
+}
+
+double coordinate_row::place_of(const toml_value& named) const {
+  const double x = named.real(any_real);
+  if (const auto found = find_coordinate(values, x)) return values[*found];
+  refuse_outside(named, x);
+  return x;
+}
+
+int coordinate_row::index_of(const toml_value& named) const {
+  const double x = named.real(any_real);
+  if (const auto found = find_coordinate(values, x)) return *found;
+  refuse_outside(named, x);
   const std::ptrdiff_t right = std::ranges::lower_bound(values, x) - values.begin();
   const auto words = [this](std::ptrdiff_t i) {
     return fmt::format("{:.12g}", values[i]) + (what == "node" ? fmt::format(" (node {})", i + 1) : "");

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "contct/read/matrix_files.hpp"
+#include "contct/read/mesh.hpp"
 
 namespace contct {
 namespace {
@@ -38,23 +40,48 @@ class step_reader {
   [[nodiscard]] load read(const toml_value& t) const {
     const bool on_matrix = nodes_.on_matrix();
     const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
-    t.allow_only({"name", whole, "point", "settlement"});
-    if (!t.has(whole) && !t.has("point") && !t.has("settlement"))
+    refuse_curvature(t);
+    std::vector<std::string_view> keys = {"name", whole, "point", "settlement"};
+    if (of_beam() != nullptr) keys.insert(keys.begin() + 3, "curvature");
+    t.allow_only(keys);
+    if (!t.has(whole) && !t.has("point") && !t.has("curvature") && !t.has("settlement"))
       t.refuse("a step without loads and settlements",
-               fmt::format("at least one of {}, point and settlement; {} takes all load off", whole,
+               fmt::format("at least one of {}, point{} and settlement; {} takes all load off", whole,
+                           of_beam() != nullptr ? ", curvature" : "",
                            on_matrix ? "a load of 0 at any dof" : "uniform = 0"));
     load l;
     if (t.has("name")) l.name = t["name"].text();
     if (t.has("load")) read_vector(t, l);
     if (t.has("uniform")) read_uniform(t, l);
-    for (const toml_value& p : t["point"].optional_tables())
-      for (const point_load& at : values_in(p, "a point load")) l.points.push_back(at);
+    for (const toml_value& p : t["point"].optional_tables()) {
+      if (of_beam() != nullptr && p.has("x")) {
+        read_points_along(p, *of_beam(), l);
+      } else {
+        for (const point_load& at : values_in(p, "a point load")) l.points.push_back(at);
+      }
+    }
+    for (const toml_value& c : t["curvature"].optional_tables()) l.placed.push_back(read_curvature(c));
     read_settlements(t, l);
     refuse_endless_sums(t, nodes_.structure(), l);
     return l;
   }
 
  private:
+  [[nodiscard]] const beam* of_beam() const { return std::get_if<beam>(&nodes_.structure().kind); }
+  [[nodiscard]] const plate* of_plate() const { return std::get_if<plate>(&nodes_.structure().kind); }
+
+  /// What bends other structures as a curvature would.
+  void refuse_curvature(const toml_value& t) const {
+    if (!t.has("curvature") || of_beam() != nullptr) return;
+    t["curvature"].refuse(
+        nodes_.on_matrix() ? "this with a matrix" : "this with a plate",
+        nodes_.on_matrix()
+            ? "curvature along a beam; of a matrix, the loads at dofs by which its program has temperatures"
+            : "curvature along a beam; of a plate the same everywhere it is a moment D (1 + nu) curvature "
+              "per "
+              "length of each free edge, as point loads wx and wy");
+  }
+
   enum class hold : char { none, spring, fixed };
 
   void read_vector(const toml_value& t, load& l) const {
@@ -80,6 +107,10 @@ class step_reader {
     // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
     std::map<std::vector<int>, std::size_t> place;
     for (const toml_value& table : uniform.tables()) {
+      if (table.has("from") || table.has("to")) {
+        l.placed.push_back(read_part(table));
+        continue;
+      }
       distributed_load part = read_distributed(table);
       const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
       if (is_new) {
@@ -94,17 +125,100 @@ class step_reader {
   }
 
   [[nodiscard]] distributed_load read_distributed(const toml_value& t) const {
-    t.allow_only({"value", "polynomial", "elements"});
-    if (t.has("value") == t.has("polynomial"))
-      t.refuse("both or neither of value and polynomial", "one of them");
+    t.allow_only({"value", "polynomial", "elements", "from", "to"});
     distributed_load d;
-    d.polynomial = t.has("value") ? std::vector<double>{t["value"].real(any_real)}
-                                  : read_polynomial(t, nodes_.structure(),
-                                                    "value: only a beam's load may be a polynomial");
+    d.polynomial = read_intensity(t);
     const int all = elements(nodes_.structure());
     if (t.has("elements")) d.elements = t["elements"].numbers(all);
     if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
     return d;
+  }
+
+  [[nodiscard]] std::vector<double> read_intensity(const toml_value& t) const {
+    if (t.has("value") == t.has("polynomial"))
+      t.refuse("both or neither of value and polynomial", "one of them");
+    if (t.has("value")) return {t["value"].real(any_real)};
+    return read_polynomial(t, nodes_.structure(), "value: only a beam's load may be a polynomial");
+  }
+
+  /// A distributed load from one coordinate to another.
+  [[nodiscard]] placed_load read_part(const toml_value& t) const {
+    t.allow_only({"value", "polynomial", "elements", "from", "to"});
+    t.refuse_beside({"elements"}, "from or to", "either elements, or from and to");
+    placed_load p{load_kind::force, 0.0, 0.0, read_intensity(t)};
+    if (of_plate() != nullptr) {
+      read_rectangle(t, *of_plate(), p);
+    } else {
+      read_ends(t, *of_beam(), p);
+    }
+    return p;
+  }
+
+  [[nodiscard]] placed_load read_curvature(const toml_value& t) const {
+    t.allow_only({"value", "from", "to"});
+    placed_load p{load_kind::curvature, 0.0, 0.0, {t["value"].real(any_real)}};
+    read_ends(t, *of_beam(), p);
+    return p;
+  }
+
+  static void refuse_reversed(const toml_value& to, double from, double end) {
+    if (!(from < end))
+      to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this begins", from));
+  }
+
+  /// from and to along a beam; the ends of the beam where they are missing.
+  static void read_ends(const toml_value& t, const beam& b, placed_load& p) {
+    const coordinate_row x = nodes_along(b.x);
+    p.from = t.has("from") ? x.place_of(t["from"]) : b.x.front();
+    p.to = t.has("to") ? x.place_of(t["to"]) : b.x.back();
+    refuse_reversed(t[t.has("to") ? "to" : "from"], p.from, p.to);
+  }
+
+  /// The same of a plate: its corners.
+  static void read_rectangle(const toml_value& t, const plate& of, placed_load& p) {
+    const auto read = [&](const char* key, double x, double y) -> std::array<double, 2> {
+      if (!t.has(key)) return {x, y};
+      const std::vector<toml_value> at = t[key].entries("a corner of the rectangle, [x, y]", 2, 2);
+      return {coordinate_row{of.x, "grid line along x", ""}.place_of(at[0]),
+              coordinate_row{of.y, "grid line along y", ""}.place_of(at[1])};
+    };
+    const auto [left, below] = read("from", of.x.front(), of.y.front());
+    const auto [right, above] = read("to", of.x.back(), of.y.back());
+    const toml_value last = t[t.has("to") ? "to" : "from"].entries("", 2)[left < right ? 1 : 0];
+    refuse_reversed(last, left, right);
+    refuse_reversed(last, below, above);
+    p.from = left;
+    p.to = right;
+    p.across = {below, above};
+  }
+
+  /// Point loads at coordinates, between nodes too.
+  void read_points_along(const toml_value& t, const beam& b, load& l) const {
+    const auto& names = nodes_.dof_names();
+    t.allow_only(nodes_.keys_with(names));
+    t.refuse_beside({"node", "nodes"}, "x", "either x, or node or nodes");
+    const std::vector<int> dofs =
+        nodes_.dofs_in(t, fmt::format("a point load without {}", fmt::join(names, " or ")));
+    std::vector<double> places;
+    std::set<double> seen;
+    for (const toml_value& named : t["x"].each("a number, or a list of numbers")) {
+      const double x = nodes_along(b.x).place_of(named);
+      const std::optional<int> node = find_coordinate(b.x, x);
+      if (!seen.insert(x).second)
+        named.refuse(node ? place_words(nodes_.structure(), *node) + ", a second time" : "this a second time",
+                     "each of them once");
+      places.push_back(x);
+    }
+    for (const int dof : dofs) {
+      const double value = t[names[dof]].real(any_real);
+      for (const double x : places) {
+        if (const std::optional<int> node = find_coordinate(b.x, x)) {
+          l.points.push_back({*node, dof, value});
+        } else {
+          l.placed.push_back({dof == 0 ? load_kind::point : load_kind::moment, x, x, {value}});
+        }
+      }
+    }
   }
 
   /// The values of a table that names nodes and their dofs, dof by dof.

@@ -1,0 +1,113 @@
+// Loads that need not follow the mesh in rational numbers, and proved bounds on extremes inside elements.
+#include <algorithm>
+#include <sstream>
+
+#include "catch.hpp"
+#include "contct/exact/exact_problem.hpp"
+#include "contct/model/extremes.hpp"
+#include "contct/number/random.hpp"
+#include "contct/read/problem_file.hpp"
+#include "support/judged_run.hpp"
+
+using namespace contct;
+
+namespace {
+
+/// The consistent loads of the only step of a beam of one element from 0 to 1.
+rational_vector work_of(const std::string& step) {
+  const problem p = parse_problem(
+      "[beam]\nx = [0, 1]\nEI = 0.3\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\n" + step,
+      "p.toml");
+  return exact_problem_of(p).steps.at(0).force;
+}
+
+}  // namespace
+
+TEST_CASE("A force at a quarter of an element does the exact work of the cubic shape functions") {
+  CHECK(work_of("point = [ { x = 0.25, w = 64 } ]\n") == rational_vector{54, 9, 10, -3});
+  CHECK(work_of("point = [ { x = 0.25, theta = 16 } ]\n") == rational_vector{-18, 3, 18, -5});
+}
+
+TEST_CASE("A load on a tenth of an element does exact work, a curvature that of its two moments") {
+  // q (L - L^3 + L^4 / 2) and so on, from 0 to 1/10.
+  CHECK(work_of("uniform = [ { value = 1, to = 0.1 } ]\n") ==
+        rational_vector{rational(1981, 20000), rational(523, 120000), rational(19, 20000),
+                        rational(-37, 120000)});
+  CHECK(work_of("curvature = [ { value = 10 } ]\n") == rational_vector{0, -3, 0, 3});
+  CHECK(work_of("curvature = [ { value = 10, from = 0.5 } ]\n") ==
+        rational_vector{rational(9, 2), rational(3, 4), rational(-9, 2), rational(15, 4)});
+}
+
+namespace {
+
+struct drawn_load {
+  std::string text;
+  std::vector<int> places;  // in sixteenths
+};
+
+/// Loads that begin, end and stand at sixteenths of a beam from 0 to 4.
+drawn_load draw_load(random_numbers& random) {
+  std::ostringstream text;
+  drawn_load drawn;
+  const auto place = [&](int least, int most) {
+    drawn.places.push_back(random.whole(least, most));
+    return drawn.places.back() / 16.0;
+  };
+  const double from = place(1, 20);
+  text << "uniform = [ { value = " << random.whole(-9, 9) << ", from = " << from << ", to = " << from + 1.25
+       << " }, { polynomial = [" << random.whole(-9, 9) << ", " << random.whole(-9, 9)
+       << ", 0.7], from = " << place(1, 60) << " } ]\n";
+  drawn.places.push_back(drawn.places[0] + 20);
+  text << "point = [ { x = " << place(1, 63) << ", w = " << random.whole(-9, 9)
+       << " }, { x = " << place(1, 63) << ", theta = " << random.whole(-3, 3) << " } ]\n";
+  text << "curvature = [ { value = " << random.whole(-9, 9) << "e-4, to = " << place(1, 63) << " } ]\n";
+  drawn.text = text.str();
+  return drawn;
+}
+
+problem on_nodes(const std::vector<int>& places, const std::string& step) {
+  std::vector<int> sorted = places;
+  sorted.insert(sorted.end(), {0, 32, 64});
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  std::ostringstream text;
+  text << "[beam]\nx = [";
+  for (const int i : sorted) text << i / 16.0 << ", ";
+  text << "]\nEI = 1e3\n[[support]]\nx = [0, 4]\nfix = \"w\"\n[[contact]]\nx = 2\nsurface = \"below\"\n"
+       << "face = -1e-3\nstiffness = 1e3\n[[step]]\n"
+       << step;
+  return parse_problem(text.str(), "p.toml");
+}
+
+struct told_extremes {
+  certificate proof;
+  std::vector<value_range> ranges;
+};
+
+told_extremes extremes_told_of(const problem& p) {
+  const judged_run r(p, "corrected", false);
+  return {r.of_step(1),
+          ranges_of(p.geometry, p.steps[0], r.displacements.at(0), {}, r.numbers.at(0).element_values)};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Extremes of two elements are within their proved bounds of those with a node at each place of a load") {
+  random_numbers random(41);
+  for (int number = 0; number < 100; ++number) {
+    const drawn_load drawn = draw_load(random);
+    CAPTURE(number, drawn.text);
+    const told_extremes coarse = extremes_told_of(on_nodes({}, drawn.text));
+    const told_extremes fine = extremes_told_of(on_nodes(drawn.places, drawn.text));
+    REQUIRE(coarse.proof.certified);
+    REQUIRE(fine.proof.certified);
+    const quantity kinds[] = {quantity::w, quantity::moment, quantity::shear};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double bound = *coarse.proof.error[kinds[i]] + *fine.proof.error[kinds[i]];
+      CHECK(std::abs(coarse.ranges[i].least.value - fine.ranges[i].least.value) <= bound);
+      CHECK(std::abs(coarse.ranges[i].most.value - fine.ranges[i].most.value) <= bound);
+      CHECK(bound < 1e-9);
+    }
+  }
+}
