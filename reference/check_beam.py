@@ -46,18 +46,33 @@ class Beam:
         self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, 4 * h * h * c, -6 * h * c, 2 * h * h * c],
                           [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
 
-    def load(self, q, left):
-        """Consistent forces of the polynomial q in x, and the deflection in the middle between clamped ends.
+    def work(self, of):
+        """What a load does on the shapes in t = (x - left) / h, and on the deflection of the middle by a unit load between clamped ends.
 
-        q and the shapes become polynomials in t = (x - left) / h; a unit load at t deflects the middle by h^3 t^2 (3 - 4 t) / 48 EI up to 1/2.
+        of(shape, from, to) is its work on a polynomial between two places; h^3 t^2 (3 - 4 t) / 48 EI is the deflection at t by a unit load in the middle, up to 1/2.
         """
         shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
+        return [of(shape, F(0), F(1)) for shape in shapes] + [self.h**3 / (48 * self.EI) * (of((0, 0, 3, -4), F(0), F(1, 2)) + of((-1, 6, -9, 4), F(1, 2), F(1)))]
+
+    def load(self, q, left, first=F(0), last=F(1)):
+        """Of the polynomial q in x, between two places."""
         own = [sum(c * comb(k, i) * left**(k - i) for k, c in enumerate(q) if k >= i) * self.h**(i + 1) for i in range(len(q))]
-        forces = [sum(c * a / F(i + j + 1) for i, c in enumerate(own) for j, a in enumerate(shape)) for shape in shapes]
-        half = [[F(1, 2**k * k) for k in range(i + 1, i + 5)] for i in range(len(q))]
-        left_half = [3 * at[2] - 4 * at[3] for at in half]
-        right_half = [sum(a * (F(1, i + j + 1) - at[j]) for j, a in enumerate((-1, 6, -9, 4))) for i, at in enumerate(half)]
-        return forces + [self.h**3 / (48 * self.EI) * sum(c * (a + b) for c, a, b in zip(own, left_half, right_half))]
+
+        def of(shape, a, b):
+            a, b = max(a, first), max(a, first, min(b, last))
+            return sum(c * s * (b**(i + j + 1) - a**(i + j + 1)) / F(i + j + 1) for i, c in enumerate(own) for j, s in enumerate(shape))
+        return self.work(of)
+
+    def point(self, force, moment, t):
+        """Of a force and a moment at t, inside the element."""
+        return self.work(lambda shape, a, b: sum(force * s * t**j + moment * j * s * t**(j - 1) / self.h for j, s in enumerate(shape)) if a < t <= b else F(0))
+
+    def bent(self, curvature, first, last):
+        """Of an imposed curvature between two places."""
+        def of(shape, a, b):
+            a, b = max(a, first), max(a, first, min(b, last))
+            return self.EI * curvature / self.h * sum(j * s * (b**(j - 1) - a**(j - 1)) for j, s in enumerate(shape) if j > 1)
+        return self.work(of)
 
     def middle(self, u, work):
         """w in the middle, for its displacements and its own loads."""

@@ -65,9 +65,10 @@ class Plate:
         xx, yy, xy = (2, 0), (0, 2), (1, 1)
         return self.D * (of(xx, xx) + of(yy, yy) + self.nu * (of(xx, yy) + of(yy, xx)) + 2 * (1 - self.nu) * of(xy, xy))
 
-    def load(self, q, _):
-        """Consistent forces of the pressure q[0]."""
-        work = [q[0] * self.integral(*p) for p in MONOMIALS]
+    def load(self, q, _, x=(F(0), F(1)), y=(F(0), F(1))):
+        """Consistent forces of the pressure q[0] on a part, in shares of the sides."""
+        part = [[(b**(i + 1) - a**(i + 1)) for i in range(4)] for a, b in (x, y)]
+        work = [q[0] * part[0][i] * part[1][j] * self.integral(i, j) for i, j in MONOMIALS]
         return [dot(work, column) for column in zip(*self.shapes)]
 
     def values(self, u, _):

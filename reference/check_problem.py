@@ -89,23 +89,60 @@ class Problem:
     def loads(self, step):
         """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
-        only(step, {"name", "point", "settlement"} | ({"uniform"} if self.elements else set()))
+        only(step, {"name", "point", "settlement"} | ({"uniform"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
+
+        def add(e, work):
+            own[e] = [a + b for a, b in zip(own[e], work)]
         for part in listed(step.get("uniform", [])):
-            part = only(part, {"value", "polynomial", "elements"}) if isinstance(part, dict) else {"value": part}
+            part = only(part, {"value", "polynomial", "elements", "from", "to"}) if isinstance(part, dict) else {"value": part}
             need(("value" in part) + ("polynomial" in part) == 1, "not one of value and polynomial")
             q = [real(part["value"])] if "value" in part else self.polynomial(part["polynomial"])
+            if part.keys() & {"from", "to"}:
+                need("elements" not in part, "a load on elements and from a place")
+                for e, shares in self.parts(part):
+                    add(e, self.elements[e][0].load(q, self.elements[e][2], *(shares[0] if len(shares) == 1 else shares)))
+                continue
             for e in numbers(part.get("elements", "all"), len(own)):
-                own[e] = [a + b for a, b in zip(own[e], self.elements[e][0].load(q, self.elements[e][2]))]
+                add(e, self.elements[e][0].load(q, self.elements[e][2]))
+        for part in step.get("curvature", []):
+            for e, shares in self.parts(only(part, {"value", "from", "to"})):
+                add(e, self.elements[e][0].bent(real(part["value"]), *shares[0]))
+        points = step.get("point", [])
+        for part, x in ((part, real(x)) for part in points if len(self.lines) == 1 for x in listed(part.get("x", []))):
+            if find(self.lines[0], x) is None:
+                e, t = self.inside(0, x)
+                need(only(part, {"x", *self.names}).keys() & set(self.names), "a load of no dof")
+                add(e, self.elements[e][0].point(real(part.get("w", 0)), real(part.get("theta", 0)), t))
         for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
             f[dof] += force
-        for part in step.get("point", []):
-            for dof, value in self.at_dofs(part):
+        for part in points:
+            if len(self.lines) == 1 and "x" in part:  # those between nodes are there by now
+                part = part | {"x": [x for x in listed(part["x"]) if find(self.lines[0], real(x)) is not None]}
+            for dof, value in self.at_dofs(part) if part.get("x", True) != [] else []:
                 f[dof] += value
         for part in step.get("settlement", []):
             for dof, value in self.at_dofs(part):
                 need(dof in self.fixed and dof not in settled, "a settlement of a dof that is free, or a second one")
                 settled[dof] = value
         return f, dict.fromkeys(self.fixed, F(0)) | settled, own
+
+    def inside(self, i, x):
+        """Along line i: the interval that has x, and the share of it that is before x."""
+        line = self.lines[i]
+        e = next(k for k in range(len(line) - 1) if line[k] <= x <= line[k + 1])
+        return e, (x - line[e]) / (line[e + 1] - line[e])
+
+    def parts(self, part):
+        """The elements from one place to another, each with the shares along its sides where the part begins and ends."""
+        sides = []
+        for i, line in enumerate(self.lines):
+            ends = [real(part[key] if len(self.lines) == 1 else part[key][i]) if key in part else line[k] for key, k in (("from", 0), ("to", -1))]
+            ends = [x if find(line, x) is None else line[find(line, x)] for x in ends]
+            need(line[0] <= ends[0] < ends[1] <= line[-1], "a load from a place that is not before its end")
+            sides.append([(e, [min(max((x - a) / (b - a), F(0)), F(1)) for x in ends]) for e, (a, b) in enumerate(zip(line, line[1:])) if ends[0] < b and a < ends[1]])
+        if len(sides) == 1:
+            return [(e, [at]) for e, at in sides[0]]
+        return [(j * (len(self.lines[0]) - 1) + i, [x, y]) for j, y in sides[1] for i, x in sides[0]]
 
     def at_dofs(self, part):
         """Each dof that a table names, with its value."""
