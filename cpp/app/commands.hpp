@@ -30,8 +30,8 @@ struct problem_options {
 };
 
 struct run_options : problem_options {
-  std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first leads
-  std::string engine;                                     ///< empty: what suits the leader
+  std::vector<std::string> kernels;  ///< the first leads; none: both rules
+  std::string engine;                ///< empty: what suits the leader
   std::string json, log, trace, proof, html, csv, vtu;
   report_options report;
   bool free_run = false;

@@ -24,7 +24,8 @@ constexpr example all_examples[] = {
     {"contct new beam beam.toml", "a commented problem to start from"},
     {"contct new plate plate.toml", "the same for a plate"},
     {"contct new crane", "one of the jobs of the cookbook"},
-    {"contct run beam.toml", "the path, FORTRAN and C++ in lockstep"},
+    {"contct run beam.toml", "the answer by the corrected rule, certified, and what the 1989 rule does"},
+    {"contct run beam.toml --kernels fortran,cpp", "the 1989 rule alone, FORTRAN and C++ in lockstep"},
     {"contct run beam.toml --json result.json --log unit26.txt",
      "all numbers, and what the listing writes to unit 26"},
     {"contct run beam.toml --kernels corrected --strict", "the corrected rule; exit 3 if not certified"},
@@ -193,7 +194,10 @@ void declare_pictures(CLI::App* c, run_options& o) {
 void declare_run(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<run_options>(c);
   add_problem(c, o);
-  add_kernels(c, "--kernels", o.kernels, "Kernels to run, the first one leads")->capture_default_str();
+  add_kernels(
+      c, "--kernels", o.kernels,
+      "Kernels to run, the first one leads [both rules: corrected gives the answer, and fortran and cpp "
+      "in lockstep follow the 1989 path beside it; under --free-run fortran,cpp]");
   c->add_option(
       "--engine", o.engine,
       fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
@@ -218,10 +222,12 @@ void declare_run(option_parser& p, CLI::App* c) {
   c->add_option("--max-increments", o.max_increments, "Limit of increments in a step")
       ->check(CLI::Range(1, most_increments));
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
-  add_file(c, "--trace", o.trace, "Write every call of the leader, inputs and answers, to this file");
+  add_file(
+      c, "--trace", o.trace,
+      "Write every call of the leader, inputs and answers, to this file; of both rules those of fortran");
   declare_pictures(c, o);
   add_reports(c, o.report);
-  add_file(c, "--log", o.log, "Write the leader's unit 26 to this file");
+  add_file(c, "--log", o.log, "Write the leader's unit 26 to this file; of both rules that of fortran");
   add_file(c, "--proof", o.proof,
            "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
@@ -330,7 +336,8 @@ struct command {
 };
 
 constexpr command all_commands[] = {
-    {"run", "Follow the path of a problem, all kernels in lockstep", declare_run},
+    {"run", "Follow the path of a problem by the corrected rule, and by the 1989 rule beside it",
+     declare_run},
     {"check", "Read a problem without solving it, and print a summary", declare_check},
     {"explain", "What the listing did in each increment, line by line, and why", declare_explain},
     {"exact", "The path in rational arithmetic, and how many digits of each kernel are right", declare_exact},

@@ -1,4 +1,4 @@
-// contct run: follow the path of a problem, all kernels in lockstep.
+// contct run: follow the path of a problem, by both rules or by kernels that were named.
 #include "contct/session/run.hpp"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/session/path_states.hpp"
+#include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
 #include "contct/write/table.hpp"
@@ -146,6 +147,8 @@ run_request request_of(const run_setup& setup) {
   const run_options& o = setup.options;
   run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
   if (!o.final_only) r.kernels = o.kernels;
+  if (o.kernels.empty() && o.free_run) r.kernels = kernels_of_1989;
+  r.both_rules = r.kernels.empty() && !o.final_only;
   r.pictures = !o.vtu.empty();
   r.max_increments = o.max_increments;
   r.date = setup.date;
@@ -172,7 +175,7 @@ void print_heading(const shown_run& o) {
   if (!setup.prints) return;
   for (const std::string& line : wrap({on_one_line(setup.what.title)}, setup.screen.width))
     if (!line.empty()) print_text(fmt::format("{}\n", painted(setup.screen, paint::strong, line)));
-  const std::vector<std::string>& kernels = o.run.wanted.kernels;
+  const std::vector<std::string>& kernels = o.run.result.kernels;
   const std::vector<std::string> facts = {
       fmt::format("{}, {}, {}", counted(nodes(setup.what.geometry), node_name(setup.what.geometry)),
                   counted(setup.what.pairs.size(), "pair"), counted(setup.what.steps.size(), "step")),
@@ -206,8 +209,8 @@ void go(shown_run& o) {
 
 /// Print how the comparison came out. A mismatch under a bad probe is the environment's.
 void report_lockstep(shown_run& o) {
-  const lockstep& compared = *o.run.result.compared;
-  const std::string names = joined(o.run.wanted.kernels, " and ");
+  const lockstep& compared = *o.run.result.compared_calls();
+  const std::string names = joined(o.run.result.beside ? kernels_of_1989 : o.run.wanted.kernels, " and ");
   if (compared.calls() == 0)
     return print_verdict(o, paint::quiet, {names + " were never called: nothing is compared"});
   const bool equal = o.run.result.equal;
@@ -246,7 +249,9 @@ void report_comparison(shown_run& o) {
     return print_verdict(o, paint::quiet,
                          {"only the end of each step, no path",
                           fmt::format("{} factorisations", o.run.result.end.work.factors)});
-  if (o.run.result.compared) return report_lockstep(o);
+  if (o.run.result.compared_calls() != nullptr) report_lockstep(o);
+  for (const std::string& line : rule_1989_words(o.run.result)) print_verdict(o, paint::strong, {line});
+  if (!o.run.wanted.free_run) return;
   // Unit 26 exists only once: one kernel after the other.
   for (const std::string& name : std::span(kernels).subspan(1)) report_free_run(o, name);
 }
@@ -259,6 +264,12 @@ check_report check_report_of(const shown_run& o) {
   r.facts.push_back(fmt::format("{}: kernels {}", run.file, joined(kernels, ", ")));
   if (kernels.size() > 1)
     r.results.push_back({"kernels", passed_if(run.equal), run.comparison, o.differences});
+  if (run.beside) {
+    const std::vector<std::string> lines = rule_1989_words(run);
+    const bool is_wrong = std::ranges::any_of(run.beside->differences, &state_difference::is_wrong);
+    r.results.push_back({"1989 rule", is_wrong ? outcome::skipped : outcome::passed,
+                         lines.empty() ? "not compared" : lines.front(), joined(lines, "\n")});
+  }
   const std::string ended = end_words(run.what, run.end);
   const bool solved = run.end.status == path_status::solved;
   r.results.push_back({"path", passed_if(solved), solved ? "every step's load is applied" : ended, ended});

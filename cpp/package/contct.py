@@ -592,12 +592,13 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 # What a problem is put to
 
 
-def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None, final_only: bool = False,
+def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional[str] = None, final_only: bool = False,
         envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
         folder: Folder = None, allow_outside: bool = False) -> Result:
-    """Follow the path of a problem, all kernels in lockstep: `contct run`.
+    """Follow the path of a problem: `contct run`.
 
-    kernels         names, or one text with commas; the first one leads
+    kernels         names, or one text with commas; the first one leads. None: both rules: the corrected one gives the answer,
+                    and FORTRAN and C++ in lockstep follow the 1989 path beside it: `rule_1989`
     engine          how the stiffness equations are solved; None: what suits the leading kernel
     final_only      True: no path, the equilibrium under each step's load
     envelope        True: also least and largest values over all increments
@@ -611,7 +612,7 @@ def run(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Opti
     Raises InputError for a bad problem or a bad option, and OSError if the file cannot be read.
     """
     source = _source(problem, ".toml", "problem", folder, allow_outside)
-    options = {"kernels": None if final_only else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
+    options = {"kernels": None if final_only or kernels is None else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
                "envelope": envelope or None, "states": states or None, "max_increments": max_increments or None}
     answer = _ask(_library.contct_run, source, options)
     result = Result(answer, None if final_only else (source, options))

@@ -67,7 +67,7 @@ TEST_CASE("a beam that balances on its one pair makes contact once, in the table
 
 TEST_CASE("a path of the 1989 rule that loses its hold is no mechanism where the load has an equilibrium") {
   const scratch_folder dir;
-  const finished f = run_of(lifted, {"--json", "out.json"}, dir);
+  const finished f = run_of(lifted, {"--kernels", "fortran,cpp", "--json", "out.json"}, dir);
   CHECK(f.exit == 5);
   CHECK_THAT(f.err, Contains("step 2, at share 0.5 of its load: the path ended: when pair 1") &&
                         Contains("There is an equilibrium") && Contains("--kernels corrected") &&
@@ -78,6 +78,16 @@ TEST_CASE("a path of the 1989 rule that loses its hold is no mechanism where the
   const finished exact = contct_program(dir.path(), {"exact", "p.toml", "--rule", "1989"});
   CHECK(exact.exit == 5);
   CHECK_THAT(exact.out + exact.err, !Contains("no equilibrium"));
+}
+
+TEST_CASE("a path of the 1989 rule that is lost leaves the answer as it is: exit 0") {
+  const scratch_folder dir;
+  const finished f = run_of(lifted, {"--strict", "--json", "out.json"}, dir);
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(f.out, Contains("the path of the 1989 rule is lost") && Contains("  ended    "));
+  CHECK(result_in(dir)["status"] == "solved");
+  CHECK(result_in(dir)["rule_1989"]["status"] == "path-ended");
 }
 
 TEST_CASE("of a matrix with a spring softer than rounding nobody says that it has no equilibrium") {

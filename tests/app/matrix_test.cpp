@@ -53,7 +53,7 @@ TEST_CASE("a structure without coordinates has its page and tables, and no grid,
   INFO(f.err);
   CHECK(f.exit == 0);
   CHECK_THAT(dir.read("o.html"), Contains("\"nodes\":[],\"dofs\":[{\"dof\":\"1\"}"));
-  CHECK_THAT(dir.read("o.html"), Contains("\"engine\": \"refactor\""));
+  CHECK_THAT(dir.read("o.html"), Contains("\"engine\": \"updated\""));
   CHECK_THAT(dir.read("o.pairs.csv"), Contains("\r\n1,1,1,2,below,contact,"));
   const auto before = dir.files();
   const finished grid = contct_program(dir.path(), {"run", "p.toml", "--vtu", "o.vtu", "--json", "o.json"});

@@ -206,8 +206,8 @@ TEST_CASE("an answer without numbers leaves no files: exit 2") {
   dir.write("stiff.toml",
             "[beam]\nlength = 2.0\nelements = 40\nEI = 1e16\n[[bed]]\nmodulus = 5000.0\nface = 0.0\n"
             "[[step]]\nuniform = [ { polynomial = [-20.0, 20.0, -5.0] } ]\n");
-  const finished f =
-      contct_program(dir.path(), {"run", "stiff.toml", "--json", "out.json", "--log", "out.log"});
+  const finished f = contct_program(dir.path(), {"run", "stiff.toml", "--kernels", "fortran,cpp", "--json",
+                                                 "out.json", "--log", "out.log"});
   INFO(f.out << f.err);
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("too ill-conditioned"));

@@ -31,7 +31,7 @@ std::size_t longest_line(const std::string& text) {
 TEST_CASE("the table shows share, s, load, event, node and side, and that the kernels agreed") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
-  const finished f = contct_program(dir.path(), {"run", "pb.toml"});
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"});
   CHECK(f.exit == 0);
   CHECK(f.err.empty());
   CHECK_THAT(f.out, Contains("1.1  0.25"));
@@ -44,6 +44,57 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
   CHECK_THAT(f.out,
              Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
+}
+
+TEST_CASE("without --kernels the answer is the corrected rule's, and each row says what the 1989 rule does") {
+  const scratch_folder dir;
+  const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
+  const finished f = contct_program(dir.path(), {"run", near, "--strict", "--json", "o.json"});
+  CHECK(f.exit == 0);
+  CHECK(f.err.empty());
+  CHECK_THAT(f.out, Contains("kernels corrected, fortran, cpp; engine condensed\n") &&
+                        Contains("  incr  share      s          1989     load               events\n"));
+  CHECK_THAT(f.out, Contains("0.25       same     w -15 at node 3    make 1: node 3 below\n") &&
+                        Contains("0.0119444  other    w -15.5375         make 2: node 3 below\n" +
+                                 std::string(58, ' ') + "1989: make 2 at 0.25\n"));
+  CHECK_THAT(f.out,
+             Contains("fortran and cpp are equal to the bit; 7 calls, 42 values compared") &&
+                 Contains("the 1989 rule is wrong in step 2: the deflection of node 3 is 0.000133333, right\n"
+                          "is 0: off by 0.000133, 3 % of the largest of its kind\n") &&
+                 Contains("both final states are certified"));
+  const auto r = nlohmann::json::parse(dir.read("o.json"));
+  CHECK(r["kernels"] == nlohmann::json({"corrected", "fortran", "cpp"}));
+  CHECK(r["certified"] == true);
+  CHECK(r["lockstep"] == r["rule_1989"]["lockstep"]);
+  CHECK(r["lockstep"]["calls"] == 7);
+  CHECK(r["rule_1989"]["same_events"] == false);
+  const auto& unloaded = r["rule_1989"]["wrong_steps"][1];
+  CHECK(unloaded["step"] == 2);
+  CHECK(unloaded["quantity"] == "w");
+  CHECK(unloaded["value"].get<double>() == Approx(4.0 / 30000));  // 0.5 L^3 / 3 EI
+  CHECK(unloaded["right"] == 0.0);
+}
+
+TEST_CASE("what is wrong with the 1989 rule is not red beside an answer that is certified") {
+  const scratch_folder dir;
+  const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
+  const process_options at_terminal{"", {{"TERM", "xterm"}}, true};
+  const std::string red = "\033[1;31m";
+  CHECK_THAT(contct_program(dir.path(), {"run", near}, at_terminal).out, !Contains(red));
+  CHECK_THAT(contct_program(dir.path(), {"run", near, "--kernels", "fortran,cpp"}, at_terminal).out,
+             Contains(red));
+}
+
+TEST_CASE("without --kernels the trace and unit 26 are those of the 1989 rule alone") {
+  const scratch_folder dir;
+  const std::string pb7 = CONTCT_ROOT "/reference/problems/pb07-three-gap-supports.toml";
+  const auto calls = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", pb7, "--quiet", "--trace", "t", "--log", "l"});
+    CHECK(contct_program(dir.path(), more).exit == 0);
+    const std::string trace = dir.read("t");
+    return trace.substr(trace.find("\ncall ")) + dir.read("l");
+  };
+  CHECK(calls({}) == calls({"--kernels", "fortran"}));
 }
 
 TEST_CASE("the table fits its terminal, from 40 columns to 160") {
@@ -90,7 +141,8 @@ TEST_CASE("a table follows the node that it was given, by number or by x, and re
 TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
-  const finished f = contct_program(dir.path(), {"run", "pb.toml"}, {"", {{"COLUMNS", "40"}}, false});
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"},
+                                    {"", {{"COLUMNS", "40"}}, false});
   CHECK_THAT(f.out, Contains("  incr  share      s          kernels\n"
                              "   1.1  0.25       0.25       equal\n"
                              "    make 1: node 3 below\n"
@@ -157,8 +209,8 @@ TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose
 TEST_CASE("the limit of increments: exit 5, with a result that says so") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
-  const finished f =
-      contct_program(dir.path(), {"run", "pb.toml", "--max-increments", "1", "--json", "out.json"});
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp",
+                                                 "--max-increments", "1", "--json", "out.json"});
   CHECK(f.exit == 5);
   CHECK_THAT(f.err, Contains("limit of increments"));
   CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "iteration-limit");
@@ -224,10 +276,12 @@ TEST_CASE("contct kernels and --version name the listing's checksum and the floa
 TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that was too early is named") {
   const scratch_folder dir;
   const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
-  CHECK(contct_program(dir.path(), {"run", pb5}).exit == 0);
-  const finished strict = contct_program(dir.path(), {"run", pb5, "--strict", "--json", "s.json"});
+  CHECK(contct_program(dir.path(), {"run", pb5, "--kernels", "fortran,cpp"}).exit == 0);
+  const finished strict =
+      contct_program(dir.path(), {"run", pb5, "--kernels", "fortran,cpp", "--strict", "--json", "s.json"});
   CHECK(strict.exit == 3);
-  CHECK_THAT(strict.out, Contains("step 4 is NOT certified: the deflections are off by 1.2e-06"));
+  CHECK_THAT(strict.out,
+             Contains("step 4 is NOT certified: the deflections are off by 1.2e-08, 0.00012 % of the"));
   CHECK_THAT(strict.err, Contains("in increment 4.2 pair 1 (node 41, below) broke contact"));
   CHECK_THAT(strict.err,
              Contains("contct run " + pb5 + " --kernels corrected"));  // which is what certifies it
@@ -251,7 +305,8 @@ TEST_CASE(
     CHECK(result["engine_work"]["factors"] >= 1);
     return result["engine"].get<std::string>();
   };
-  CHECK(engine_of({}) == "refactor");
+  CHECK(engine_of({"--kernels", "fortran,cpp"}) == "refactor");
+  CHECK(engine_of({}) == "condensed");
   CHECK(engine_of({"--kernels", "corrected"}) == "condensed");
   CHECK(engine_of({"--engine", "auto"}) == "condensed");
   CHECK(engine_of({"--engine", "updated"}) == "updated");

@@ -59,8 +59,13 @@ TEST_CASE("the worst share and its words") {
   const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);
   const by_quantity allowed = sizes.of(b, 10.0);
   CHECK(worst_share(b.error, allowed) == Approx(5e-4));
-  CHECK(worst_bound(b.error, allowed) == "a deflection may be off by 0.001, 0.0005 of the largest");
+  CHECK(worst_bound(b.error, allowed) == "a deflection may be off by 0.001, 0.05 % of the largest");
   const error_bounds good = bounds(1e-9, 2.0, 1e-9, 50.0);
+  problem in_metres;
+  in_metres.geometry.kind = beam{};
+  in_metres.units = {"m", "kN"};
+  CHECK(worst_bound(b.error, allowed, &in_metres) ==
+        "a deflection may be off by 0.001 m, 0.05 % of the largest");
   CHECK(worst_bound(good.error, sizes.of(good, 10.0)).empty());
 }
 

@@ -115,7 +115,7 @@ TEST_CASE(
   };
   const double middle = right.u[8];
   for (const fault& f : std::vector<fault>{
-           {[](told_state& t) { t.u[8] *= 1 + 1e-4; }, "DSE", "the deflections are off by 0.0001"},
+           {[](told_state& t) { t.u[8] *= 1 + 1e-4; }, "DSE", " 0.01 % of the largest deflection"},
            {[](told_state& t) { t.u[5] += 1e-3; }, "SE", "the displacements are off"},
            {[](told_state& t) { t.isep[1] = separated; }, "P", "a separated pair is beyond its face"},
            {[](told_state& t) { t.isep[0] = separated; }, "EP", "a separated pair is beyond its face"},

@@ -69,6 +69,8 @@ TEST_CASE("a run's answer is a result, with every other output that is asked for
   CHECK(plain.at("error").is_null());
   CHECK(plain.at("messages").empty());
   CHECK(plain.at("result").at("certified") == true);
+  CHECK(plain.at("result").at("kernels") == json({"corrected", "fortran", "cpp"}));
+  CHECK(plain.at("result").at("rule_1989").at("wrong_steps").empty());
   CHECK(plain.at("result").at("lockstep").at("mismatches") == 0);
   CHECK(plain.at("result").at("lockstep").at("values_compared") >= 64);
   CHECK_FALSE(plain.contains("page"));

@@ -88,3 +88,10 @@ TEST_CASE("long text is cut between characters") {
   CHECK(in_quotes(std::string(61, 'x')) == "\"" + std::string(60, 'x') + "...\"");
   CHECK(in_quotes(std::string(60, 'x')) == "\"" + std::string(60, 'x') + "\"");
 }
+
+TEST_CASE("a share in per cent has two digits, and no power of ten from 0.01 % to a million") {
+  CHECK(percent_words(1e-6) == "0.0001 %");
+  CHECK(percent_words(0.03) == "3 %");
+  CHECK(percent_words(0.0251) == "2.5 %");
+  CHECK(percent_words(19.07) == "1907 %");
+}

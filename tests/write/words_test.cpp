@@ -64,6 +64,19 @@ TEST_CASE("of a state with locked-in forces the summary names the step, the comp
   CHECK_THAT(complaints_of(r.result).back(), Contains("contct run ") && Contains(" --kernels corrected"));
 }
 
+TEST_CASE("a message about an error has its size in units first, then in per cent") {
+  problem p = parse_problem(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"), "pb.toml");
+  p.units = {"m", "kN"};
+  const a_run r(std::move(p));
+  const std::vector<std::string> complaints = certificate_complaints(r.result);
+  REQUIRE(complaints.size() == 2);  // 0.5 L^3 / 3 EI = 1.3333e-4 of 4.44e-3, see the file
+  CHECK_THAT(
+      complaints[1],
+      Contains("the deflections are off by 0.00013 m, 3 % of the largest deflection; allowed: 0.0001 %"));
+  CHECK_THAT(complaints[1],
+             Contains("made contact 1e-05 m from its face (0.25 % of the largest deflection)"));
+}
+
 TEST_CASE("the digits that are proved of a run are those of its worst step") {
   const a_run two(
       "[beam]\nlength = 100.0\nelements = 400\nEI = 1.0\n[[support]]\nnodes = [1, 401]\nfix = \"w\"\n"

@@ -83,22 +83,33 @@ double worst_share(const by_quantity& error, const by_quantity& allowed) {
   return worst;
 }
 
-std::string worst_bound(const by_quantity& error, const by_quantity& allowed) {
-  constexpr const char* words[] = {"a deflection",  "a slope", "a contact force", "a reaction", "a moment",
-                                   "a shear force", "a gap"};
+std::string_view name_of_kind(quantity q) {
+  constexpr std::string_view names[] = {"deflection",  "slope", "contact force", "reaction", "moment",
+                                        "shear force", "gap"};
+  return names[static_cast<std::size_t>(q)];
+}
+
+std::string unit_of(const problem& p, quantity q) {
+  if (q == quantity::slope) return "";
+  if (q == quantity::gap) return unit_words(p, "w");
+  const bool of_plate = std::holds_alternative<plate>(p.geometry.kind);
+  return unit_words(p,
+                    q == quantity::moment && of_plate ? "mx" : quantity_names[static_cast<std::size_t>(q)]);
+}
+
+std::string worst_bound(const by_quantity& error, const by_quantity& allowed, const problem* of) {
   const double worst = worst_share(error, allowed);
   if (worst <= certified_share) return "";
   std::size_t q = 0;
   while (q + 1 < error.all.size() && share_of(error.all[q], allowed.all[q]) < worst) ++q;
-  char text[120];
-  if (std::isfinite(worst))
-    (void)std::snprintf(text, sizeof text, "%s may be off by %.2g, %.2g of the largest", words[q],
-                        *error.all[q], worst);
-  else
-    (void)std::snprintf(text, sizeof text,
-                        "%s may be off by %.2g, and no load and no number of its kind gives it a size",
-                        words[q], error.all[q].value_or(0.0));
-  return text;
+  const auto kind = static_cast<quantity>(q);
+  char size[40];
+  (void)std::snprintf(size, sizeof size, "%.2g", error.all[q].value_or(0.0));
+  std::string words = "a ";
+  words.append(name_of_kind(kind)).append(" may be off by ").append(size);
+  if (of != nullptr) words += unit_of(*of, kind);
+  return words + (std::isfinite(worst) ? ", " + percent_words(worst) + " of the largest"
+                                       : ", and no load and no number of its kind gives it a size");
 }
 
 }  // namespace contct

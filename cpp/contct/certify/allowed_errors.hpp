@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "contct/certify/error_bounds.hpp"
 
@@ -30,7 +31,15 @@ class allowed_errors {
 /// The largest share of any kind.
 [[nodiscard]] double worst_share(const by_quantity& error, const by_quantity& allowed);
 
-/// The bound that is furthest above what is allowed, in words; empty where none is.
-[[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed);
+/// "deflection", "contact force", ..: what one number of a kind is called.
+[[nodiscard]] std::string_view name_of_kind(quantity q);
+
+/// The unit of a kind, with a blank before it; empty where the problem names none.
+[[nodiscard]] std::string unit_of(const problem& p, quantity q);
+
+/// The bound that is furthest above what is allowed, in words, in the units of `of` where that is given;
+/// empty where none is.
+[[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed,
+                                      const problem* of = nullptr);
 
 }  // namespace contct

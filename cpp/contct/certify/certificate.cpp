@@ -19,24 +19,6 @@ double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
 }
 
-/// The worst of what is above the tolerance, in words.
-std::string worst_of(const certificate& c) {
-  const std::pair<double, const char*> parts[] = {
-      {c.displacement_error, "the deflections are off"},
-      {c.shape_error, "the displacements are off"},
-      {c.penetration, "a separated pair is beyond its face"},
-      {c.tension, "a pair in contact pulls: it is off its face"},
-      {c.equilibrium, "loads and forces do not balance: they differ"},
-  };
-  for (const auto& [amount, words] : parts) {
-    if (amount <= certified_share) continue;
-    char text[120];
-    (void)std::snprintf(text, sizeof text, "%s by %.2g", words, amount);
-    return text;
-  }
-  return "";
-}
-
 /// A sparse factor that fits into memory three times, and whose product takes a minute or less.
 bool can_be_proved_by_columns(const linear_structure& s) {
   if (!sparse_factor::available()) return false;
@@ -152,7 +134,30 @@ std::string certifier::status_words(std::size_t pair, const step_state& s) const
   (void)std::snprintf(text, sizeof text, "pair %zu is given as %s, but it is %s its face by %.2g", pair + 1,
                       s.isep[pair] == in_contact ? "in contact" : "separated",
                       s.isep[pair] == in_contact ? "off" : "beyond", std::abs(off));
-  return text;
+  return text + unit_of(problem_, quantity::gap);
+}
+
+/// The worst of what is above the tolerance, in words.
+std::string certifier::worst_of(const certificate& c) const {
+  struct part {
+    double share;
+    const char* words;
+    double whole;  // a length; 0: they are scaled, and have no unit
+  };
+  const part parts[] = {{c.displacement_error, "the deflections are off", largest_length()},
+                        {c.shape_error, "the displacements are off", 0.0},
+                        {c.penetration, "a separated pair is beyond its face", largest_length()},
+                        {c.tension, "a pair in contact pulls: it is off its face", largest_length()},
+                        {c.equilibrium, "loads and forces do not balance: they differ", 0.0}};
+  for (const auto& [share, words, whole] : parts) {
+    if (share <= certified_share) continue;
+    const std::string of_largest = percent_words(share) + " of the largest";
+    if (whole == 0.0) return std::string(words) + " by " + of_largest;
+    char size[40];
+    (void)std::snprintf(size, sizeof size, " by %.2g", share * whole);
+    return words + (size + unit_of(problem_, quantity::w)) + ", " + of_largest + " deflection";
+  }
+  return "";
 }
 
 void certifier::take(const error_bounds& b, const step_state& s, certificate& c) {
@@ -166,7 +171,7 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.error = b.error;
   c.allowed = allowed_.of(b, prover_->extent());
   c.worst_share = worst_share(c.error, c.allowed);
-  c.problem = worst_bound(c.error, c.allowed);
+  c.problem = worst_bound(c.error, c.allowed, &problem_);
   if (c.problem.empty() && b.wrong_status) c.problem = status_words(*b.wrong_status, s);
   c.certified = c.problem.empty();
   c.displacement_error = share_of(c.error[quantity::w], c.allowed[quantity::w]);

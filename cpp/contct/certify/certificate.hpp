@@ -91,6 +91,7 @@ class certifier final : public observer {
   void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;
   void find_pulling_pair(const step_state& s, certificate& c) const;
+  [[nodiscard]] std::string worst_of(const certificate& c) const;
   void compare_with(const reference_answer& a, const step_state& s, certificate& c) const;
   void remember_sizes(std::span<const double> displacement);
   [[nodiscard]] double largest_length() const;

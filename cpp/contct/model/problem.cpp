@@ -198,6 +198,17 @@ element_results results_in_elements(const model& m, const load& l, std::span<con
       m.kind);
 }
 
+std::string unit_words(const problem& p, std::string_view quantity) {
+  const auto& [length, force] = p.units;
+  if (length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
+  const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
+  if (is_slope) return "";
+  if (quantity == "mx" || quantity == "my" || quantity == "mxy")
+    return on_one_line(" " + force + " " + length + "/" + length);
+  if (quantity == "w") return " " + length;
+  return " " + force + (quantity == "moment" ? " " + length : "");
+}
+
 resultant resultant_of(const model& m, const load& l) {
   return std::visit([&](const auto& kind) { return sum_of_loads(kind, l); }, m.kind);
 }

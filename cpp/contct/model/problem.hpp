@@ -284,4 +284,8 @@ struct problem {
   std::vector<pair_keys> keys;
 };
 
+/// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
+/// the problem names no units.
+[[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);
+
 }  // namespace contct

@@ -50,7 +50,8 @@ run_request read_run_request(const request& r) {
   // One by one: g++ 12 destroys the members of an aggregate twice where a later one throws.
   run_request wanted;
   wanted.file = r.file();
-  wanted.kernels = r.texts("kernels", {"fortran", "cpp"});
+  wanted.kernels = r.texts("kernels", {});
+  wanted.both_rules = wanted.kernels.empty() && !r.flag("final_only");
   wanted.engine = r.text("engine", "");
   wanted.envelope = r.flag("envelope");
   wanted.max_increments = r.whole("max_increments", 0, 0, most_increments);
@@ -90,7 +91,8 @@ void run_path(const char* text, const char* options, served_answer& a) {
     throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));
   write_outputs(run);
   a.exit = run.exit();
-  if (run.result.compared && run.result.compared->first()) a.tell(words_of(*run.result.compared->first()));
+  if (const lockstep* const calls = run.result.compared_calls(); calls != nullptr && calls->first())
+    a.tell(words_of(*calls->first()));
   a.tell(end_messages(run.result));
 }
 

@@ -11,6 +11,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {
@@ -25,10 +26,15 @@ trace_header header_of_trace(const run_result& r, const kernel_facts& leader) {
   return h;
 }
 
+run_request with_kernels(run_request r) {
+  if (r.both_rules) r.kernels = {"corrected"};
+  return r;
+}
+
 }  // namespace
 
 run::run(const problem& p, const linear_structure& s, run_request request)
-    : wanted(std::move(request)), result(p, s, exact_means_of(p)) {
+    : wanted(with_kernels(std::move(request))), result(p, s, exact_means_of(p)) {
   result.file = wanted.file;
   result.kernels = wanted.kernels;
   result.engine = "reference";
@@ -39,6 +45,8 @@ run::run(const problem& p, const linear_structure& s, run_request request)
   if (wanted.kernels.empty()) return;
   leader_ = make_kernel(wanted.kernels.front());
   leader_facts_ = leader_->facts();
+  if (wanted.both_rules)
+    result.kernels.insert(result.kernels.end(), kernels_of_1989.begin(), kernels_of_1989.end());
   if (!wanted.free_run && wanted.kernels.size() > 1)
     result.compared.emplace(leader_facts_, std::span(wanted.kernels).subspan(1));
   result.engine = engine_for(leader_facts_, wanted.engine, s);
@@ -49,28 +57,41 @@ void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
   const bool drawn = to.page != nullptr;
   lockstep_on_path* const compared = result.compared ? &*result.compared : nullptr;
   result.record = run_recorder(
-      compared, {.calls = drawn,
+      compared, {.calls = drawn && !wanted.both_rules,
                  .states = leader_ && (drawn || wanted.pictures || wanted.envelope || to.table != nullptr)});
   if (to.proof != nullptr) result.judged.keep_proofs();
   std::vector<observer*> all;
   if (compared != nullptr) all.push_back(compared);
   all.insert(all.end(), {&result.judged, &result.early});
   all.insert(all.end(), shown.begin(), shown.end());
-  if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
   all.push_back(&result.record);
   result.end = leader_ ? follow_leader(all) : result.judged.find_final_states(all);
-  if (compared != nullptr) {
-    result.equal = compared->compared().mismatches == 0;
-    result.comparison = counts_of(*compared);
-  }
   if (own_path_) own_path_->end = result.end;
   leader_.reset();  // one FORTRAN kernel at a time has unit 26
+  const bool has_answer = result.end.status != path_status::not_factored;
+  if (wanted.both_rules && has_answer) follow_beside(shown);
+  if (const lockstep_on_path* const calls = result.compared_calls()) {
+    result.equal = calls->compared().mismatches == 0;
+    result.comparison = counts_of(*calls);
+  }
+}
+
+/// Unit 26 and the trace, of the kernel whose calls they have.
+void run::add_files_of_calls(const kernel_facts& of, std::vector<observer*>& all) {
+  if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
+  if (to.trace != nullptr)
+    all.push_back(&trace_.emplace(header_of_trace(result, of),
+                                  [this](std::string_view text) { to.trace->write(text); }));
+}
+
+void run::follow_beside(std::vector<observer*> shown) {
+  add_files_of_calls(facts_of_kernel(kernels_of_1989.front()), shown);
+  result.beside = follow_rule_1989(result, wanted, to.log != nullptr || to.trace != nullptr,
+                                   {.calls = to.page != nullptr}, shown);
 }
 
 path_end run::follow_leader(std::vector<observer*>& all) {
-  if (to.trace != nullptr)
-    all.push_back(&trace_.emplace(header_of_trace(result, leader_facts_),
-                                  [this](std::string_view text) { to.trace->write(text); }));
+  if (!wanted.both_rules) add_files_of_calls(leader_facts_, all);
   if (wanted.free_run) all.push_back(&own_path_.emplace());
   return follow(result.what, result.structure, result.engine, *leader_, all,
                 {wanted.max_increments, result.judged.ends()});

@@ -18,6 +18,7 @@ struct run_request {
   std::string file = {};  ///< the problem's, as it was named
   std::vector<std::string> kernels =
       {};                   ///< the leader first; none: only the ends of steps, by the reference solution
+  bool both_rules = false;  ///< instead of kernels: the corrected rule leads, that of 1989 runs beside it
   std::string engine = {};  ///< empty: what suits the leader
   bool free_run = false;    ///< each kernel follows a path of its own, see follow_alone
   bool envelope = false;
@@ -68,6 +69,8 @@ class run {
 
  private:
   path_end follow_leader(std::vector<observer*>& all);
+  void follow_beside(std::vector<observer*> shown);
+  void add_files_of_calls(const kernel_facts& of, std::vector<observer*>& all);
 
   /// Writes what the leader writes to unit 26.
   struct log_writer final : observer {

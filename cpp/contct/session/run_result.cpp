@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contct/session/exit_status.hpp"
+#include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {
@@ -69,6 +70,15 @@ void run_recorder::step_ended(const step_state& s) {
 
 std::string_view run_result::status() const {
   return status_name(end.status, equal);
+}
+
+const lockstep_on_path* run_result::compared_calls() const {
+  if (beside) return &beside->compared;
+  return compared ? &*compared : nullptr;
+}
+
+const run_recorder& run_result::record_of_calls() const {
+  return beside ? beside->record : record;
 }
 
 std::string title_of(const problem& p, const std::string& file) {

@@ -99,6 +99,8 @@ class run_recorder final : public observer {
   std::vector<increment_record> increments_;  // of the current step
 };
 
+struct rule_1989;  // contct/session/rule_1989.hpp
+
 /// How another kernel's own path compares with the leader's.
 struct compared_path {
   std::string kernel;
@@ -120,9 +122,10 @@ struct run_result {
   early_toggles early;
   path_end end;
   std::string file;                  ///< the problem's, as it was named
-  std::vector<std::string> kernels;  ///< the leader first
+  std::vector<std::string> kernels;  ///< the leader first; in a run of both rules those of 1989 behind it
   std::string engine;
   std::optional<lockstep_on_path> compared;  ///< none: no kernel was compared call by call
+  std::shared_ptr<const rule_1989> beside;   ///< of a run of both rules; null: of others, and without answer
   std::vector<compared_path> free_runs;
   bool equal = true;               ///< the kernels agreed
   std::string comparison;          ///< how they did, in words; empty for a kernel alone
@@ -132,6 +135,10 @@ struct run_result {
 
   /// As results have it: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;
+  /// What compared kernels call by call, on the path or beside it; null: nothing did.
+  [[nodiscard]] const lockstep_on_path* compared_calls() const;
+  /// What recorded the path whose calls the run has.
+  [[nodiscard]] const run_recorder& record_of_calls() const;
 };
 
 /// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.

@@ -137,16 +137,6 @@ std::string place_words(const model& m, const placed_value& at) {
   return at.node < 0 ? x : fmt::format("{}, {}", place_words(m, at.node), x);
 }
 
-std::string unit_words(const problem& p, std::string_view quantity) {
-  if (p.units.length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
-  const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
-  if (is_slope) return "";
-  if (quantity == "mx" || quantity == "my" || quantity == "mxy")
-    return on_one_line(fmt::format(" {0} {1}/{1}", p.units.force, p.units.length));
-  if (quantity == "w") return " " + p.units.length;
-  return " " + p.units.force + (quantity == "moment" ? " " + p.units.length : "");
-}
-
 namespace {
 
 /// Keep the smaller one, or the larger one, of what is known and what a state has.

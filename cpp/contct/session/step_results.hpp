@@ -80,10 +80,6 @@ struct penetration {
 /// A place in words: "node 9, x = 4", "x = 4.31", "node 9, (1, 0.5)" or "dof 185.3".
 [[nodiscard]] std::string place_words(const model& m, const placed_value& at);
 
-/// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
-/// the problem names no units.
-[[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);
-
 /// The least and largest of everything on a path: after its increments, as far as their states can be solved
 /// for, and at the ends of its steps.
 struct envelope {

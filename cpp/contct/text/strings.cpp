@@ -134,6 +134,15 @@ std::string on_one_line(std::string_view text) {
   return terminal_text(escaped(text, blank));
 }
 
+std::string percent_words(double share) {
+  constexpr double most_as_a_power = 100.0;
+  const double percent = 100.0 * share;
+  char text[40];
+  (void)std::snprintf(text, sizeof text, percent < most_as_a_power || percent > 1e9 ? "%.2g %%" : "%.0f %%",
+                      percent);
+  return text;
+}
+
 std::string field_words(std::string_view text, std::string_view kind) {
   constexpr std::size_t longest = 32;
   constexpr std::size_t no_secret = 3;

@@ -36,6 +36,9 @@ struct escape {
 /// The same for all of a title or a name: blanks stand for line ends and tabs.
 [[nodiscard]] std::string on_one_line(std::string_view text);
 
+/// A share in per cent: "3 %", "0.0001 %".
+[[nodiscard]] std::string percent_words(double share);
+
 /// `printable` in quotation marks.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

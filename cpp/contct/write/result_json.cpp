@@ -9,6 +9,7 @@
 
 #include "contct/session/envelope_curves.hpp"
 #include "contct/session/path_states.hpp"
+#include "contct/session/rule_1989.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
@@ -97,6 +98,23 @@ json lockstep_json(const lockstep& compared) {
   return out;
 }
 
+json rule_1989_json(const run_result& r) {
+  const rule_1989& beside = *r.beside;
+  json wrong = json::array();
+  for (const state_difference& d : beside.differences)
+    if (d.is_wrong())
+      wrong.push_back({{"step", d.step},
+                       {"quantity", quantity_names[static_cast<std::size_t>(d.what)]},
+                       {"at", place_words(r.what, d)},
+                       {"value", d.value},
+                       {"right", d.right}});
+  return {{"engine", beside.engine},
+          {"status", status_name(beside.end.status)},
+          {"lockstep", lockstep_json(beside.compared)},
+          {"same_events", beside.same_events()},
+          {"wrong_steps", wrong}};
+}
+
 /// Of the states within steps, those that are written: evenly chosen, so that all together take not too many
 /// bytes.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
@@ -126,9 +144,10 @@ class result_writer {
 
   void write() {
     for (std::size_t step = 0; step < r_.record.steps.size(); ++step) add_step(step);
-    document_.finish(
-        foot(), {{"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
-                 {"calls", r_.record.calls.size(), [this](auto i) { return call(r_.record.calls[i]); }}});
+    document_.finish(foot(),
+                     {{"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
+                      {"calls", r_.record_of_calls().calls.size(),
+                       [this](auto i) { return call(r_.record_of_calls().calls[i]); }}});
   }
 
  private:
@@ -150,6 +169,7 @@ class result_writer {
             {"comparison", r_.comparison},
             {"certificate", certificate_summary(r_.judged, r_.status() == "solved")},
             {"complaints", complaints_of(r_)},
+            {"rule_1989", rule_1989_words(r_)},
             {"program", r_.facts}};
   }
 
@@ -241,15 +261,17 @@ class result_writer {
                       {"updates", end.work.updates},
                       {"checks", end.work.checks}}}};
     if (!r_.free_runs.empty()) members["free_run"] = nullptr;
-    members["lockstep"] = r_.compared ? lockstep_json(*r_.compared) : json(nullptr);
+    const lockstep_on_path* const calls = r_.compared_calls();
+    members["lockstep"] = calls != nullptr ? lockstep_json(*calls) : json(nullptr);
+    if (r_.beside) members["rule_1989"] = rule_1989_json(r_);
     members["status"] = r_.status();
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},
-                    {"calls_made", r_.record.all_calls},
-                    {"log", r_.record.log},
-                    {"log_bytes", r_.record.all_log}});
+                    {"calls_made", r_.record_of_calls().all_calls},
+                    {"log", r_.record_of_calls().log},
+                    {"log_bytes", r_.record_of_calls().all_log}});
     return members;
   }
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "contct/session/rule_1989.hpp"
 #include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 // increment, share and s, each with the blanks behind it: what every row has.
 constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2;
-constexpr int kernels_width = 7 + 2;  // where there are two or more
+constexpr int kernels_width = 7 + 2;  // where there are two or more, or both rules
 constexpr int load_width_at_most = 24;
 constexpr int load_width_at_least = 12;
 constexpr int events_width_at_least = 22;
@@ -133,12 +134,26 @@ std::string detail_tables(const problem& p, const structure_state& s, const step
   return text;
 }
 
+/// "1989: make 3 at 0.51", "1989: no make 3".
+std::vector<std::string> words_of_1989(const row_of_1989& row) {
+  std::vector<std::string> words;
+  for (const other_event& e : row.otherwise) {
+    if (words.size() == most_events_shown) {
+      words.push_back(fmt::format("1989: {} more", row.otherwise.size() - words.size()));
+      break;
+    }
+    const std::string name = fmt::format("{} {}", change_name(e.what.what), e.what.pair + 1);
+    words.push_back(e.at ? fmt::format("1989: {} at {}", name, share_words(*e.at)) : "1989: no " + name);
+  }
+  return words;
+}
+
 /// Prints the rows of a run.
 class table_printer {
  public:
   table_printer(const run_result& r, const terminal& t, bool detail)
       : run_(r), problem_(r.what), loads_(r.what), terminal_(t), detail_(detail) {
-    const int room = t.width - fixed_width - (is_compared() ? kernels_width : 0);
+    const int room = t.width - fixed_width - (column() != "" ? kernels_width : 0);
     const int widest = widest_event(problem_);
     events_below_ = room < widest;
     load_width_ = std::min(load_width_at_most, events_below_ ? room : room - 2 - widest);
@@ -154,11 +169,18 @@ class table_printer {
  private:
   using increments = std::span<const increment_record>;
 
-  [[nodiscard]] bool is_compared() const { return run_.compared.has_value(); }
+  /// What the column about the kernels is called; empty where there is none.
+  [[nodiscard]] std::string_view column() const {
+    return run_.beside ? "1989" : run_.compared ? "kernels" : "";
+  }
+  [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const;
   void print_step(std::size_t number);
-  void print_first_load(increments begun);
-  void print_row(const increment_record& i, bool equal, const std::vector<std::string>& events);
+  void print_first_load(increments begun, const row_of_1989& other);
+  void print_row(const increment_record& i, bool equal, std::vector<std::string> events,
+                 const row_of_1989& other);
+  [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const;
   void print_end(const step_record& s, const std::optional<certificate>& judged);
+  [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const;
   [[nodiscard]] std::vector<std::string> events_of(const increment_record& i) const;
   [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
                                 std::string_view kernels, std::string_view load,
@@ -186,13 +208,34 @@ void table_printer::print_step(std::size_t number) {
     const std::size_t first = i;
     while (!detail_ && i < all.size() && all[i].fraction <= first_load) ++i;
     if (i > first) {
-      print_first_load(all.subspan(first, i - first));
+      print_first_load(all.subspan(first, i - first), beside(number, first, i - first));
     } else {
-      print_row(all[i], all[i].equal, events_of(all[i]));
-      ++i;
+      const increment_record row = ties_from(all, i);
+      print_row(row, row.equal, events_of(row), beside(number, first, i - first));
     }
   }
   print_end(s, run_.judged.steps()[number]);
+}
+
+/// Of both rules' runs, increments without a share of their own are one row: which pair comes first is
+/// rounding of the solver. `i` moves behind them.
+increment_record table_printer::ties_from(increments all, std::size_t& i) const {
+  constexpr double no_share = 1e-12;
+  increment_record row = all[i++];
+  if (!run_.beside || detail_) return row;
+  const double s = row.s;
+  std::set<int> pairs;
+  std::vector<event> events = row.events;
+  for (; i < all.size() && all[i].s < 1.0 && !all[i].snaps && all[i].fraction - row.fraction <= no_share;
+       ++i) {
+    events.insert(events.end(), all[i].events.begin(), all[i].events.end());
+    row = all[i];
+    row.s = s;
+  }
+  for (const event& e : events) pairs.insert(e.pair);
+  if (pairs.size() == events.size()) std::ranges::sort(events, {}, &event::pair);
+  row.events = std::move(events);
+  return row;
 }
 
 std::vector<std::string> table_printer::events_of(const increment_record& i) const {
@@ -205,7 +248,7 @@ std::vector<std::string> table_printer::events_of(const increment_record& i) con
 }
 
 /// One such increment with a few events has a row as any other.
-void table_printer::print_first_load(increments begun) {
+void table_printer::print_first_load(increments begun, const row_of_1989& other) {
   std::set<int> makes;
   std::set<int> breaks;
   for (const increment_record& i : begun)
@@ -219,31 +262,49 @@ void table_printer::print_first_load(increments begun) {
   if (!words.empty()) words.back() += " at first load";
   const bool few = begun.size() == 1 && makes.size() + breaks.size() <= 3;
   print_row(begun.back(), std::ranges::all_of(begun, &increment_record::equal),
-            few ? events_of(begun.back()) : words);
+            few ? events_of(begun.back()) : words, other);
 }
 
 std::string table_printer::row(std::string_view number, std::string_view share, std::string_view s,
                                std::string_view kernels, std::string_view load,
                                std::string_view events) const {
   std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
-  if (is_compared()) line += fmt::format("{}  ", kernels);
+  if (column() != "") line += fmt::format("{:<7}  ", kernels);
   if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
   if (!events_below_) line += events;
   return line.erase(line.find_last_not_of(' ') + 1);
 }
 
-void table_printer::print_row(const increment_record& i, bool equal, const std::vector<std::string>& events) {
+/// What the 1989 rule did in these increments of a step.
+row_of_1989 table_printer::beside(std::size_t step, std::size_t first, std::size_t count) const {
+  row_of_1989 all;
+  if (!run_.beside) return all;
+  for (const row_of_1989& row : std::span(run_.beside->rows[step]).subspan(first, count)) {
+    all.otherwise.insert(all.otherwise.end(), row.otherwise.begin(), row.otherwise.end());
+    all.reached = all.reached && row.reached;
+  }
+  return all;
+}
+
+/// Seven columns, or nothing.
+std::string table_printer::cell(bool equal, const row_of_1989& other) const {
+  if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
+  if (!run_.compared) return "";
+  return equal ? painted(terminal_, paint::good, "equal") + "  "
+               : painted(terminal_, paint::bad, "DIFFER") + " ";
+}
+
+void table_printer::print_row(const increment_record& i, bool equal, std::vector<std::string> events,
+                              const row_of_1989& other) {
+  for (std::string& words : words_of_1989(other)) events.push_back(std::move(words));
   if (!std::exchange(headed_, true))
-    text_ += painted(terminal_, paint::strong, row("incr", "share", "s", "kernels", "load", "events")) + '\n';
-  const std::string kernels = !is_compared() ? ""
-                              : equal        ? painted(terminal_, paint::good, "equal") + "  "
-                                             : painted(terminal_, paint::bad, "DIFFER") + " ";
+    text_ += painted(terminal_, paint::strong, row("incr", "share", "s", column(), "load", "events")) + '\n';
   std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
   if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
   snapped_ = snapped_ || i.snaps;
   text_ += row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
-               i.snaps ? "snap" : share_words(i.s), kernels, loads_.words_at(i.step, i.fraction, load_width_),
-               lines.front()) +
+               i.snaps ? "snap" : share_words(i.s), cell(equal, other),
+               loads_.words_at(i.step, i.fraction, load_width_), lines.front()) +
            '\n';
   for (const std::string& more : std::span(lines).subspan(1))
     text_ += fmt::format("{:{}}{}\n", "", indent_, more);
@@ -283,7 +344,8 @@ std::vector<std::string> table_printer::legend() const {
     words = {"share: share of the step applied so far",
              "s: share of the remaining load that the increment applies"};
   if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
-  if (headed_ && is_compared()) words.emplace_back("kernels: whether their bits are equal");
+  if (headed_ && run_.compared) words.emplace_back("kernels: whether their bits are equal");
+  if (headed_ && run_.beside) words.emplace_back("1989: whether that rule has the same events");
   if (!run_.record.steps.empty()) words.emplace_back("digits: correct in every number");
   return words;
 }

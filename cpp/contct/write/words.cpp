@@ -30,15 +30,15 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
   }
   if (worst == nullptr) return "";
   return fmt::format(
-      "; in increment {}.{} {} {} contact {:.2g} from its face ({:.2g} of the largest deflection)",
-      worst->step, worst->number, pair_words(p, worst->what.pair),
-      worst->what.what == change::make ? "made" : "broke", worst->distance, worst->share);
+      "; in increment {}.{} {} {} contact {:.2g}{} from its face ({} of the largest deflection)", worst->step,
+      worst->number, pair_words(p, worst->what.pair), worst->what.what == change::make ? "made" : "broke",
+      worst->distance, unit_words(p, "w"), percent_words(worst->share));
 }
 
 /// The pair in contact that pulls most, in words; nothing where none does.
 std::string pull_words(const certificate& c, const problem& p) {
   if (c.pulling < 0) return "";
-  return fmt::format("; {} pulls with {:.3g}", pair_words(p, c.pulling), c.pull);
+  return fmt::format("; {} pulls with {:.3g}{}", pair_words(p, c.pulling), c.pull, unit_words(p, "force"));
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
   const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->certified; });
   if (bad != steps.end()) {
     return {fmt::format("step {} is NOT certified: {}", bad - steps.begin() + 1, (*bad)->problem),
-            fmt::format("allowed: {:.1e}", certified_share)};
+            "allowed: " + percent_words(certified_share)};
   }
   double worst = 0.0;
   const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
@@ -97,8 +97,8 @@ std::vector<std::string> certificate_complaints(const run_result& r) {
   std::vector<std::string> lines;
   for (int step = 1; const auto& c : r.judged.steps()) {
     if (c && !c->certified)
-      lines.push_back(fmt::format("step {} is not certified: {}; allowed: {:.1e}{}{}", step, c->problem,
-                                  certified_share, pull_words(*c, r.what),
+      lines.push_back(fmt::format("step {} is not certified: {}; allowed: {}{}{}", step, c->problem,
+                                  percent_words(certified_share), pull_words(*c, r.what),
                                   worst_until(step, *c, r.what, r.early)));
     ++step;
   }
@@ -135,17 +135,18 @@ std::string loose_words(const problem& p, const path_end& end) {
 }
 
 /// Whether there is an equilibrium that the path did not reach, and what reaches it.
-std::string verdict_words(const path_end& end) {
+std::string verdict_words(const path_end& end, bool is_answer) {
   if (!end.has_equilibrium)
     return ". Whether there is an equilibrium under the load of this step is not decided";
   if (!*end.has_equilibrium) return ". There is no equilibrium under the load of this step";
   return std::string(". There is an equilibrium under the load of this step") +
-         (end.by_1989_rule ? ": --kernels corrected leads to it" : "");
+         (end.by_1989_rule && is_answer ? ": --kernels corrected leads to it" : "");
 }
 
 }  // namespace
 
-std::string end_words(const problem& p, const path_end& end) {
+std::string end_words(const problem& p, const path_end& end, bool is_answer) {
+  const auto verdict = [&] { return verdict_words(end, is_answer); };
   const std::string where = fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction);
   switch (end.status) {
     case path_status::solved:
@@ -154,14 +155,14 @@ std::string end_words(const problem& p, const path_end& end) {
       return where + mechanism_words(p, end);
     case path_status::cycle:
       return where + "a cycle at constant load: these pairs change their status again and again: " +
-             words_of_pairs(p, end.pairs) + verdict_words(end);
+             words_of_pairs(p, end.pairs) + verdict();
     case path_status::iteration_limit:
       return where + "the limit of increments (--max-increments) is reached" +
              (end.pairs.empty() ? ""
                                 : "; these pairs change their status again and again: " +
-                                      words_of_pairs(p, end.pairs) + verdict_words(end));
+                                      words_of_pairs(p, end.pairs) + verdict());
     case path_status::path_ended:
-      return where + "the path ended: " + loose_words(p, end) + verdict_words(end);
+      return where + "the path ended: " + loose_words(p, end) + verdict();
     default:
       return where +
              "the structure is held, but its stiffness is too ill-conditioned, or its loads too large, for "
@@ -183,11 +184,11 @@ std::string passage_warning(const problem& p, std::span<const step_record> steps
   if (!worst) return "";
   const contact_pair& left = p.pairs[worst->first];
   return fmt::format(
-      "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g} "
+      "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g}{} "
       "at x = {:.6g}. Where these are separate stops, this is as it should be; where one surface runs "
       "between "
       "them, put pairs closer together (at the nodes of a finer mesh: element_size)",
-      step, worst->first + 1, worst->second + 1, left.face, worst->depth, worst->x);
+      step, worst->first + 1, worst->second + 1, left.face, worst->depth, unit_words(p, "w"), worst->x);
 }
 
 std::string digit_warning(std::span<const step_record> steps) {

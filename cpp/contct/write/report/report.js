@@ -3,6 +3,7 @@
 
 const known = { fortran: "FORTRAN", cpp: "C++", "fortran-r4": "FORTRAN (4-byte REAL)", "cpp-r4": "C++ (4-byte REAL)" };
 const kernelNames = () => result.kernels.map((name) => known[name] || name);
+const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // of both rules the calls are those of 1989
 const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
 
 // ---- load against deflection ----
@@ -132,7 +133,7 @@ function markCurrentRow(f) {
 }
 
 function showCalls() {
-  const [leader, ...others] = kernelNames();
+  const [leader, ...others] = calledNames();
   const { calls, calls_made, lockstep, words } = result;
   const told = others.length === 0 ? "One kernel ran, so nothing was compared. These are its answers."
     : !lockstep ? `Free run: each kernel followed its own path, so single calls were not compared: ${words.comparison}. The calls of ${leader}:`
@@ -144,7 +145,7 @@ function showCalls() {
   const compared = lockstep ? others : [];
   const names = compared.flatMap((k) => [`ULP off in SMIN, ${k}`, "ULP off in any s", "values compared", "different"]);
   const answer = (a) => (!a || a.failed ? ["no answer", "no answer", "–", "–"] : [a.smin_ulps, a.s_ulps, a.values, a.mismatches]);
-  fill("comparison", others.length > 0 ? kernelNames().join(" against ") : `Calls of ${leader}`, calls_made === 0 ? `${told} No call was made.` : told,
+  fill("comparison", others.length > 0 ? calledNames().join(" against ") : `Calls of ${leader}`, calls_made === 0 ? `${told} No call was made.` : told,
     ...tableOf("Calls", ["Call", "Increment", `SMIN of ${leader}`, ...names, ...Array.from({ length: pairs }, (_, i) => `s of pair ${i + 1}`)],
       calls.map((c, n) => [String(n + 1), c.step === 0 ? "settling" : `${c.step}.${c.increment}`, c.smin, ...compared.flatMap((_, k) => answer(c.followers[k])), ...c.s]), 1200));
   byId("comparison").hidden = false;
@@ -306,13 +307,14 @@ function elementsWords(elements) {
 
 function verdicts() {
   const { words, lockstep } = result;
-  const names = kernelNames().join(" and ");
+  const names = calledNames().join(" and ");
   const equal = result.status !== "kernels-disagree";
   const agree = lockstep ? (equal ? "are equal to the bit" : "are NOT equal to the bit") : equal ? "agree in free run" : "do NOT agree in free run";
   return [words.end ? [`Not solved: ${words.end}.`, "bad"] : ["All load is applied.", "good"],
     result.kernels.length < 2 ? ["One kernel ran; nothing was compared.", "note"]
       : lockstep && lockstep.calls === 0 ? ["The kernels were never called; nothing was compared.", "note"]
         : [`${names} ${agree}: ${words.comparison}.`, equal ? "good" : "bad"],
+    ...words.rule_1989.map((line) => [`${sentence(line)}`, "note"]),
     ...(words.certificate.length > 0 ? [[sentence(words.certificate.join("; ")), result.certified ? "good" : "bad"]] : [])];
 }
 
@@ -356,7 +358,7 @@ function showCertificate() {
 }
 
 function showLog() {
-  const [leader] = kernelNames();
+  const [leader] = calledNames();
   fill("log", "Unit 26", result.log === "" ? `${leader} wrote nothing to unit 26, or writes no text.` : `What ${leader} wrote to unit 26.`,
     element("pre", { id: "log-text", class: "scroll", tabindex: "0", role: "region", "aria-label": "Unit 26" }, result.log));
 }
