@@ -5,11 +5,28 @@ from check_beam import beam, find, listed, need, numbers, only, positive, real
 from check_matrix import matrix
 from check_plate import plate
 
-TOP = {"title", "units", "beam", "plate", "matrix", "support", "contact", "bed", "step"}
+TOP = {"title", "units", "beam", "plate", "matrix", "support", "contact", "bed", "step", "case", "combination", "train"}
 
 
 def one_each(values, nodes):
     return [real(x) for x in (values if isinstance(values, list) else [values] * len(nodes))]
+
+
+def combinations(t, line):
+    """Of each combination and each place of a train its tables of loads, each with a factor."""
+    cases = {c["name"]: {key: value for key, value in c.items() if key != "name"} for c in t.get("case", [])}
+    need(len(cases) == len(t.get("case", [])) and "step" not in t, "two cases of one name, or steps beside combinations")
+
+    def terms(c):
+        return [(cases[name], real(factor)) for name, factor in c.get("terms", {}).items()]
+    steps = [terms(only(c, {"name", "terms"})) for c in t.get("combination", [])]
+    for train in t.get("train", []):
+        only(train, {"name", "axles", "from", "to", "by", "terms", "factor"})
+        first, last, by, factor = (real(x) for x in (train["from"], train["to"], train["by"], train.get("factor", 1)))
+        for k in range(int((last - first) / positive(by)) + 1):
+            at = [(first + k * by + real(axle["at"]), axle["w"]) for axle in train["axles"]]
+            steps.append(terms(train) + [({"point": [{"x": x, "w": w}]}, factor) for x, w in at if line[0] <= x <= line[-1]])
+    return steps
 
 
 class Problem:
@@ -17,7 +34,7 @@ class Problem:
 
     def __init__(self, t, folder):
         only(t, TOP)
-        need(len(t.keys() & {"beam", "plate", "matrix"}) == 1 and t["step"], "not one structure, or no step")
+        need(len(t.keys() & {"beam", "plate", "matrix"}) == 1, "not one structure")
         self.definite, self.of_elements = "matrix" not in t, 0  # is K certainly semidefinite; how many numbers elements have
         if "matrix" in t:
             self.K, t = matrix(t["matrix"], t, folder)
@@ -27,7 +44,8 @@ class Problem:
             self.K = [{i: F(0)} for i in range(len(share) * len(self.names))]
             self.span = max(line[-1] - line[0] for line in self.lines)
             self.of_elements = (4 if "beam" in t else 12) * len(self.elements)
-        self.steps, self.n, self.count = t["step"], len(self.K), len(share)
+        self.steps, self.n, self.count = combinations(t, self.lines and self.lines[0]) if t.keys() & {"combination", "train"} else t["step"], len(self.K), len(share)
+        need(self.steps, "no step")
         for element, dofs, _ in self.elements:
             for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
                 self.K[i][j] = self.K[i].get(j, 0) + k
@@ -86,8 +104,20 @@ class Problem:
         need(found and all(None not in at for at in found), "a place where there is no node")
         return numbers([1 + sum(i * stride for i, stride in zip(at, (1, len(self.lines[0])))) for at in found], self.count)
 
+    def combined(self, terms):
+        """The same of several tables, each times a factor."""
+        f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
+        for table, factor in terms:
+            force, moved, work = self.loads(table)
+            f = [a + factor * b for a, b in zip(f, force)]
+            settled = {dof: a + factor * moved[dof] for dof, a in settled.items()}
+            own = [[a + factor * b for a, b in zip(*at)] for at in zip(own, work)]
+        return f, settled, own
+
     def loads(self, step):
         """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
+        if isinstance(step, list):
+            return self.combined(step)
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
         only(step, {"name", "point", "settlement"} | ({"uniform"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
 

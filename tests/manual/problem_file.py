@@ -30,6 +30,9 @@ OWN_TABLES = {
     "`[matrix]`": ("matrix", "[matrix]\n%s\n"),
     "`[calculix]`": ("matrix", "[calculix]\n%s\n"),
     "A `curvature`": ("beam", BEAM % "EI = 1" + "[[step]]\ncurvature = [ { %s } ]\n"),
+    "`[[combination]]`": ("beam", BEAM % "EI = 1" + "[[combination]]\n%s\n"),
+    "`[[train]]`": ("beam", BEAM % "EI = 1" + "[[train]]\n%s\n"),
+    "An axle": ("beam", BEAM % "EI = 1" + "[[train]]\nname = \"T\"\naxles = [ { %s } ]\n"),
     "`face` of a `[[bed]]`": ("beam", BEAM % "EI = 1" + "[[bed]]\nmodulus = 1\nface = { %s }\n"),
 }
 STRUCTURES_TABLES = {
@@ -38,6 +41,7 @@ STRUCTURES_TABLES = {
     "`[[contact]]`": "[[contact]]\n%s\n",
     "`[[bed]]`": "[[bed]]\n%s\n",
     "`[[step]]`": "[[step]]\n%s\n",
+    "`[[case]]`": "[[case]]\nname = \"G\"\n%s\n[[combination]]\n",
     "A part of `uniform`": "[[step]]\nuniform = [ { %s } ]\n",
     "A `point` load": "[[step]]\npoint = [ { %s } ]\n",
     "A `settlement`": "[[step]]\nsettlement = [ { %s } ]\n",
@@ -145,7 +149,10 @@ def examples(text):
         if b.language != "toml":
             continue
         is_whole = b.text in whole.values()
-        problem = b.text if is_whole else merged(whole[structure_of(b.text) or "beam"], b.text)
+        base = whole[structure_of(b.text) or "beam"]
+        if "[[case]]" in b.text:  # combinations stand in the place of steps
+            base = "".join(text for name, text in chunks(base) if name != "step")
+        problem = b.text if is_whole else merged(base, b.text)
         yield b.line, problem, behind.text if behind and behind.language == "text" else None
 
 

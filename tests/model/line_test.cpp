@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/number/rational.hpp"
 
 using namespace contct;
 
@@ -56,12 +57,37 @@ TEST_CASE("a decimal at the ends of the range of doubles is no less than its dou
 }
 
 TEST_CASE("decimals are added up exactly before they are rounded: 0.1, 0.2 and -0.3 are nothing") {
-  const auto sum = [](const std::vector<double>& parts) { return contct::sum_of<double_double>(parts); };
+  const auto loads = [](const std::vector<double>& parts) {
+    std::vector<point_load> all;
+    for (const double x : parts) all.push_back({0, 0, x});
+    return all;
+  };
+  const auto sum = [&](const std::vector<double>& parts) {
+    return contct::sum_of<double_double>(loads(parts));
+  };
   CHECK(sum({}) == 0.0);
   CHECK(sum({0.1, 0.2, -0.3}) == 0.0);
   CHECK(sum({-0.3, 1e-20, 0.2, 0.1}) == decimal(1e-20));
   CHECK(sum({1e300, 1e-300, -1e300}) == decimal(1e-300));
-  CHECK(contct::sum_of<double>(std::vector<double>{0.1, 0.2, -0.3}) == 0.0);
+  CHECK(contct::sum_of<double>(loads({0.1, 0.2, -0.3})) == 0.0);
+}
+
+TEST_CASE("a number times a factor is the product of their decimals, rounded once") {
+  CHECK(contct::product_of<rational>(0.1, 1.1) == rational(11, 100));
+  CHECK(contct::product_of<double>(0.1, 3.0) == 0.3);  // 0.1 * 3.0 in doubles is 0.30000000000000004
+  CHECK(contct::product_of<double_double>(0.1, 1.1) == decimal(0.11));
+  CHECK(contct::product_of<double>(0.1, 1.0) == 0.1);
+}
+
+TEST_CASE("loads at one dof that cancel times their factors are nothing: 0.1 times 3 and -0.3") {
+  const std::vector<point_load> all = {{0, 0, 0.1, 3.0}, {0, 0, -0.3}, {0, 0, 1.1, 0.1}, {0, 0, -0.11}};
+  CHECK(contct::sum_of<double>(all) == 0.0);
+  CHECK(contct::sum_of<rational>(all) == 0);
+}
+
+TEST_CASE("a distributed load is the sum of its parts times their factors, to the last decimal") {
+  const distributed_load d{{-0.135}, {}, {{{-0.1}, 1.35}, {{0.3}, 0.1}, {{-0.03}}}};
+  CHECK(contct::coefficients_of<rational>(d) == std::vector<rational>{rational(-135, 1000)});
 }
 
 TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as large") {
@@ -99,7 +125,8 @@ TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element tha
 
 TEST_CASE("Parts of a load add up exactly before they are shifted to an element") {
   const beam b{{0.0, 1.0, 2.0}, {1, 1}};
-  const auto all = visits(b, {{}, {{{0.1 + 0.2 - 0.3}, {1}, {{0.1}, {0.2}, {-0.3}}}, {{4.0, 2.0}, {}}}});
+  const auto all =
+      visits(b, {{}, {{{0.1 + 0.2 - 0.3}, {1}, {{{0.1}}, {{0.2}}, {{-0.3}}}}, {{4.0, 2.0}, {}}}});
   REQUIRE(all.size() == 3);
   CHECK(all[0].element == 1);
   CHECK(all[0].q == std::vector<double>{0.0});

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "read/bad_combinations.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
 #include "read/refusals.hpp"
@@ -284,8 +285,8 @@ inline std::vector<bad_input> bad_tables() {
 /// All of them.
 inline std::vector<bad_input> bad_inputs() {
   std::vector<bad_input> all = bad_tables();
-  for (const auto& more :
-       {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_pairs(), bad_units_and_steps()})
+  for (const auto& more : {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_pairs(),
+                           bad_units_and_steps(), bad_combinations()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -277,6 +277,7 @@ void certifier::compare_with(const reference_answer& a, const step_state& s, cer
 
 reference_answer certifier::reference_at(int step) {
   if (!reference_) reference_.emplace(structure_);
+  if (problem_.steps[step - 1].from_zero) reference_->start_undeformed();
   return reference_->solve(load_at(step), total_load_.work(step));
 }
 
@@ -348,15 +349,18 @@ end_finder certifier::ends() {
 
 path_end certifier::find_final_states(std::span<observer* const> observers) {
   path_end end;
+  bool stands = true;  // the step before was solved
   for (int step = 1; step <= std::ssize(problem_.steps); ++step) {
+    if (!stands && !problem_.steps[step - 1].from_zero) continue;
     const reference_answer answer = reference_at(step);
     const full_load_state reference = state_of(answer);
     const found_end found = answer.how == outcome::no_equilibrium
                                 ? found_end()
                                 : end_of(step, answer.how == outcome::found ? &reference : nullptr);
-    end.step = step;
+    stands = found.state.has_value();
+    end.take({stands ? path_status::solved : status_without(answer.how, found), step, stands ? 1.0 : 0.0});
     end.work.factors = reference_->factorisations();
-    if (!found.state) return {status_without(answer.how, found), step, 0.0, {}, end.work};
+    if (!stands) continue;
     for (observer* o : observers) o->step_ended(told(*found.state, step, reference_->reciprocal_condition()));
   }
   return end;

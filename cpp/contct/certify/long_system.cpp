@@ -21,7 +21,7 @@ load merged(const load& l, int elements) {
       distributed_load& sum = together.distributed.emplace_back();
       for (const distributed_load* d : on[e]) {
         sum.polynomial.resize(std::max(sum.polynomial.size(), d->polynomial.size()));
-        if (d->parts.empty()) sum.parts.push_back(d->polynomial);
+        if (d->parts.empty()) sum.parts.push_back({d->polynomial});
         sum.parts.insert(sum.parts.end(), d->parts.begin(), d->parts.end());
       }
     }

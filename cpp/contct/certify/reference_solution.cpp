@@ -59,6 +59,12 @@ class reference_solver::search {
     return answer;
   }
 
+  /// Where the structure is before any load.
+  void start_undeformed() {
+    std::fill(u_.begin(), u_.end(), 0.0L);
+    for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
+  }
+
   double reciprocal_condition() {
     if (!in_factor_) return 0.0;
     return contct::reciprocal_condition(stiffness_, stiffness_.diagonal_with(*in_factor_),
@@ -96,12 +102,6 @@ class reference_solver::search {
       const int row = structure_.row_of(dof);
       if (structure_.settles[dof] != 0) u_[row] = load_[row] / structure_.stiffness.diagonal(row);
     }
-  }
-
-  /// Where the structure is before any load.
-  void start_undeformed() {
-    std::fill(u_.begin(), u_.end(), 0.0L);
-    for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
   }
 
   /// n (w - c) > 0; a pair within `tie` of its face keeps its state.
@@ -322,6 +322,10 @@ class reference_solver::search {
 
 reference_solver::reference_solver(const linear_structure& s) : search_(std::make_unique<search>(s)) {}
 reference_solver::~reference_solver() = default;
+
+void reference_solver::start_undeformed() {
+  search_->start_undeformed();
+}
 
 reference_answer reference_solver::solve(std::span<const double> load, const rigid_work& work) {
   return search_->solve(load, work);

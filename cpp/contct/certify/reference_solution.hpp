@@ -56,6 +56,9 @@ class reference_solver {
   /// structure where that leads nowhere. `work` of this load decides, where it is known, what is driven.
   [[nodiscard]] reference_answer solve(std::span<const double> load, const rigid_work& work = {});
 
+  /// The next answer is looked for from the undeformed structure.
+  void start_undeformed();
+
   /// Reciprocal condition, its diagonal scaled to 1, of the matrix that the last answer was solved with: K
   /// and the springs that hold it. 0 where it has no factor.
   [[nodiscard]] double reciprocal_condition();

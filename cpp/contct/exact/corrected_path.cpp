@@ -83,12 +83,11 @@ class corrected_path {
   corrected_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
 
   exact_path follow() {
-    for (std::size_t step = 0; step < at_.problem.steps.size() && path_.status == path_status::solved;
-         ++step) {
+    for (std::size_t step = 0; goes_on(path_, at_.problem, step); ++step) {
       at_.begin_step(step);
       increments_.clear();
-      path_.status = follow_step();
-      path_.steps.push_back(at_.end(std::move(increments_), true));
+      const path_status status = follow_step();
+      path_.take(at_.end(status, std::move(increments_), true));
     }
     return std::move(path_);
   }
@@ -186,6 +185,7 @@ class corrected_path {
   }
 
   void prove(const rational_vector& motion) {
+    if (path_.mechanism) return;
     rational largest;
     for (const rational& x : motion) largest = std::max(largest, rational(abs(x)));
     mechanism_proof proof{rational_vector(motion.size()), 0};

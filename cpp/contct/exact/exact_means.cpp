@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "contct/certify/scaled_stiffness.hpp"
@@ -68,12 +69,15 @@ class problem_beside final : public exact_means {
   explicit problem_beside(const problem& p) : what_(p) {}
 
   [[nodiscard]] found_end end_of(int step) override {
-    if (!path_) path_ = followed();
-    const int followed_steps = static_cast<int>(path_->steps.size());
-    if (step > followed_steps) return {};
-    if (step < followed_steps || path_->status == path_status::solved)
-      return {state_of(path_->steps[step - 1]), true};
-    if (path_->status == path_status::mechanism) return {std::nullopt, false};
+    if (step > std::ssize(what_.steps)) return {};
+    const auto [first, last] = chain_of(static_cast<std::size_t>(step) - 1);
+    if (!path_ || first_ != first) path_ = followed(first, last);
+    first_ = first;
+    const std::size_t at = static_cast<std::size_t>(step) - 1 - first;
+    if (at >= path_->steps.size()) return {};
+    const exact_step_end& end = path_->steps[at];
+    if (end.status == path_status::solved) return {state_of(end), true};
+    if (end.status == path_status::mechanism) return {std::nullopt, false};
     return {};
   }
 
@@ -101,9 +105,22 @@ class problem_beside final : public exact_means {
     return *problem_;
   }
 
-  exact_path followed() {
+  /// The steps that go on from one another, this one among them: from one, from 0, to before another.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> chain_of(std::size_t step) const {
+    std::size_t first = step;
+    while (first > 0 && !what_.steps[first].from_zero) --first;
+    std::size_t last = step + 1;
+    while (last < what_.steps.size() && !what_.steps[last].from_zero) ++last;
+    return {first, last};
+  }
+
+  exact_path followed(std::size_t first, std::size_t last) {
     try {
-      return converted() ? follow_corrected_path(*converted()) : exact_path();
+      if (!converted()) return {};
+      exact_problem chain = *converted();
+      chain.steps.assign(converted()->steps.begin() + static_cast<std::ptrdiff_t>(first),
+                         converted()->steps.begin() + static_cast<std::ptrdiff_t>(last));
+      return follow_corrected_path(chain);
     } catch (const std::runtime_error&) {  // numbers are too long, or statuses cannot be decided
       return {};
     }
@@ -111,7 +128,8 @@ class problem_beside final : public exact_means {
 
   const problem& what_;
   std::optional<std::optional<exact_problem>> problem_;
-  std::optional<exact_path> path_;
+  std::optional<exact_path> path_;  // of the steps from first_, counted from 0, that go on from one another
+  std::size_t first_ = 0;
 };
 
 }  // namespace

@@ -94,10 +94,10 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
 /// may then be of that step or of the next one, or not be at all. So may what is toggled where a mechanism is
 /// found.
 bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const {
-  const std::size_t last = exactly_.steps.size() - 1;
-  const double reached = static_cast<double>(last) + rounded(exactly_.steps[last].fraction);
-  const bool nothing_holds =
-      exactly_.status == path_status::mechanism || exactly_.status == path_status::path_ended;
+  const auto at = std::min(exactly_.steps.size() - 1, static_cast<std::size_t>(e.place));
+  const path_status status = exactly_.steps[at].status;
+  const double reached = static_cast<double>(at) + rounded(exactly_.steps[at].fraction);
+  const bool nothing_holds = status == path_status::mechanism || status == path_status::path_ended;
   if (nothing_holds && e.place > reached - tie) return true;
   const double end = std::round(e.place);
   if (std::abs(e.place - end) > tie || end < 1.0 || end > static_cast<double>(exactly_.steps.size()))

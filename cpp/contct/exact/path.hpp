@@ -26,6 +26,7 @@ struct exact_step_end {
   std::vector<char> closed;      ///< [pairs]
   rational_vector gap, force;    ///< as gap_of and force_of say [pairs]
   rational_vector reactions;     ///< forces on the structure by the supports, in their order
+  path_status status = path_status::solved;
 };
 
 /// Why there is no equilibrium under the full load of a step: K and the pairs in contact leave this motion
@@ -36,10 +37,23 @@ struct mechanism_proof {
 };
 
 struct exact_path {
-  path_status status = path_status::solved;
-  std::vector<exact_step_end> steps;         ///< the last one may have stopped before its full load
-  std::optional<mechanism_proof> mechanism;  ///< of the true path
+  path_status status = path_status::solved;  ///< of the first step that is not solved
+  /// Behind one that is not solved there are only steps from zero, and what goes on from these.
+  std::vector<exact_step_end> steps;
+  std::optional<mechanism_proof> mechanism;  ///< of the true path's first step that ends in one
+
+  /// Takes in the end of one more step.
+  void take(exact_step_end end) {
+    if (status == path_status::solved) status = end.status;
+    steps.push_back(std::move(end));
+  }
 };
+
+/// Does the path go on with step `number`, from 0, behind these?
+[[nodiscard]] inline bool goes_on(const exact_path& path, const exact_problem& p, std::size_t number) {
+  return number < p.steps.size() &&
+         (path.steps.empty() || path.steps.back().status == path_status::solved || p.steps[number].from_zero);
+}
 
 /// Told before every increment: the step and the increment, from 1, and the share reached.
 using exact_progress = std::function<void(int step, int increment, const rational& fraction)>;

@@ -40,30 +40,14 @@ class path_1989 {
   exact_path follow(const exact_progress& tell);
 
  private:
-  bool begin_increment();
+  path_status follow_step(const exact_progress& tell);
   rational ask(const rational_vector& d_star);
   exact_increment next();
 
   position at_;
-  std::size_t step_ = 0, increment_ = 0;  // from 1
-  rational s_min_ = 1;                    // of the last call; 1: it ended a step
-  path_status status_ = path_status::solved;
+  std::vector<exact_increment> increments_;  // of the step
+  rational s_min_ = 1;                       // of the last call; 1: it ended a step
 };
-
-/// False where the path has ended.
-bool path_1989::begin_increment() {
-  if (s_min_ == 1) {
-    if (step_ == at_.problem.steps.size()) return false;
-    at_.begin_step(step_);
-    step_ += 1;
-    increment_ = 0;
-  } else if (increment_ == most_exact_increments(at_.problem)) {
-    status_ = path_status::iteration_limit;
-    return false;
-  }
-  increment_ += 1;
-  return true;
-}
 
 /// One call of CONTCT: toggles statuses. Returns SMIN.
 rational path_1989::ask(const rational_vector& d_star) {
@@ -94,21 +78,25 @@ exact_increment path_1989::next() {
   return {at_.fraction, at_.events_since(before)};
 }
 
+path_status path_1989::follow_step(const exact_progress& tell) {
+  for (std::size_t number = 1; number <= most_exact_increments(at_.problem); ++number) {
+    if (tell) tell(static_cast<int>(at_.step) + 1, static_cast<int>(number), at_.fraction);
+    at_.factor();
+    if (!at_.solver().free_motions().empty()) return path_status::mechanism;
+    increments_.push_back(next());
+    if (s_min_ == 1) return path_status::solved;
+  }
+  return path_status::iteration_limit;
+}
+
 exact_path path_1989::follow(const exact_progress& tell) {
   exact_path path;
-  std::vector<exact_increment> increments;
-  while (begin_increment()) {
-    if (tell) tell(static_cast<int>(step_), static_cast<int>(increment_), at_.fraction);
-    at_.factor();
-    if (!at_.solver().free_motions().empty()) {
-      status_ = path_status::mechanism;
-      break;
-    }
-    increments.push_back(next());
-    if (s_min_ == 1) path.steps.push_back(at_.end(std::exchange(increments, {}), false));
+  for (std::size_t step = 0; goes_on(path, at_.problem, step); ++step) {
+    at_.begin_step(step);
+    increments_.clear();
+    const path_status status = follow_step(tell);
+    path.take(at_.end(status, std::move(increments_), false));
   }
-  path.status = status_;
-  if (status_ != path_status::solved) path.steps.push_back(at_.end(std::move(increments), false));
   return path;
 }
 

@@ -6,16 +6,14 @@
 namespace contct {
 
 position::position(const exact_problem& p)
-    : problem(p),
-      u(p.dofs()),
-      solver_(p.stiffness, p.fixed, p.place, p.longest),
-      before_{rational_vector(p.dofs()), {}, rational_vector(p.dofs())} {
-  for (const exact_pair& c : p.pairs) closed.push_back(c.closed ? 1 : 0);
-}
+    : problem(p), u(p.dofs()), solver_(p.stiffness, p.fixed, p.place, p.longest) {}
 
 void position::begin_step(std::size_t number) {
-  if (number > 0) before_ = problem.steps[number - 1];
   step = number;
+  if (number == 0 || problem.steps[number].from_zero)
+    unload();
+  else
+    before_ = problem.steps[number - 1];
   fraction = 0;
   const exact_step& after = problem.steps[number];
   increment_ = after.force;
@@ -25,6 +23,13 @@ void position::begin_step(std::size_t number) {
     settlement_[dof] -= before_.settlement[dof];
   }
   increment_ = less_settled(std::move(increment_), settlement_);
+}
+
+void position::unload() {
+  u.assign(problem.dofs(), rational());
+  before_ = {u, {}, u};
+  closed.clear();
+  for (const exact_pair& c : problem.pairs) closed.push_back(c.closed ? 1 : 0);
 }
 
 rational_vector position::less_settled(rational_vector b, const rational_vector& settled) const {
@@ -84,8 +89,9 @@ rational_vector position::reactions(const rational_vector& forces) const {
   return values;
 }
 
-exact_step_end position::end(std::vector<exact_increment> increments, bool pairs_react) const {
-  exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}};
+exact_step_end position::end(path_status status, std::vector<exact_increment> increments,
+                             bool pairs_react) const {
+  exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}, status};
   rational_vector at_dofs(u.size());
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];

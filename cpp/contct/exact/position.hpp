@@ -44,7 +44,8 @@ class position {
   [[nodiscard]] std::vector<event> events_since(const std::vector<char>& before) const;
 
   /// All of this position. `pairs_react`: a pair in contact at a fixed dof takes its part of the reaction.
-  [[nodiscard]] exact_step_end end(std::vector<exact_increment> increments, bool pairs_react) const;
+  [[nodiscard]] exact_step_end end(path_status status, std::vector<exact_increment> increments,
+                                   bool pairs_react) const;
 
   const exact_problem& problem;
   std::size_t step = 0;      ///< from 0
@@ -53,6 +54,7 @@ class position {
   std::vector<char> closed;  ///< [pairs]
 
  private:
+  void unload();
   [[nodiscard]] rational_vector reactions(const rational_vector& forces) const;
   /// b less what K makes of fixed dofs that are moved to `settled`.
   [[nodiscard]] rational_vector less_settled(rational_vector b, const rational_vector& settled) const;

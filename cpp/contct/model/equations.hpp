@@ -37,6 +37,7 @@ struct loads_in {
   std::vector<Number> force;       ///< [dofs] consistent loads
   std::vector<double> size;        ///< [dofs] the sum of their parts' magnitudes; 0 of rational numbers
   std::vector<Number> settlement;  ///< [dofs] what fixed dofs are moved to; 0 at all others
+  bool from_zero = false;          ///< see load
 };
 
 template <class Number>
@@ -120,7 +121,8 @@ template <class Number, class Elements>
     }
   });
   for (const prescribed_displacement& g : l.settlements)
-    f.settlement[g.node * per_node + g.dof] += number_of<Number>(g.value);
+    f.settlement[g.node * per_node + g.dof] += product_of<Number>(g.value, g.factor);
+  f.from_zero = l.from_zero;
   return f;
 }
 

@@ -20,9 +20,13 @@ bool is_whole(double x) {
   return x == std::trunc(x) && std::abs(x) < 0x1p52;
 }
 
-rational exact_sum_of(std::span<const double> all) {
+rational product_of_decimals(double x, double factor) {
+  return factor == 1.0 ? decimal_of(x) : rational(decimal_of(x) * decimal_of(factor));
+}
+
+rational exact_sum_of(std::span<const point_load> all) {
   rational sum;
-  for (const double x : all) sum += decimal_of(x);
+  for (const point_load& p : all) sum += product_of_decimals(p.value, p.factor);
   return sum;
 }
 
@@ -35,11 +39,11 @@ rational value_at(std::span<const rational> polynomial, const rational& x) {
 
 std::vector<rational> exact_coefficients(const distributed_load& d) {
   std::vector<rational> sum(d.polynomial.size());
-  const auto add = [&sum](std::span<const double> part) {
-    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += decimal_of(part[i]);
+  const auto add = [&sum](std::span<const double> part, double factor) {
+    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += product_of_decimals(part[i], factor);
   };
-  if (d.parts.empty()) add(d.polynomial);
-  for (const std::vector<double>& part : d.parts) add(part);
+  if (d.parts.empty()) add(d.polynomial, 1.0);
+  for (const scaled_polynomial& part : d.parts) add(part.coefficients, part.factor);
   return sum;
 }
 
@@ -64,15 +68,20 @@ Number difference_of(double a, double b) {
 }
 
 template <class Number>
-Number sum_of(std::span<const double> all) {
+Number product_of(double x, double factor) {
+  return factor == 1.0 ? number_of<Number>(x) : nearest<Number>(product_of_decimals(x, factor));
+}
+
+template <class Number>
+Number sum_of(std::span<const point_load> all) {
   return nearest<Number>(exact_sum_of(all));
 }
 
 template <>
-double sum_of(std::span<const double> all) {
+double sum_of(std::span<const point_load> all) {
   if (all.size() > 1 && exact_sum_of(all) == 0) return 0.0;
   double sum = 0.0;
-  for (const double x : all) sum += x;
+  for (const point_load& p : all) sum += product_of<double>(p.value, p.factor);
   return sum;
 }
 
@@ -118,8 +127,11 @@ template rational number_of(double x);
 template double difference_of(double a, double b);
 template double_double difference_of(double a, double b);
 template rational difference_of(double a, double b);
-template double_double sum_of(std::span<const double> all);
-template rational sum_of(std::span<const double> all);
+template double product_of(double x, double factor);
+template double_double product_of(double x, double factor);
+template rational product_of(double x, double factor);
+template double_double sum_of(std::span<const point_load> all);
+template rational sum_of(std::span<const point_load> all);
 template std::vector<double> coefficients_of(const distributed_load& d);
 template std::vector<double_double> coefficients_of(const distributed_load& d);
 template std::vector<rational> coefficients_of(const distributed_load& d);

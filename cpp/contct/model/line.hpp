@@ -26,13 +26,18 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number difference_of(double a, double b);
 
-/// The sum of such numbers; exactly 0 where their decimals cancel.
+/// x times the factor of a combination.
 template <class Number>
-[[nodiscard]] Number sum_of(std::span<const double> all);
-template <>
-[[nodiscard]] double sum_of(std::span<const double> all);
+[[nodiscard]] Number product_of(double x, double factor);
 
-/// The coefficients of a distributed load: the sums of its parts in the file, where it has several.
+/// The sum of loads at one dof; exactly 0 where their decimals cancel.
+template <class Number>
+[[nodiscard]] Number sum_of(std::span<const point_load> all);
+template <>
+[[nodiscard]] double sum_of(std::span<const point_load> all);
+
+/// The coefficients of a distributed load: the sums of its parts in the file, each times its factor, where it
+/// has any.
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
 

@@ -122,7 +122,7 @@ resultant sum_of_loads(const Kind& kind, const load& l) {
 
 resultant sum_of_loads(const assembled& /*a*/, const load& l) {
   rational sum;
-  for (const point_load& p : l.points) sum += decimal_of(p.value);
+  for (const point_load& p : l.points) sum += product_of<rational>(p.value, p.factor);
   return {contct::rounded(sum), {}};
 }
 

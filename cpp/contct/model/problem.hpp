@@ -287,5 +287,9 @@ struct problem {
 /// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
 /// the problem names no units.
 [[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);
+/// Are its steps combinations, each from the unloaded structure?
+[[nodiscard]] inline bool starts_from_zero(const problem& p) {
+  return !p.steps.empty() && p.steps.front().from_zero;
+}
 
 }  // namespace contct

@@ -295,7 +295,8 @@ bool rigid_truth::is_independent(std::span<const int> held, int dof) const {
 rigid_work rigid_truth::work_of(const load& l) const {
   auto work = std::make_shared<rigid_work::numbers>();
   for (const point_load& p : l.points)
-    subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof), -decimal_of(p.value));
+    subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof),
+             -product_of<rational>(p.value, p.factor));
   for (const distributed_load& d : l.distributed) shape_->add_distributed(d, work->all);
   for (const placed_load& p : l.placed) shape_->add_placed(p, work->all);
   return rigid_work(std::move(work));

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "contct/model/line.hpp"
+
 namespace contct {
 
 load mix(const load& before, const load& after, double fraction) {
@@ -17,11 +19,12 @@ load mix(const load& before, const load& after, double fraction) {
   std::map<std::pair<int, int>, double> settlements;
   std::map<std::tuple<load_kind, double, double, std::array<double, 2>>, std::vector<double>> placed;
   for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
-    for (const point_load& p : part->points) points[{p.node, p.dof}] += share * p.value;
+    for (const point_load& p : part->points)
+      points[{p.node, p.dof}] += share * product_of<double>(p.value, p.factor);
     for (const distributed_load& d : part->distributed)
       add_polynomial(distributed[d.elements], d.polynomial, share);
     for (const prescribed_displacement& g : part->settlements)
-      settlements[{g.node, g.dof}] += share * g.value;
+      settlements[{g.node, g.dof}] += share * product_of<double>(g.value, g.factor);
     for (const placed_load& p : part->placed)
       add_polynomial(placed[{p.what, p.from, p.to, p.across}], values_of(p), share);
   }
@@ -168,7 +171,7 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
     const std::size_t dof = g.node * s.dofs_per_node + g.dof;
     if (s.settles.empty() || s.settles[dof] == 0)
       throw std::logic_error("dof " + std::to_string(dof + 1) + " was not built to settle");
-    f[dof] = g.value;
+    f[dof] += product_of<double>(g.value, g.factor);
   }
   for (const auto& [free, settling, value] : s.to_settling) f[free] -= value * f[settling];
 }

@@ -19,9 +19,16 @@ namespace contct {
 
 /// A force or moment at one dof of one node, work-conjugate to the dof.
 struct point_load {
-  int node;      ///< from 0
-  int dof;       ///< within the node, from 0
-  double value;  ///< positive as the dof
+  int node;             ///< from 0
+  int dof;              ///< within the node, from 0
+  double value;         ///< positive as the dof
+  double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
+};
+
+/// A polynomial of a file, times a factor: the product of the decimals.
+struct scaled_polynomial {
+  std::vector<double> coefficients;
+  double factor = 1.0;
 };
 
 /// Force per length (beams), as a polynomial in x: a0 + a1 x + a2 x^2 + ...; positive up.
@@ -29,7 +36,7 @@ struct distributed_load {
   std::vector<double> polynomial;  ///< coefficients, constant first; at least one
   std::vector<int> elements;       ///< from 0; empty means all
   /// The polynomials of a file that add up to this one, for exact arithmetic; empty: it is one itself.
-  std::vector<std::vector<double>> parts = {};
+  std::vector<scaled_polynomial> parts = {};
 };
 
 /// What a load that need not follow the mesh is: a force per length or area, a force or a moment at a place,
@@ -51,9 +58,10 @@ struct placed_load {
 
 /// What a support moves one dof of one node to.
 struct prescribed_displacement {
-  int node;      ///< from 0
-  int dof;       ///< within the node, from 0; a support fixes it
-  double value;  ///< positive as the dof
+  int node;             ///< from 0
+  int dof;              ///< within the node, from 0; a support fixes it
+  double value;         ///< positive as the dof
+  double factor = 1.0;  ///< as a point load's
 };
 
 /// Everything that acts on the structure at one moment.
@@ -63,6 +71,7 @@ struct load {
   std::vector<prescribed_displacement> settlements = {};
   std::string name = {};  ///< of the step that ends with it, for people; may be empty
   std::vector<placed_load> placed = {};
+  bool from_zero = false;  ///< its step starts from the unloaded structure, whatever stands before it
 };
 
 /// The load at share `fraction` of the way from `before` to `after`, with equal places merged.
@@ -70,9 +79,9 @@ struct load {
 [[nodiscard]] load mix(const load& before, const load& after, double fraction);
 
 /// The point loads of `l` at each dof that has any, in the order of the file.
-[[nodiscard]] inline std::map<int, std::vector<double>> point_loads_at(const load& l, int dofs_per_node) {
-  std::map<int, std::vector<double>> at;
-  for (const point_load& p : l.points) at[p.node * dofs_per_node + p.dof].push_back(p.value);
+[[nodiscard]] inline std::map<int, std::vector<point_load>> point_loads_at(const load& l, int dofs_per_node) {
+  std::map<int, std::vector<point_load>> at;
+  for (const point_load& p : l.points) at[p.node * dofs_per_node + p.dof].push_back(p);
   return at;
 }
 

@@ -156,9 +156,15 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
                      const path_limits& limits) {
   path p(s, engine, leader, observers, limits);
   path_end end;
-  for (int step = 1; step <= steps && end.status == path_status::solved; ++step)
-    end = p.follow_step(step, total_load);
+  bool stands = true;  // the step before was solved
+  for (int step = 1; step <= steps; ++step) {
+    if (!stands && !total_load.from_zero(step)) continue;
+    path_end of_step = p.follow_step(step, total_load);
+    stands = of_step.status == path_status::solved;
+    end.take(std::move(of_step));
+  }
   end.by_1989_rule = leader.facts().rule == contact_rule::listing;
+  for (path_end& other : end.others) other.by_1989_rule = end.by_1989_rule;
   end.work = engine.counts();
   return end;
 }

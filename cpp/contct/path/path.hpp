@@ -35,6 +35,16 @@ struct path_end {
   /// Not solved: has the step's full load an equilibrium? Nothing where that is not decided.
   std::optional<bool> has_equilibrium = {};
   bool by_1989_rule = false;  ///< the leader's
+  /// How steps behind this one ended that were not solved either: each starts from zero.
+  std::vector<path_end> others = {};
+
+  /// Takes in how one more step ended: the first that is not solved stands for the path.
+  void take(path_end of_step) {
+    if (status == path_status::solved)
+      *this = std::move(of_step);
+    else if (of_step.status != path_status::solved)
+      others.push_back(std::move(of_step));
+  }
 };
 
 /// Loads along the path.
@@ -45,20 +55,25 @@ class load_history {
   using totals = std::function<void(int step, std::span<double> total)>;
   /// The work of that load on the rigid motions, without rounding.
   using works = std::function<rigid_work(int step)>;
+  /// Does a step start from the unloaded structure, whatever stands before it?
+  using restarts = std::function<bool(int step)>;
 
   load_history() = default;
   template <class Totals>
   requires std::is_invocable_v<Totals&, int, std::span<double>> load_history(
-      Totals total, works work = nullptr)  // NOLINT(google-explicit-constructor): loads, as they are
-      : total_(std::move(total)), work_(std::move(work)) {}
+      Totals total, works work = nullptr,  // NOLINT(google-explicit-constructor): loads, as they are
+      restarts from_zero = nullptr)
+      : total_(std::move(total)), work_(std::move(work)), from_zero_(std::move(from_zero)) {}
 
   void operator()(int step, std::span<double> total) const { total_(step, total); }
   /// Not known, where only rounded loads are given, and in step 0.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
+  [[nodiscard]] bool from_zero(int step) const { return step == 1 || (from_zero_ && from_zero_(step)); }
 
  private:
   totals total_;
   works work_;
+  restarts from_zero_;
 };
 
 /// A state under the full load of a step.
@@ -92,9 +107,10 @@ inline constexpr int most_increments = 1'000'000'000;
 /// The limit as a number, at most `most_increments`.
 [[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
 
-/// Follow the path of `steps` load steps: `leader` decides, `engine` solves, `observers` watch. What else has
-/// to be decided is up to a policy: the 1989 driver's for a leader with the listing's rule, the corrected
-/// rule's for any other (contct/path/policy.hpp).
+/// Follow the path of `steps` load steps, behind one that is not solved only those from zero: `leader`
+/// decides, `engine` solves, `observers` watch. What else has to be decided is up to a policy: the 1989
+/// driver's for a leader with the listing's rule, the corrected rule's for any other
+/// (contct/path/policy.hpp).
 ///
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,

@@ -132,6 +132,7 @@ struct path_state {
   /// R* becomes the load of step `number` less the previous one's.
   void begin_step(int number, const load_history& total_load) {
     step = number;
+    if (total_load.from_zero(step)) unload();
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
@@ -142,11 +143,19 @@ struct path_state {
     loads_ = &total_load;
   }
 
+  /// Back to the state before any load: D, ISEP and what springs have gathered.
+  void unload() {
+    for (std::vector<double>* const all : {&total, &shape, &pair_force}) std::ranges::fill(*all, 0.0);
+    std::vector<int> isep;
+    for (const contact_pair& p : structure.pairs) isep.push_back(p.closed ? in_contact : separated);
+    put_at(shape, isep);
+  }
+
   /// The rigid motion that the residual load drives and that nothing stops now; none where it drives none.
   [[nodiscard]] std::optional<free_motion> driven_motion() const {
     const rigid_work work = loads_->work(step);
     return structure.driven_motion(held_by(), increment,
-                                   step == 1 ? work : work.less(loads_->work(step - 1)));
+                                   loads_->from_zero(step) ? work : work.less(loads_->work(step - 1)));
   }
 
   /// Is there an equilibrium at the end of the step? There is one on the way then, too. Nothing where only

@@ -91,6 +91,7 @@ class corrected_policy final : public path_policy {
   void begin_step() override {
     kept_in_contact_.clear();
     last_toggled_at_rest_ = -1;
+    answers_at_rest_ = 0;
   }
 
   response respond() override {

@@ -34,7 +34,7 @@ namespace contct {
   const auto work = [&p, truth = s.truth](int step) {
     return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
   };
-  return {total, work};
+  return {total, work, [&p](int step) { return p.steps[step - 1].from_zero; }};
 }
 
 /// The engine of a path that a kernel leads: the one that was asked for, by name or as "auto", the quickest;

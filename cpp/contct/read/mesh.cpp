@@ -24,9 +24,10 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
   };
   for (const char* key : {"support", "contact", "bed"})
     for (const toml_value& t : top[key].optional_tables()) take(t, "x");
-  for (const toml_value& step : top["step"].optional_tables())
-    for (const char* key : {"point", "settlement"})
-      for (const toml_value& t : step[key].optional_tables()) take(t, "x");
+  for (const char* loads : {"step", "case"})
+    for (const toml_value& step : top[loads].optional_tables())
+      for (const char* key : {"point", "settlement"})
+        for (const toml_value& t : step[key].optional_tables()) take(t, "x");
   if (has_pieces(beam))
     for (const toml_value& piece : beam["EI"].tables()) take(piece, "to");
   return named;

@@ -10,6 +10,7 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/model/line.hpp"
+#include "contct/read/combinations.hpp"
 #include "contct/read/model_tables.hpp"
 #include "contct/read/node_reader.hpp"
 #include "contct/read/step_tables.hpp"
@@ -46,8 +47,8 @@ class problem_reader {
       : files_(file, allowed), top_(document, file) {}
 
   problem read() {
-    top_.allow_only(
-        {"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed", "step"});
+    top_.allow_only({"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed",
+                     "step", "case", "combination", "train"});
     if (top_.has("title")) problem_.title = top_["title"].text();
     if (top_.has("units")) read_units(top_["units"].table());
     problem_.geometry = read_model(top_, files_, problem_.warnings);

@@ -9,23 +9,14 @@
 #include <set>
 #include <utility>
 
+#include "contct/model/line.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/mesh.hpp"
 
 namespace contct {
 namespace {
 
-void refuse_endless_sums(const toml_value& t, const model& m, const load& l) {
-  std::vector<double> sums(dofs(m), 0.0);  // in doubles, as the path adds them up
-  add_consistent_loads(m, l, sums);
-  const resultant r = resultant_of(m, l);
-  sums.push_back(r.force);
-  sums.insert(sums.end(), r.moments.begin(), r.moments.end());
-  if (!std::ranges::all_of(sums, [](double x) { return std::isfinite(x); }))
-    t.refuse("loads whose sum or moment is not finite", "loads within the range of double precision");
-}
-
-/// Reads one step after the other.
+/// Reads one table after the other.
 class step_reader {
  public:
   step_reader(const node_reader& nodes, const std::vector<support>& supports, const named_files& files,
@@ -114,12 +105,12 @@ class step_reader {
       distributed_load part = read_distributed(table);
       const auto [at, is_new] = place.try_emplace(part.elements, l.distributed.size());
       if (is_new) {
-        part.parts = {part.polynomial};
+        part.parts = {{part.polynomial}};
         l.distributed.push_back(std::move(part));
       } else {
         distributed_load& sum = l.distributed[at->second];
         add_polynomial(sum.polynomial, part.polynomial, 1.0);
-        sum.parts.push_back(std::move(part.polynomial));
+        sum.parts.push_back({std::move(part.polynomial)});
       }
     }
   }
@@ -250,13 +241,13 @@ class step_reader {
   void read_settlements(const toml_value& t, load& l) const {
     std::set<std::pair<int, int>> moved;
     for (const toml_value& s : t["settlement"].optional_tables()) {
-      for (const auto& [node, dof, value] : values_in(s, "a settlement")) {
-        refuse_unfixed(s, node, dof);
-        if (!moved.insert({node, dof}).second)
-          s[nodes_.dof_names()[dof]].refuse(
-              place_words(nodes_.structure(), node) + ", a second time in this step",
+      for (const point_load& g : values_in(s, "a settlement")) {
+        refuse_unfixed(s, g.node, g.dof);
+        if (!moved.insert({g.node, g.dof}).second)
+          s[nodes_.dof_names()[g.dof]].refuse(
+              place_words(nodes_.structure(), g.node) + ", a second time in this step",
               "each dof once: a settlement is its whole displacement");
-        l.settlements.push_back({node, dof, value});
+        l.settlements.push_back({g.node, g.dof, g.value});
       }
     }
   }
@@ -269,6 +260,18 @@ class step_reader {
 
 }  // namespace
 
+void refuse_endless_sums(const toml_value& t, const model& m, const load& l) {
+  std::vector<double> sums(dofs(m), 0.0);  // in doubles, as the path adds them up
+  add_consistent_loads(m, l, sums);
+  const resultant r = resultant_of(m, l);
+  sums.push_back(r.force);
+  sums.insert(sums.end(), r.moments.begin(), r.moments.end());
+  for (const prescribed_displacement& g : l.settlements)
+    sums.push_back(product_of<double>(g.value, g.factor));
+  if (!std::ranges::all_of(sums, [](double x) { return std::isfinite(x); }))
+    t.refuse("loads whose sum or moment is not finite", "loads within the range of double precision");
+}
+
 std::vector<double> read_polynomial(const toml_value& t, const model& m, std::string_view elsewhere) {
   const toml_value polynomial = t["polynomial"];
   if (!std::holds_alternative<beam>(m.kind)) polynomial.refuse(elsewhere);
@@ -279,13 +282,13 @@ std::vector<double> read_polynomial(const toml_value& t, const model& m, std::st
   return coefficients;
 }
 
-std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
+std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
                              const std::vector<support>& supports, const named_files& files,
                              std::vector<std::string>& warnings) {
   const step_reader reader(nodes, supports, files, warnings);
-  std::vector<load> steps;
-  for (const toml_value& t : top["step"].tables()) steps.push_back(reader.read(t));
-  return steps;
+  std::vector<load> loads;
+  for (const toml_value& t : tables) loads.push_back(reader.read(t));
+  return loads;
 }
 
 }  // namespace contct

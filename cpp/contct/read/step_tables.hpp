@@ -1,4 +1,4 @@
-// The [[step]]s of a problem file: loads and settlements.
+// Tables with the keys of a [[step]], as [[case]]s are: loads and settlements.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,12 @@ namespace contct {
 [[nodiscard]] std::vector<double> read_polynomial(const toml_value& t, const model& m,
                                                   std::string_view elsewhere);
 
-/// The steps of the document `top`, on these supports. `files` finds those that a step names; `warnings` gets
+/// Refuse loads of the table `t` whose sums, or settlements, are beyond doubles.
+void refuse_endless_sums(const toml_value& t, const model& m, const load& l);
+
+/// The loads of these tables, on these supports. `files` finds those that a table names; `warnings` gets
 /// those about their numbers.
-[[nodiscard]] std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
+[[nodiscard]] std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
                                            const std::vector<support>& supports, const named_files& files,
                                            std::vector<std::string>& warnings);
 

@@ -62,10 +62,19 @@ void refuse_indefinite(const assembled& a, const problem& of, const exact_proble
       a.label_of(static_cast<int>(largest - motion.begin()))));
 }
 
-/// Has the load of this step, or of one before it, no equilibrium?
-bool corrected_path_ends_by(std::size_t step, const exact_problem& p) {
-  const exact_path path = follow_corrected_path(p);
-  return path.status == path_status::mechanism && path.steps.size() <= step;
+/// A path of the 1989 rule that nothing holds ends in a mechanism only where the load of its step, or of one
+/// before it, has no equilibrium.
+void tell_mechanisms(exact_path& path, const exact_problem& p) {
+  if (std::ranges::count(path.steps, path_status::mechanism, &exact_step_end::status) == 0) return;
+  const exact_path corrected = follow_corrected_path(p);
+  path.status = path_status::solved;
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    exact_step_end& s = path.steps[i];
+    const path_status truly = i < corrected.steps.size() ? corrected.steps[i].status : corrected.status;
+    if (s.status == path_status::mechanism && truly != path_status::mechanism)
+      s.status = path_status::path_ended;
+    if (path.status == path_status::solved) path.status = s.status;
+  }
 }
 
 /// The problem in rational numbers.
@@ -82,8 +91,7 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
   try {
     if (rule != "1989") return follow_corrected_path(p, tell);
     exact_path path = follow_1989_path(p, tell);
-    if (path.status == path_status::mechanism && !corrected_path_ends_by(path.steps.size(), p))
-      path.status = path_status::path_ended;
+    tell_mechanisms(path, p);
     return path;
   } catch (const too_long& e) {
     throw std::invalid_argument(

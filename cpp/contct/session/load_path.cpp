@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contct/model/line.hpp"
+
 namespace contct {
 namespace {
 
@@ -26,12 +28,12 @@ struct load_words {
 
 /// Of settlements alone: the only one, or the largest.
 load_words settlement_words(const model& m, const std::vector<prescribed_displacement>& all) {
-  const auto size = [](const prescribed_displacement& g) { return std::abs(g.value); };
+  const auto size = [](const prescribed_displacement& g) { return std::abs(g.factor * g.value); };
   const prescribed_displacement& g = *std::ranges::max_element(all, {}, size);
-  if (all.size() > 1) return {"settle ", g.value};
+  if (all.size() > 1) return {"settle ", product_of<double>(g.value, g.factor)};
   const std::string name =
       std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
-  return {"settle " + name, g.value, " at " + place_words(m, g.node)};
+  return {"settle " + name, product_of<double>(g.value, g.factor), " at " + place_words(m, g.node)};
 }
 
 /// Of one that need not follow the mesh, alone.
@@ -56,7 +58,7 @@ load_words words_for(const model& m, const load& l, const resultant& r) {
   if (!l.settlements.empty() || !l.placed.empty()) return {of_matrix ? "sum " : "force ", r.force};
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
-    return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), p.value,
+    return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), product_of<double>(p.value, p.factor),
             " at " + place_words(m, p.node)};
   }
   if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
@@ -89,11 +91,12 @@ load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geo
 
 load load_path::at(int step, double fraction) const {
   if (step == 0) return {};
-  return mix(step > 1 ? problem_.steps[step - 2] : load{}, problem_.steps[step - 1], fraction);
+  const int before = step_before(step);
+  return mix(before > 0 ? problem_.steps[before - 1] : load{}, problem_.steps[step - 1], fraction);
 }
 
 resultant load_path::resultant_at(int step, double fraction) const {
-  const resultant& a = totals_[step - 1];
+  const resultant& a = totals_[step_before(step)];
   const resultant& b = totals_[step];
   resultant r{between(a.force, b.force, fraction), a.moments};
   for (std::size_t i = 0; i < r.moments.size(); ++i)
@@ -103,7 +106,7 @@ resultant load_path::resultant_at(int step, double fraction) const {
 
 bool load_path::has_many_parts(int step) const {
   constexpr std::size_t most = 32;
-  return std::max(parts_[step - 1], parts_[step]) > most;
+  return std::max(parts_[step_before(step)], parts_[step]) > most;
 }
 
 std::string load_path::words_at(int step, double fraction, int width) const {

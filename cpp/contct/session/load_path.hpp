@@ -29,6 +29,9 @@ class load_path {
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:
+  /// The step whose load stands at the start of this one; 0: none does.
+  [[nodiscard]] int step_before(int step) const { return problem_.steps[step - 1].from_zero ? 0 : step - 1; }
+
   const problem& problem_;
   std::vector<resultant> totals_;   // at the start, then at the end of each step
   std::vector<std::size_t> parts_;  // how many things there are to write, likewise

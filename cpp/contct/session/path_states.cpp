@@ -57,6 +57,7 @@ void path_states::begin_step(int step) {
     std::ranges::fill(after_, 0.0);
     total_load_(step_ + 1, after_);
   }
+  if (total_load_.from_zero(step)) std::ranges::fill(before_, 0.0);
 }
 
 /// Do supports and all pairs together hold the structure? Then the factor is there.

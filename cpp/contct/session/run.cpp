@@ -56,9 +56,10 @@ void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
   to = outputs;
   const bool drawn = to.page != nullptr;
   lockstep_on_path* const compared = result.compared ? &*result.compared : nullptr;
-  result.record = run_recorder(
-      compared, {.calls = drawn && !wanted.both_rules,
-                 .states = leader_ && (drawn || wanted.pictures || wanted.envelope || to.table != nullptr)});
+  result.record =
+      run_recorder(compared, {.calls = drawn && !wanted.both_rules,
+                              .states = leader_ && (drawn || wanted.pictures || to.table != nullptr ||
+                                                    (wanted.envelope && !starts_from_zero(result.what)))});
   if (to.proof != nullptr) result.judged.keep_proofs();
   std::vector<observer*> all;
   if (compared != nullptr) all.push_back(compared);

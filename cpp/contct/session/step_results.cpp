@@ -180,7 +180,9 @@ void for_each_state_of_envelope(const run_result& r,
                                 const std::function<void(const structure_state&, const load&)>& visit) {
   const load_path loads(r.what);
   path_states states(r);
+  const bool of_combinations = starts_from_zero(r.what);
   for (const path_moment& m : moments_of(r)) {
+    if (of_combinations && (!m.is_end || m.step->end.fraction < 1.0)) continue;
     structure_state s = states.at(m);
     if (s.displacement.empty()) continue;
     s.pair_forces.clear();  // all numbers of an envelope are those of the solved shape

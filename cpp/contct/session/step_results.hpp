@@ -81,7 +81,8 @@ struct penetration {
 [[nodiscard]] std::string place_words(const model& m, const placed_value& at);
 
 /// The least and largest of everything on a path: after its increments, as far as their states can be solved
-/// for, and at the ends of its steps.
+/// for, and at the ends of its steps; of combinations, which start from zero, at their ends under full load
+/// alone.
 struct envelope {
   /// A value, and the increment of a step, from 1, that had it; increment 0: the step ended without one.
   template <class Value>
@@ -102,11 +103,11 @@ struct envelope {
 };
 
 /// Visits the states that an envelope is over, each with the load that acts then, of a run whose recorder
-/// keeps states.
+/// keeps states, or of combinations.
 void for_each_state_of_envelope(const run_result& r,
                                 const std::function<void(const structure_state&, const load&)>& visit);
 
-/// Of a run whose recorder keeps states.
+/// Of a run whose recorder keeps states, or of combinations.
 [[nodiscard]] envelope envelope_of(const run_result& r);
 
 }  // namespace contct

@@ -183,12 +183,12 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
   for (const point_load& p : l.points) {
     json& point = out["point"].emplace_back();
     put_place(point, m, p.node);
-    point[names[p.dof]] = p.value;
+    point[names[p.dof]] = product_of<double>(p.value, p.factor);
   }
   for (const prescribed_displacement& g : l.settlements) {
     json& settled = out["settlement"].emplace_back();
     put_place(settled, m, g.node);
-    settled[names[g.dof]] = g.value;
+    settled[names[g.dof]] = product_of<double>(g.value, g.factor);
   }
   return out;
 }

@@ -1,0 +1,188 @@
+#include "contct/read/combinations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "contct/model/line.hpp"
+#include "contct/number/rational.hpp"
+#include "contct/read/mesh.hpp"
+#include "contct/read/step_tables.hpp"
+#include "contct/text/strings.hpp"
+
+namespace contct {
+namespace {
+
+/// sum += factor * part. Exact arithmetic multiplies the decimals of both.
+void add(load& sum, const load& part, double factor) {
+  for (point_load p : part.points) {
+    p.factor = factor;
+    sum.points.push_back(p);
+  }
+  for (prescribed_displacement g : part.settlements) {
+    g.factor = factor;
+    sum.settlements.push_back(g);
+  }
+  for (distributed_load d : part.distributed) {
+    if (d.parts.empty()) d.parts = {{d.polynomial}};
+    for (scaled_polynomial& p : d.parts) p.factor = factor;
+    const std::vector<rational> exactly = coefficients_of<rational>(d);
+    for (std::size_t i = 0; i < exactly.size() && factor != 1.0; ++i) d.polynomial[i] = rounded(exactly[i]);
+    sum.distributed.push_back(std::move(d));
+  }
+  for (placed_load p : part.placed) {
+    p.factor = factor;
+    sum.placed.push_back(std::move(p));
+  }
+}
+
+/// The name of a table, which has one, once among `names`.
+std::string unique_name(const toml_value& t, std::set<std::string>& names) {
+  std::string name = t["name"].text();
+  if (name.find_first_not_of(blanks) == std::string::npos) t["name"].refuse("a name");
+  if (!names.insert(name).second) t["name"].refuse(in_quotes(name) + ", a second time", "each name once");
+  return name;
+}
+
+/// Makes a step of each combination, and of each place of a train.
+class combination_reader {
+ public:
+  combination_reader(const node_reader& nodes, std::vector<load> cases)
+      : model_(nodes.structure()), cases_(std::move(cases)) {}
+
+  void read_combination(const toml_value& t) {
+    t.allow_only({"name", "terms"});
+    load l = begun(unique_name(t, names_));
+    add_terms(t, l);
+    put(t, std::move(l));
+  }
+
+  /// A combination for each place of the axles.
+  void read_train(const toml_value& t) {
+    t.allow_only({"name", "axles", "from", "to", "by", "terms", "factor"});
+    const auto* const b = std::get_if<beam>(&model_.kind);
+    if (b == nullptr)
+      t.refuse(std::holds_alternative<plate>(model_.kind) ? "a train on a plate" : "a train with a matrix",
+               "a train on a beam; elsewhere a [[combination]] for each place of a load");
+    const std::string name = unique_name(t, names_);
+    const std::vector<point> axles = read_axles(t["axles"]);
+    const double factor = t.has("factor") ? t["factor"].real(any_real) : 1.0;
+    load besides = begun(name);
+    if (t.has("terms")) add_terms(t, besides);
+    const rational from = decimal_of(t["from"].real(any_real));
+    const rational by = decimal_of(t["by"].real(positive_real));
+    for (int k = 0, count = places_of(t, from, by); k < count; ++k) {
+      const rational at = from + k * by;
+      load l = besides;
+      l.name = fmt::format("{} at {}", name, rounded(at));
+      for (const point& axle : axles) put_axle(*b, rounded(at + decimal_of(axle.x)), axle.w, factor, l);
+      put(t, std::move(l));
+    }
+  }
+
+  std::vector<load> steps;
+
+ private:
+  struct point {
+    double x, w;
+  };
+
+  static load begun(std::string name) {
+    load l;
+    l.name = std::move(name);
+    l.from_zero = true;
+    return l;
+  }
+
+  void put(const toml_value& t, load l) {
+    refuse_endless_sums(t, model_, l);
+    steps.push_back(std::move(l));
+  }
+
+  void add_terms(const toml_value& t, load& l) const {
+    const toml_value terms = t["terms"].table();
+    std::vector<std::string> names;
+    for (const load& c : cases_) names.push_back(printable(c.name));
+    const toml::table& listed = *terms.required("").as_table();
+    if (listed.empty()) terms.refuse("an empty table", "at least one case with its factor: { G = 1.35 }");
+    for (const auto& [key, value] : listed) {
+      const std::string name = printable(key.str());
+      if (std::ranges::find(names, name) == names.end())
+        terms[key.str()].refuse("no [[case]] of this name" + did_you_mean(name, names),
+                                names.empty() ? "the name of a [[case]]; the file has none"
+                                              : "the name of a [[case]]: " + joined(names, ", "));
+    }
+    for (const load& c : cases_)
+      if (terms.has(c.name)) add(l, c, terms[c.name].real(any_real));
+  }
+
+  [[nodiscard]] static std::vector<point> read_axles(const toml_value& axles) {
+    std::vector<point> all;
+    for (const toml_value& axle : axles.tables()) {
+      axle.allow_only({"at", "w"});
+      all.push_back({axle["at"].real(any_real), axle["w"].real(any_real)});
+    }
+    return all;
+  }
+
+  /// How many there are from `from` on, the last one at or before `to`.
+  [[nodiscard]] static int places_of(const toml_value& t, const rational& from, const rational& by) {
+    constexpr int most = 10'000;
+    const rational way = decimal_of(t["to"].real(any_real)) - from;
+    if (way < 0) t["to"].refuse(fmt::format("a number from {} on, where the train begins", rounded(from)));
+    const rational steps = way / by;
+    if (steps >= most)
+      t["by"].refuse(fmt::format("{}, which makes more than {} places", t["by"].found(), most),
+                     fmt::format("at most {} places of a train", most));
+    return static_cast<int>(rounded(rational(numerator(steps) / denominator(steps)))) + 1;
+  }
+
+  /// A force at x, `factor` times w; beyond the beam there is none.
+  static void put_axle(const beam& b, double x, double w, double factor, load& l) {
+    if (x < b.x.front() || x > b.x.back()) return;
+    if (const std::optional<int> node = find_coordinate(b.x, x))
+      l.points.push_back({*node, 0, w, factor});
+    else
+      l.placed.push_back({load_kind::point, x, x, {w}, {}, factor});
+  }
+
+  const model& model_;
+  std::vector<load> cases_;
+  std::set<std::string> names_;  // of combinations and trains
+};
+
+/// Refuse steps beside combinations, and cases that nothing uses.
+void refuse_mixed(const toml_value& top) {
+  constexpr const char* allowed =
+      "[[step]]s, each going on from the one before, or [[combination]]s and [[train]]s of [[case]]s, each "
+      "from the unloaded structure";
+  for (const char* key : {"combination", "train"})
+    if (top.has(key)) return top.refuse_beside({"step"}, key, allowed);
+  if (top.has("case"))
+    top["case"].refuse("cases, but neither a [[combination]] nor a [[train]]",
+                       "[[combination]] with terms = { NAME = 1.0 }, which names a case and its factor; a "
+                       "load that acts by itself is a [[step]]");
+}
+
+}  // namespace
+
+std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
+                             const std::vector<support>& supports, const named_files& files,
+                             std::vector<std::string>& warnings) {
+  refuse_mixed(top);
+  const auto read = [&](const std::vector<toml_value>& tables) {
+    return read_loads(tables, nodes, supports, files, warnings);
+  };
+  if (!top.has("combination") && !top.has("train")) return read(top["step"].tables());
+  const std::vector<toml_value> cases = top["case"].optional_tables();
+  std::set<std::string> names;
+  for (const toml_value& t : cases) (void)unique_name(t, names);
+  combination_reader reader(nodes, read(cases));
+  for (const toml_value& t : top["combination"].optional_tables()) reader.read_combination(t);
+  for (const toml_value& t : top["train"].optional_tables()) reader.read_train(t);
+  return std::move(reader.steps);
+}
+
+}  // namespace contct

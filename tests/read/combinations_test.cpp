@@ -1,0 +1,81 @@
+// Combinations and trains, as plain loads with factors. What is refused is in bad_combinations.hpp.
+#include "contct/read/combinations.hpp"
+
+#include "catch.hpp"
+#include "contct/read/problem_file.hpp"
+#include "read/bad_combinations.hpp"
+
+using namespace contct;
+
+namespace {
+
+std::vector<load> steps_of(const std::string& tables) {
+  return parse_problem(cases_with(tables), "pb.toml").steps;
+}
+
+std::vector<std::string> names_of(const std::vector<load>& steps) {
+  std::vector<std::string> names;
+  for (const load& l : steps) names.push_back(l.name);
+  return names;
+}
+
+const std::string two_cases =
+    "[[case]]\nname = \"G\"\nuniform = [ { value = -3 }, { value = 0.1 } ]\nsettlement = [ { x = 0, w = -0.1 "
+    "} ]\n"
+    "[[case]]\nname = \"crane left\"\npoint = [ { x = 1, w = -0.7 } ]\nsettlement = [ { x = 0, w = -0.2 } "
+    "]\n";
+
+}  // namespace
+
+TEST_CASE("a combination has the loads of its cases, each with its factor, and starts from zero") {
+  const auto steps =
+      steps_of(two_cases + "[[combination]]\nname = \"ULS\"\nterms = { \"crane left\" = 1.5, G = 1.35 }\n");
+  REQUIRE(steps.size() == 1);
+  const load& l = steps[0];
+  CHECK(l.name == "ULS");
+  CHECK(l.from_zero);
+  REQUIRE(l.points.size() == 1);
+  CHECK((l.points[0].node == 1 && l.points[0].value == -0.7 && l.points[0].factor == 1.5));
+  REQUIRE(l.distributed.size() == 1);
+  CHECK(l.distributed[0].polynomial == std::vector<double>{-3.915});  // 1.35 * -2.9, rounded once
+  REQUIRE(l.distributed[0].parts.size() == 2);
+  CHECK((l.distributed[0].parts[1].coefficients[0] == 0.1 && l.distributed[0].parts[1].factor == 1.35));
+  REQUIRE(l.settlements.size() == 2);
+  CHECK((l.settlements[0].factor == 1.35 && l.settlements[1].factor == 1.5));
+}
+
+TEST_CASE("combinations stand before trains, each in the order of the file") {
+  const std::string train = "axles = [ { at = 0, w = 1 } ]\nfrom = 0\nto = 1\nby = 1\n";
+  CHECK(names_of(steps_of(two_cases + "[[train]]\nname = \"T\"\n" + train +
+                          "[[combination]]\nname = \"B\"\nterms = { G = 1 }\n[[combination]]\nname = \"A\"\n"
+                          "terms = { G = 2 }\n")) == std::vector<std::string>{"B", "A", "T at 0", "T at 1"});
+}
+
+TEST_CASE("a train stands at from, and every `by` behind it, the last time at or before `to`") {
+  const auto places = [](const std::string& numbers) {
+    return names_of(parse_problem("[beam]\nlength = 1\nelements = 10\nEI = 1\n[[support]]\nx = [0, 1]\n"
+                                  "fix = \"w\"\n[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\n" +
+                                      numbers,
+                                  "pb.toml")
+                        .steps);
+  };
+  CHECK(places("from = 0.1\nto = 0.3\nby = 0.1\n") ==  // as decimals: 0.1 + 2 * 0.1 is 0.3
+        std::vector<std::string>{"T at 0.1", "T at 0.2", "T at 0.3"});
+  CHECK(places("from = 0\nto = 0.59\nby = 0.3\n") == std::vector<std::string>{"T at 0", "T at 0.3"});
+  CHECK(places("from = 0.5\nto = 0.5\nby = 2\n") == std::vector<std::string>{"T at 0.5"});
+}
+
+TEST_CASE("axles act where they stand, times the train's factor, and none beyond the beam") {
+  const auto steps =
+      parse_problem(train_with("from = -1\nto = 3\nby = 1\nfactor = 1.5\nterms = { G = 2 }\n"), "pb.toml")
+          .steps;
+  REQUIRE(steps.size() == 5);
+  REQUIRE(steps[0].points.size() == 1);
+  CHECK((steps[0].points[0].node == 0 && steps[0].points[0].value == -2 && steps[0].points[0].factor == 1.5));
+  REQUIRE(steps[1].points.size() == 2);
+  CHECK((steps[1].points[0].node == 0 && steps[1].points[0].value == -1));
+  CHECK((steps[1].points[1].node == 1 && steps[1].points[1].value == -2));
+  CHECK(steps[3].points.size() == 1);
+  CHECK(steps[4].points.empty());
+  CHECK(steps[4].distributed[0].polynomial == std::vector<double>{-2});
+}
