@@ -69,6 +69,13 @@ bool by_every_choice(const numbers& sum, const std::vector<numbers>& parts) {
 
 }  // namespace
 
+TEST_CASE("Loads drive a beam with hinges the same way by decimals as by its condensed loads") {
+  beam b = beam_at({0, 1, 2, 2.5, 4, 5.5, 6});
+  b.hinges = {2, 5};
+  agree(b, {{{1, 0, -1.0}, {3, 1, 0.75}}, {{{-2.0}, {1, 2, 3}}, {{0.5, -1.0, 0.25}, {}}}});
+  agree(b, {{}, {{{-2.0, 1.0}, {5}}, {{3.0}, {0, 1}}}});
+}
+
 TEST_CASE("0.1 + 0.2 - 0.3 is no load, and 1e-300 beside 1e12 is one") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));

@@ -129,6 +129,61 @@ inline std::vector<bad_input> bad_meshes() {
   };
 }
 
+inline std::vector<bad_input> bad_sections() {
+  const std::string self_weight = step_with("self_weight = true\n");
+  return {
+      {"a section beside EI", with("EI = 1.0e4", "EI = 1.0e4\nsection = { E = 1, I = 1 }"), "3:6", "beam.EI",
+       "beside section", "either EI, or section"},
+      {"a section without I", with("EI = 1.0e4", "section = { E = 1 }"), "3:11", "beam.section.I", "missing",
+       "greater than 0"},
+      {"a section of no area", with("EI = 1.0e4", "section = { E = 1, I = 1, A = 0 }"), "3:31",
+       "beam.section.A", "0", "greater than 0"},
+      {"a section with EI", with("EI = 1.0e4", "section = { E = 1, I = 1, EI = 1 }"), "3:27",
+       "beam.section.EI", "unknown", "E, I, W, A, weight"},
+      {"a section that is a number", with("EI = 1.0e4", "section = 3"), "3:11", "beam.section", "3",
+       "a table"},
+      {"an end of the only section", with("EI = 1.0e4", "section = { to = 2, E = 1, I = 1 }"), "3:13",
+       "beam.section.to", "unknown", "E, I, W"},
+      {"a piece of section without an end", with("EI = 1.0e4", "section = [ { E = 1, I = 1 } ]"), "3:13",
+       "beam.section[1].to", "missing", "at which this piece ends"},
+      {"W of one piece only",
+       with("EI = 1.0e4", "section = [ { to = 1, E = 1, I = 1 }, { to = 2, E = 1, I = 1, W = 1 } ]"), "3:39",
+       "beam.section[2]", "W in some pieces and not in others", "in each piece, or in none"},
+      {"a stiffness E I beyond double precision", with("EI = 1.0e4", "section = { E = 1e200, I = 1e200 }"),
+       "1:1", "beam", "element 1", "range of double precision"},
+      {"self-weight of a beam without section", self_weight, "13:15", "step[1].self_weight",
+       "a beam without weight or area", "A and weight in section"},
+      {"self-weight that is a number", step_with("self_weight = 1.35\n"), "13:15", "step[1].self_weight",
+       "1.35", "true or false"},
+      {"self-weight of a plate without weight", plate_with("[[step]]\n", "[[step]]\nself_weight = true\n"),
+       "16:15", "step[1].self_weight", "a plate without weight", "thickness and weight in [plate]"},
+      {"weight beside D", plate_with("E = 10.92\nnu = 0.3\nthickness = 1.0", "D = 1\nnu = 0.3\nweight = 1"),
+       "6:10", "plate.weight", "beside D", "beside E and thickness"},
+  };
+}
+
+inline std::vector<bad_input> bad_hinges() {
+  const auto hinge = [](const std::string& lines) { return good_problem + ("[[hinge]]\n" + lines); };
+  return {
+      {"a hinge at the beam's end", hinge("node = 3\n"), "14:1", "hinge[1]",
+       "a hinge at node 3, where the beam", "a node between others"},
+      {"two hinges at a node", hinge("x = 1\n[[hinge]]\nnode = 2\n"), "16:1", "hinge[2]",
+       "a second hinge at node 2", "one hinge a node"},
+      {"a hinge without a place", hinge(""), "14:1", "hinge[1].node", "missing", "from 1 to 3"},
+      {"a hinge with a spring", hinge("node = 2\nspring = 3\n"), "16:1", "hinge[1].spring", "unknown",
+       "node, nodes, x"},
+      {"a hinge of a plate", good_plate + std::string("[[hinge]]\nnode = 3\n"), "18:1", "hinge[1]",
+       "this without a beam", "of a [beam]"},
+      {"a moment at a hinge",
+       with("{ node = 3, w = -60.0 }", "{ node = 2, theta = 1 }") + "[[hinge]]\nnode = 2\n", "13:31",
+       "step[1].point[1].theta", "theta at node 2, where a hinge", "beside the hinge"},
+      {"a clamp at a hinge", hinge("node = 2\n[[support]]\nnodes = [1, 2]\nfix = \"theta\"\n"), "18:7",
+       "support[2].fix", "theta at node 2, where a hinge", "w there, and theta at a node beside"},
+      {"a spring about a hinge", hinge("node = 2\n[[support]]\nnode = 2\nspring = { theta = 1 }\n"), "18:20",
+       "support[2].spring.theta", "theta at node 2", "beside the hinge"},
+  };
+}
+
 inline std::vector<bad_input> bad_pairs() {
   const std::string pair = "node = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n";
   const std::string three = "nodes = [1, 2, 3]\nsurface = \"below\"\n";
@@ -285,8 +340,9 @@ inline std::vector<bad_input> bad_tables() {
 /// All of them.
 inline std::vector<bad_input> bad_inputs() {
   std::vector<bad_input> all = bad_tables();
-  for (const auto& more : {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_pairs(),
-                           bad_units_and_steps(), bad_combinations()})
+  for (const auto& more :
+       {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_sections(), bad_hinges(), bad_pairs(),
+        bad_units_and_steps(), bad_combinations()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -32,10 +32,15 @@ inline std::array<rational_vector, 3> exact_line(const beam& b, const load& l, i
   const std::size_t at = std::size_t{1} * e;
   const rational left = decimal_of(b.x[at]);
   const rational h = decimal_of(b.x[at + 1]) - left;
-  const rational EI = decimal_of(b.EI[at]);
+  const rational EI = stiffness_of<rational>(b, e);
   const rational_vector q = exact_load(l, e, left, h);
-  const auto k = formulas::beam_stiffness(EI, h);
-  const auto work = formulas::beam_load<rational>(q, h);
+  const bool released = b.has_hinge(e + 1);
+  const auto k = released ? formulas::released_stiffness(EI, h) : formulas::beam_stiffness(EI, h);
+  auto work = formulas::beam_load<rational>(q, h);
+  if (released) {  // by the rotation that the moment at the right end, 0, leaves there
+    work[0] -= 3 * work[3] / (2 * h);
+    work[1] -= work[3] / 2;
+  }
   rational force[2] = {-work[0], -work[1]};
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 4; ++j) force[i] += k[i][j] * u[2 * at + j];

@@ -66,6 +66,8 @@ double middle_of(const std::vector<element_line>& pieces, double h) {
 /// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
 /// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
 /// So it is where loads break an element into pieces, too: the loads are those of the equilibrium.
+/// Left of a hinge it is the cubic with the left slope and the right curvature, which is 0 but for rounding:
+/// its functions are likewise, and that of the curvature is at most h^2 / 27.
 void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
   const std::vector<value_range> printed =
       ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
@@ -78,7 +80,9 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
     double h = 0.0;
     for (const element_line& line : pieces) h += line.h;
     const std::size_t right = 2 * e + 2;
-    const double slope = std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
+    const double slope = b.has_hinge(e + 1)
+                             ? std::abs(polynomial_at(last.moment, 1.0)) * h / 6 / b.EI[e]
+                             : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
     const double of_slope = h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.
     const double of_load = 0x1p-80 * last.load_size * h;

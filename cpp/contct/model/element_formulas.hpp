@@ -154,6 +154,32 @@ std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::sp
   return {v, v, -m1, m2};
 }
 
+// An element that is released at its right end carries no moment there: its rotation is
+// -(3 / 2h (w1 - w2) + theta1 / 2), but for what loads on it turn it by, and is condensed from the equations.
+
+/// What condensing the right rotation takes from a load on the other three dofs, for each unit on it.
+template <class Number>
+std::array<Number, 3> released_shares(const Number& h) {
+  const Number along = Number(3) / 2 / h;
+  return {along, Number(1) / 2, -along};
+}
+
+/// beam_stiffness of such an element.
+template <class Number>
+std::array<std::array<Number, 4>, 4> released_stiffness(const Number& EI, const Number& h) {
+  const Number k = 3 * EI / h / h / h;
+  const Number m = k * h;
+  const Number none(0);
+  return {{{k, m, -k, none}, {m, m * h, -m, none}, {-k, -m, k, none}, {none, none, none, none}}};
+}
+
+/// beam_end_forces of such an element.
+template <class Number>
+std::array<Number, 4> released_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
+  const Number moment = 3 * EI / h * (u[1] - (u[2] - u[0]) / h);
+  return {moment / h, moment / h, -moment, Number(0)};
+}
+
 /// Work of the load q(t) = q0 + q1 t + .. on the shape functions of an element of length h.
 template <class Number>
 std::array<Number, 4> beam_load(std::span<const Number> q, const Number& h) {

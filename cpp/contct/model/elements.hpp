@@ -27,8 +27,8 @@ class beam_elements {
  public:
   /// `b` must outlive this object.
   explicit beam_elements(const beam& b) : beam_(b), h_(line<Number>(b.x, b.runs).lengths()) {
-    for (std::size_t e = 0; e < b.EI.size(); ++e)  // most beams have one stiffness
-      EI_.push_back(e > 0 && b.EI[e] == b.EI[e - 1] ? EI_.back() : number_of<Number>(b.EI[e]));
+    for (int e = 0; e < b.elements(); ++e)  // most beams have one stiffness
+      EI_.push_back(e > 0 && has_stiffness_of(e, e - 1) ? EI_.back() : stiffness_of<Number>(b, e));
   }
 
   [[nodiscard]] int count() const { return beam_.elements(); }
@@ -37,10 +37,13 @@ class beam_elements {
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
   /// Have two elements the same stiffness?
   [[nodiscard]] bool are_alike(int e, int other) const {
-    return h_[e] == h_[other] && beam_.EI[e] == beam_.EI[other];
+    return h_[e] == h_[other] && has_stiffness_of(e, other) && is_released(e) == is_released(other);
   }
+  /// Is there a hinge at its right end?
+  [[nodiscard]] bool is_released(int e) const { return beam_.has_hinge(e + 1); }
   [[nodiscard]] std::array<std::array<Number, 4>, 4> stiffness(int e) const {
-    return formulas::beam_stiffness(EI(e), h_[e]);
+    return is_released(e) ? formulas::released_stiffness(EI(e), h_[e])
+                          : formulas::beam_stiffness(EI(e), h_[e]);
   }
 
   /// Call visit(element, work) for every load on every element; where some need not follow the mesh, for all
@@ -51,21 +54,21 @@ class beam_elements {
       for_each_exact_work<Number>(beam_, l, [&](int e, const std::array<Number, 4>& force) {
         element_work<Number, 4> work{dofs_of(e), force, {}};
         for (std::size_t i = 0; i < 4; ++i) work.size[i] = size_of(force[i]);
-        visit(e, work);
+        visit(e, condensed(e, work));
       });
       return;
     }
     if constexpr (std::is_same_v<Number, double>) {
       for_each_loaded_element(l, count(), [&](int e, std::span<const double> polynomial) {
         const auto force = formulas::beam_load_between(polynomial, beam_.x[e], h_[e]);
-        visit(e, element_work<double, 4>{dofs_of(e), force, {}});
+        visit(e, condensed(e, {dofs_of(e), force, {}}));
       });
     } else {
       for_each_polynomial<Number>(beam_, l, [&](int e, const load_on_element<Number>& on) {
         element_work<Number, 4> work{dofs_of(e), formulas::beam_load<Number>(on.q, h_[e]), {}};
         const double size = on.size * size_of(h_[e]);
         for (std::size_t i = 0; i < 4; ++i) work.size[i] = size * (i % 2 == 0 ? 1.0 : size_of(h_[e]));
-        visit(e, work);
+        visit(e, condensed(e, work));
       });
     }
   }
@@ -75,8 +78,7 @@ class beam_elements {
                                                               std::span<const Number> u) const {
     std::vector<std::array<Number, 4>> forces;
     forces.reserve(h_.size());
-    for (int e = 0; e < count(); ++e)
-      forces.push_back(formulas::beam_end_forces<Number>(EI(e), h_[e], u.subspan(2 * e).template first<4>()));
+    for (int e = 0; e < count(); ++e) forces.push_back(forces_of(e, u.subspan(2 * e).template first<4>()));
     for_each_work(l, [&](int e, const element_work<Number, 4>& work) {
       forces[e][0] -= work.force[0];
       forces[e][1] += work.force[2];
@@ -110,6 +112,28 @@ class beam_elements {
   [[nodiscard]] std::vector<Number> shares() const { return tributary_lengths<Number>(h_); }
 
  private:
+  [[nodiscard]] bool has_stiffness_of(int e, int other) const {
+    return beam_.EI[e] == beam_.EI[other] &&
+           (beam_.sections.empty() || beam_.sections[e] == beam_.sections[other]);
+  }
+  [[nodiscard]] std::array<Number, 4> forces_of(int e, std::span<const Number, 4> u) const {
+    return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], u)
+                          : formulas::beam_end_forces<Number>(EI(e), h_[e], u);
+  }
+  /// What a load on an element does where its right end may be released.
+  [[nodiscard]] element_work<Number, 4> condensed(int e, element_work<Number, 4> work) const {
+    if (!is_released(e)) return work;
+    const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e]);
+    const std::array<double, 3> sizes = formulas::released_shares<double>(beam_.length_of(e));
+    for (std::size_t i = 0; i < 3; ++i) {
+      work.force[i] -= shares[i] * work.force[3];
+      work.size[i] += std::abs(sizes[i]) * work.size[3];
+    }
+    work.force[3] = Number(0);
+    work.size[3] = 0.0;
+    return work;
+  }
+
   const beam& beam_;
   std::vector<Number> h_, EI_;
 };

@@ -39,11 +39,12 @@ rational value_at(std::span<const rational> polynomial, const rational& x) {
 
 std::vector<rational> exact_coefficients(const distributed_load& d) {
   std::vector<rational> sum(d.polynomial.size());
-  const auto add = [&sum](std::span<const double> part, double factor) {
-    for (std::size_t i = 0; i < part.size(); ++i) sum[i] += product_of_decimals(part[i], factor);
+  const auto add = [&sum](std::span<const double> part, double factor, double times) {
+    for (std::size_t i = 0; i < part.size(); ++i)
+      sum[i] += product_of_decimals(part[i], factor) * decimal_of(times);
   };
-  if (d.parts.empty()) add(d.polynomial, 1.0);
-  for (const scaled_polynomial& part : d.parts) add(part.coefficients, part.factor);
+  if (d.parts.empty()) add(d.polynomial, 1.0, 1.0);
+  for (const scaled_polynomial& part : d.parts) add(part.coefficients, part.factor, part.times);
   return sum;
 }
 
@@ -100,6 +101,12 @@ Number stiffness_of(const plate& p) {
 }
 
 template <class Number>
+Number stiffness_of(const beam& b, int element) {
+  if (b.sections.empty() || std::is_same_v<Number, double>) return number_of<Number>(b.EI[element]);
+  return product_of<Number>(b.sections[element].E, b.sections[element].I);
+}
+
+template <class Number>
 std::vector<Number> values_at(const beam& b, std::span<const double> polynomial, std::span<const int> nodes) {
   const line<rational> x(b.x, b.runs);
   const std::vector<rational> a = exact_coefficients({{polynomial.begin(), polynomial.end()}, {}});
@@ -138,6 +145,9 @@ template std::vector<rational> coefficients_of(const distributed_load& d);
 template double stiffness_of(const plate& p);
 template double_double stiffness_of(const plate& p);
 template rational stiffness_of(const plate& p);
+template double stiffness_of(const beam& b, int element);
+template double_double stiffness_of(const beam& b, int element);
+template rational stiffness_of(const beam& b, int element);
 template std::vector<double> values_at(const beam&, std::span<const double>, std::span<const int>);
 template std::vector<double_double> values_at(const beam&, std::span<const double>, std::span<const int>);
 template std::vector<rational> values_at(const beam&, std::span<const double>, std::span<const int>);

@@ -45,6 +45,10 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number stiffness_of(const plate& p);
 
+/// EI of a beam's element: that of the file, or the product of its section's E and I.
+template <class Number>
+[[nodiscard]] Number stiffness_of(const beam& b, int element);
+
 /// The values of a polynomial in x at nodes of a beam: far from x = 0 its terms may cancel in every digit.
 template <class Number>
 [[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,

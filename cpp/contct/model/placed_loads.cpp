@@ -91,7 +91,7 @@ class beam_sources {
 
   [[nodiscard]] bool acts_on(int e) const { return !on_[e].empty(); }
   [[nodiscard]] rational h(int e) const { return points_.length(e); }
-  [[nodiscard]] rational EI(int e) const { return number_of<rational>(beam_.EI[e]); }
+  [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
   /// The coordinate of a place in an element.
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
 
@@ -114,7 +114,7 @@ class beam_sources {
       return s.values.size() == 1 && s.from <= beam_.x[std::min(e, other)] &&
              s.to >= beam_.x[std::max(e, other) + 1];
     };
-    return on_[e] == on_[other] && beam_.EI[e] == beam_.EI[other] && h(e) == h(other) &&
+    return on_[e] == on_[other] && EI(e) == EI(other) && h(e) == h(other) &&
            std::all_of(on_[e].begin(), on_[e].end(), is_same_on_both);
   }
 

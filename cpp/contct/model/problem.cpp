@@ -50,9 +50,10 @@ linear_structure build_kind(const model& m, const Kind& kind, std::span<const su
         add_to_band(s.stiffness.band(), s.row_of(dofs[i]), s.row_of(dofs[j]), own[i][j], e);
   });
   s.rigid_rows = rigid_rows_of(kind);
-  s.rigid_motions = Kind::dofs_per_node;  // up, and a turn for each slope
   s.truth = std::make_shared<rigid_truth>(kind);
+  s.rigid_motions = s.truth->motions();
   put_on_supports(s, supports, std::move(pairs));
+  s.on_supports = s.held_by_supports();
   return s;
 }
 

@@ -2,6 +2,7 @@
 // read, solve and write do not depend on the kind.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -23,12 +24,29 @@ struct even_run {
   int elements;
 };
 
+/// What a beam's cross-section is, as far as a file says: 0 is not known.
+struct beam_section {
+  double E, I;          ///< EI is their product
+  double W = 0.0;       ///< section modulus: M / W is the stress at the extreme fibres
+  double A = 0.0;       ///< area
+  double weight = 0.0;  ///< per volume
+  bool operator==(const beam_section&) const = default;
+};
+
 /// A straight beam of Hermite elements: two dofs a node, w (up) and theta = dw/dx.
 struct beam {
   std::vector<double> x;   ///< node coordinates, strictly increasing [nodes]
   std::vector<double> EI;  ///< bending stiffness of each element, positive [nodes - 1]
   /// What x is made of from x[0] on, for exact arithmetic; empty: every x is a number of the file.
   std::vector<even_run> runs = {};
+  std::vector<beam_section> sections = {};  ///< [elements], EI their rounded products; empty: the file has EI
+  /// Inner nodes, rising, where no moment is carried. A hinge releases the right end of the element on its
+  /// left, whose rotation is condensed: the node's theta is that of the element on its right.
+  std::vector<int> hinges = {};
+
+  [[nodiscard]] bool has_hinge(int node) const {
+    return std::binary_search(hinges.begin(), hinges.end(), node);
+  }
 
   static constexpr int dofs_per_node = 2;
   static constexpr std::array<const char*, 2> dof_names = {"w", "theta"};
@@ -51,6 +69,7 @@ struct plate {
   double thickness = 0.0;             ///< likewise
   std::vector<even_run> x_runs = {};  ///< as a beam's runs
   std::vector<even_run> y_runs = {};
+  double weight = 0.0;  ///< per volume; 0 where the file has none
 
   static constexpr int dofs_per_node = 3;
   static constexpr std::array<const char*, 3> dof_names = {"w", "wx", "wy"};

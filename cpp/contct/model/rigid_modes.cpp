@@ -217,11 +217,13 @@ void refuse_count(const numbers& values, int in_doubt, std::optional<int> known)
 }  // namespace
 
 void rigid_rank::hold(int dof) {
-  if (rank_ == most_rigid_motions) return;
   if (truth_ != nullptr) {
-    if (truth_->is_independent(dofs(), dof)) dofs_[rank_++] = dof;
+    if (rank_ == truth_->motions() || !truth_->is_independent(dofs(), dof)) return;
+    dofs_.push_back(dof);
+    ++rank_;
     return;
   }
+  if (rank_ == most_rigid_motions) return;
   // Only its direction counts; a slope's row, 1 over a length, may be of any size.
   rigid_row direction = rows_[dof];
   const double largest = largest_of(direction);
@@ -231,7 +233,7 @@ void rigid_rank::hold(int dof) {
   const double left = std::sqrt(along(rest, rest));
   if (!(left > independent_ * std::sqrt(along(direction, direction)))) return;
   for (double& entry : rest) entry /= left;
-  dofs_[rank_] = dof;
+  dofs_.push_back(dof);
   basis_[rank_++] = rest;
 }
 

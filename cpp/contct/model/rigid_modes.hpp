@@ -19,9 +19,10 @@ namespace contct {
 inline constexpr int most_rigid_motions = 6;
 
 /// What the rigid motions of a structure do at one dof: one number a motion, 0 for those it does not have. A
-/// beam has two motions (up by 1; a turn about the middle that lifts its end by 1), a plate three (up, along
-/// x, along y), a structure of which only the matrix is known up to six.
-/// u = q0 row[0] + q1 row[1] + ... at every dof is a rigid motion.
+/// beam has two motions (up by 1; a turn about the middle that lifts its end by 1) and one for each hinge
+/// (a turn of what is right of it by as much; here of the first four), a plate three (up, along x, along y),
+/// a structure of which only the matrix is known up to six. u = q0 row[0] + q1 row[1] + ... at every dof is a
+/// rigid motion.
 using rigid_row = std::array<double, most_rigid_motions>;
 
 /// What a motion q, one number for each rigid motion, does where `row` belongs.
@@ -54,7 +55,7 @@ class rigid_rank {
   [[nodiscard]] int rank() const { return rank_; }
 
   /// Held dofs that are independent of each other, and stop all that is stopped.
-  [[nodiscard]] std::span<const int> dofs() const { return {dofs_.data(), static_cast<std::size_t>(rank_)}; }
+  [[nodiscard]] std::span<const int> dofs() const { return dofs_; }
 
   /// The part of a combination of motions that is still free; of rows of a matrix.
   [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
@@ -64,7 +65,7 @@ class rigid_rank {
   double independent_ = 0.0;
   const rigid_truth* truth_ = nullptr;
   std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal, but for rounding; of rows of a matrix
-  std::array<int, most_rigid_motions> dofs_{};
+  std::vector<int> dofs_;                              // [rank_]
   int rank_ = 0;
 };
 

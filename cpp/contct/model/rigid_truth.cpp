@@ -10,9 +10,9 @@
 
 namespace contct {
 
-/// One for each motion: up, about the middle of x, about the middle of y.
+/// One for each motion, in the order of rigid_shape's rows.
 struct rigid_work::numbers {
-  std::array<rational, 3> all;
+  std::vector<rational> all;
 };
 
 /// A line seen from its middle.
@@ -34,17 +34,34 @@ class centred_line {
 };
 
 /// A line for each direction in which a structure extends. Its motions are up by 1, and turns about the
-/// middle that lift the end at the largest x, or y, by 1.
+/// middle that lift the end at the largest x, or y, by 1. Those of a beam with hinges lift one of its ends
+/// and hinges by 1 and leave the others: between these it stays straight.
 template <class Number>
 struct rigid_shape {
-  using row = std::array<Number, 3>;
+  using row = std::vector<Number>;
 
-  explicit rigid_shape(const beam& b) : along_x(b.x, b.runs) {}
+  explicit rigid_shape(const beam& b) : along_x(b.x, b.runs) {
+    if (b.hinges.empty()) return;
+    corners = b.hinges;
+    corners.insert(corners.begin(), 0);
+    corners.push_back(b.nodes() - 1);
+    for (const int node : corners) corner_x.push_back(along_x.points().at(node));
+  }
   explicit rigid_shape(const plate& p) : along_x(p.x, p.x_runs), along_y(std::in_place, p.y, p.y_runs) {}
 
   centred_line<Number> along_x;
   std::optional<centred_line<Number>> along_y;
+  std::vector<int> corners;      // of a beam with hinges: the nodes of these and of the ends, rising
+  std::vector<Number> corner_x;  // [corners]
 
+  [[nodiscard]] int motions() const {
+    return corners.empty() ? dofs_per_node() : static_cast<int>(corners.size());
+  }
+  /// The straight part that begins at a node or goes through it, or ends at the last one.
+  [[nodiscard]] std::size_t part_of(int node) const {
+    const auto right = std::upper_bound(corners.begin(), corners.end() - 1, node);
+    return std::min<std::size_t>(right - corners.begin(), corners.size() - 1) - 1;
+  }
   [[nodiscard]] int dofs_per_node() const { return along_y ? plate::dofs_per_node : beam::dofs_per_node; }
   [[nodiscard]] std::size_t column_of(int dof) const {
     return (dof / dofs_per_node()) % along_x.points().size();
@@ -55,11 +72,36 @@ struct rigid_shape {
   /// 0: a deflection; otherwise the slope along x (1) or y (2).
   [[nodiscard]] int kind_of(int dof) const { return dof % dofs_per_node(); }
 
+  /// What the motions do at x of a beam, in a straight part of it: they lift it, or turn it.
+  [[nodiscard]] row along_beam(const Number& x, std::size_t part, bool turns) const {
+    row all(motions());
+    const Number one(1);
+    if (corners.empty()) {
+      all[turns ? 1 : 0] = turns ? one / along_x.half() : one;
+      if (!turns) all[1] = along_x.across(x);
+      return all;
+    }
+    all[part + 1] = one / (corner_x[part + 1] - corner_x[part]);
+    if (!turns) all[part + 1] *= x - corner_x[part];
+    all[part] = (turns ? Number(0) : one) - all[part + 1];
+    return all;
+  }
+
   [[nodiscard]] row row_of(int dof) const {
-    if (kind_of(dof) == 1) return {Number(0), 1 / along_x.half(), Number(0)};
-    if (kind_of(dof) == 2) return {Number(0), Number(0), 1 / along_y->half()};
-    const Number x = along_x.across(along_x.points().at(column_of(dof)));
-    return {Number(1), x, along_y ? along_y->across(along_y->points().at(line_of(dof))) : Number(0)};
+    row all(motions());
+    const Number one(1);
+    if (!corners.empty()) {
+      const std::size_t column = column_of(dof);
+      return along_beam(along_x.points().at(column), part_of(static_cast<int>(column)), kind_of(dof) != 0);
+    }
+    if (kind_of(dof) != 0) {
+      all[kind_of(dof)] = one / (kind_of(dof) == 1 ? along_x : *along_y).half();
+      return all;
+    }
+    all[0] = one;
+    all[1] = along_x.across(along_x.points().at(column_of(dof)));
+    if (along_y) all[2] = along_y->across(along_y->points().at(line_of(dof)));
+    return all;
   }
 };
 
@@ -68,7 +110,9 @@ namespace {
 using motion_numbers = rigid_shape<rational>::row;
 
 rational dot(const motion_numbers& a, const motion_numbers& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  rational sum;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
 }
 
 void subtract(motion_numbers& from, const motion_numbers& part, const rational& share) {
@@ -82,7 +126,7 @@ motion_numbers rest_of(motion_numbers row, std::span<const motion_numbers> ortho
 }
 
 bool is_zero(const motion_numbers& row) {
-  return row[0] == 0 && row[1] == 0 && row[2] == 0;
+  return std::ranges::all_of(row, [](const rational& x) { return x == 0; });
 }
 
 /// Rows at right angles to each other that span what these do.
@@ -105,7 +149,7 @@ bool has_positive_shares(const motion_numbers& sum, std::span<const motion_numbe
   return true;
 }
 
-/// Those of at most four `parts` whose sum with shares of which none is negative comes nearest to `sum`.
+/// Those of a few `parts` whose sum with shares of which none is negative comes nearest to `sum`.
 std::vector<motion_numbers> nearest_of(const motion_numbers& sum, std::span<const motion_numbers> parts) {
   std::vector<motion_numbers> nearest;
   rational least = dot(sum, sum);
@@ -122,9 +166,9 @@ std::vector<motion_numbers> nearest_of(const motion_numbers& sum, std::span<cons
   return nearest;
 }
 
-/// Is `sum` a sum of `parts` with shares of which none is negative? At most three parts carry the point of
-/// their cone that is nearest to it. A part that leads nearer takes the place of one of these, or joins them:
-/// every choice is nearer than the last, so this ends.
+/// Is `sum` a sum of `parts` with shares of which none is negative? No more parts than motions carry the
+/// point of their cone that is nearest to it. A part that leads nearer takes the place of one of these, or
+/// joins them: every choice is nearer than the last, so this ends.
 bool is_in_cone(const motion_numbers& sum, std::span<const motion_numbers> parts) {
   std::vector<motion_numbers> carrying;
   for (;;) {
@@ -189,6 +233,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
   /// is_independent, where that needs no arithmetic.
   [[nodiscard]] std::optional<bool> seen_at_once(std::span<const int> held, int dof) const {
     if (held.empty()) return true;
+    if (!corners.empty()) return std::nullopt;
     const auto same = [&](auto what) {
       return std::ranges::all_of(held, [&](int other) { return what(other) == what(dof); });
     };
@@ -228,19 +273,33 @@ struct rigid_truth::shape : rigid_shape<rational> {
                     work);
     } else if (p.what == load_kind::force) {
       add_strip(q, x.place(p.from), x.place(p.to), work);
-    } else if (p.what == load_kind::point) {
-      subtract(work, {rational(1), along_x.across(x.place(p.from)), rational(0)}, -q[0]);
-    } else if (p.what == load_kind::moment) {
-      work[1] += q[0] / along_x.half();
+    } else if (p.what != load_kind::curvature) {
+      const rational at = x.place(p.from);
+      std::size_t part = 0;
+      while (part + 2 < corner_x.size() && corner_x[part + 1] <= at) ++part;
+      subtract(work, along_beam(at, part, p.what == load_kind::moment), -q[0]);
     }
   }
 
  private:
   void add_strip(std::span<const rational> q, const rational& from, const rational& to,
                  motion_numbers& work) const {
-    const integrals over = integrate(q, from, to);
-    work[0] += over.plain;
-    work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
+    if (corners.empty()) {
+      const integrals over = integrate(q, from, to);
+      work[0] += over.plain;
+      work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
+      return;
+    }
+    for (std::size_t part = 0; part + 1 < corners.size(); ++part) {
+      const rational& left = std::max(from, corner_x[part]);
+      const rational& right = std::min(to, corner_x[part + 1]);
+      if (left >= right) continue;
+      const integrals over = integrate(q, left, right);
+      const rational at_right =
+          (over.by_x - over.plain * corner_x[part]) / (corner_x[part + 1] - corner_x[part]);
+      work[part] += over.plain - at_right;
+      work[part + 1] += at_right;
+    }
   }
 
   using ends = std::pair<rational, rational>;
@@ -269,8 +328,9 @@ std::vector<rigid_row> rigid_rows_of(const Kind& kind) {
   std::vector<rigid_row> rows;
   rows.reserve(kind.dofs());
   for (int dof = 0; dof < kind.dofs(); ++dof) {
-    const auto [up, along_x, along_y] = shape.row_of(dof);
-    rows.push_back({up, along_x, along_y});
+    const std::vector<double> all = shape.row_of(dof);
+    rigid_row& row = rows.emplace_back();
+    std::copy_n(all.begin(), std::min(all.size(), row.size()), row.begin());
   }
   return rows;
 }
@@ -287,6 +347,10 @@ rigid_work rigid_work::less(const rigid_work& other) const {
 rigid_truth::rigid_truth(const beam& b) : shape_(std::make_shared<shape>(b)) {}
 rigid_truth::rigid_truth(const plate& p) : shape_(std::make_shared<shape>(p)) {}
 
+int rigid_truth::motions() const {
+  return shape_->motions();
+}
+
 bool rigid_truth::is_independent(std::span<const int> held, int dof) const {
   if (const std::optional<bool> known = shape_->seen_at_once(held, dof)) return *known;
   return !is_zero(rest_of(shape_->row_of(dof), shape_->orthogonal_rows(held)));
@@ -294,6 +358,7 @@ bool rigid_truth::is_independent(std::span<const int> held, int dof) const {
 
 rigid_work rigid_truth::work_of(const load& l) const {
   auto work = std::make_shared<rigid_work::numbers>();
+  work->all.resize(motions());
   for (const point_load& p : l.points)
     subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof),
              -product_of<rational>(p.value, p.factor));
@@ -304,6 +369,15 @@ rigid_work rigid_truth::work_of(const load& l) const {
 
 resultant rigid_truth::resultant_of(const load& l) const {
   const motion_numbers work = work_of(l).exactly().all;
+  if (!shape_->corners.empty()) {
+    rational force;
+    rational moment;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      force += work[i];
+      moment += work[i] * shape_->corner_x[i];
+    }
+    return {contct::rounded(force), {contct::rounded(moment)}};
+  }
   const auto about_origin = [&work](const centred_line<rational>& line, const rational& about_middle) {
     return contct::rounded(about_middle * line.half() + work[0] * line.middle());
   };
@@ -318,7 +392,7 @@ bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> suppor
   for (const int dof : supported) {
     if (motion_numbers rest = rest_of(shape_->row_of(dof), stopped); !is_zero(rest))
       stopped.push_back(std::move(rest));
-    if (stopped.size() == (shape_->along_y ? 3 : 2)) return true;
+    if (static_cast<int>(stopped.size()) == motions()) return true;
   }
   // What supports leave. A pair with a face above takes loads that push it up.
   std::vector<motion_numbers> presses;
@@ -339,13 +413,14 @@ std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::s
   rigid_row parts{};
   for (std::size_t i = 0; i < steepest.size(); ++i) {
     steepest[i] /= largest;
-    parts[i] = contct::rounded(steepest[i]);
+    if (i < parts.size()) parts[i] = contct::rounded(steepest[i]);
   }
+  const bool is_all = steepest.size() <= parts.size();
   const double done = contct::rounded(dot(work.exactly().all, steepest));
-  return free_motion{[parts, rows, steepest, shape = shape_](int dof) {
+  return free_motion{[parts, rows, steepest, is_all, shape = shape_](int dof) {
                        constexpr double surely_moves = 1e-3;  // however far from the middle x = 0 is
                        const double moved = along(parts, rows[dof]);
-                       if (std::abs(moved) >= surely_moves * largest_of(rows[dof])) return moved;
+                       if (is_all && std::abs(moved) >= surely_moves * largest_of(rows[dof])) return moved;
                        return contct::rounded(dot(steepest, shape->row_of(dof)));
                      },
                      done};

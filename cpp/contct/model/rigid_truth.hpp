@@ -45,11 +45,15 @@ struct free_motion {
   double work;                        ///< what the load does on it, positive
 };
 
-/// The rigid motions of a beam or plate: up by 1, and turns about its middle that lift an end by 1.
+/// The rigid motions of a beam or plate: up by 1, and turns about its middle that lift an end by 1. A beam
+/// with hinges has one for each of these and of its ends instead, which lifts it by 1 and leaves the others.
 class rigid_truth {
  public:
   explicit rigid_truth(const beam& b);
   explicit rigid_truth(const plate& p);
+
+  /// How many they are.
+  [[nodiscard]] int motions() const;
 
   /// Does dof `dof`, held, stop a motion that the dofs of `held` do not? These are independent of each other.
   [[nodiscard]] bool is_independent(std::span<const int> held, int dof) const;

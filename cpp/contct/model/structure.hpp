@@ -25,10 +25,11 @@ struct point_load {
   double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
 };
 
-/// A polynomial of a file, times a factor: the product of the decimals.
+/// A polynomial of a file, times factors: the product of the decimals.
 struct scaled_polynomial {
   std::vector<double> coefficients;
-  double factor = 1.0;
+  double factor = 1.0;  ///< of a combination
+  double times = 1.0;   ///< of self-weight: the area, or the thickness, that a weight per volume has
 };
 
 /// Force per length (beams), as a polynomial in x: a0 + a1 x + a2 x^2 + ...; positive up.
@@ -158,11 +159,12 @@ struct linear_structure {
 
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
-  int rigid_motions = 0;              ///< 2 for a beam, 3 for a plate, up to 6 for other bodies
+  int rigid_motions = 0;  ///< 2 for a beam and 1 for each hinge, 3 for a plate, up to 6 for other bodies
   std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid motions do there
   std::vector<int> supported_dofs;    ///< those whose supports stop such motions
   /// The motions without rounding, of beams and plates; null for others.
   std::shared_ptr<const rigid_truth> truth;
+  std::optional<rigid_rank> on_supports;  ///< held_by_supports, where `truth` has found it
   /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more
   /// where they are found from the matrix.
   double rigid_rounding = 0.0;
@@ -188,11 +190,17 @@ struct linear_structure {
   [[nodiscard]] rigid_rank nothing_held() const {
     return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
   }
+  /// The motions that the supports stop.
+  [[nodiscard]] rigid_rank held_by_supports() const {
+    if (on_supports) return *on_supports;
+    rigid_rank rank = nothing_held();
+    for (std::size_t i = 0; i < supported_dofs.size() && !is_held(rank); ++i) rank.hold(supported_dofs[i]);
+    return rank;
+  }
   /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
   template <class Closed>
   [[nodiscard]] rigid_rank held_by(Closed closed) const {
-    rigid_rank rank = nothing_held();
-    for (std::size_t i = 0; i < supported_dofs.size() && !is_held(rank); ++i) rank.hold(supported_dofs[i]);
+    rigid_rank rank = held_by_supports();
     for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)
       if (closed(i)) rank.hold(dof_of_pair(i));
     return rank;
@@ -205,7 +213,9 @@ struct linear_structure {
                                                          const rigid_work& work) const;
   /// Is there an equilibrium under a load of this work? Nothing where only rounding would decide.
   [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
-    if (!truth || !work.is_known()) return std::nullopt;
+    constexpr int most_decided = 8;  // the search grows with the powers of 2
+    if (!truth || !work.is_known() || rigid_motions - held_by_supports().rank() > most_decided)
+      return std::nullopt;
     return truth->is_carried(work, supported_dofs, pairs);
   }
   /// The first pairs that stop what `rank` leaves free; they are counted as held.

@@ -22,14 +22,15 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
     if (!t.has(key)) return;
     for (const toml_value& x : t[key].each(any_real.words)) named.push_back(x.real(any_real));
   };
-  for (const char* key : {"support", "contact", "bed"})
+  for (const char* key : {"support", "contact", "bed", "hinge"})
     for (const toml_value& t : top[key].optional_tables()) take(t, "x");
   for (const char* loads : {"step", "case"})
     for (const toml_value& step : top[loads].optional_tables())
       for (const char* key : {"point", "settlement"})
         for (const toml_value& t : step[key].optional_tables()) take(t, "x");
-  if (has_pieces(beam))
-    for (const toml_value& piece : beam["EI"].tables()) take(piece, "to");
+  for (const char* key : {"EI", "section"})
+    if (has_pieces(beam, key))
+      for (const toml_value& piece : beam[key].tables()) take(piece, "to");
   return named;
 }
 
@@ -56,10 +57,10 @@ double as_written(double x, double same) {
 
 }  // namespace
 
-bool has_pieces(const toml_value& beam) {
-  const toml_value EI = beam["EI"];
-  if (!EI.is_array()) return false;
-  const toml::array& pieces = *EI.required("").as_array();
+bool has_pieces(const toml_value& beam, std::string_view key) {
+  const toml_value value = beam[key];
+  if (!value.is_array()) return false;
+  const toml::array& pieces = *value.required("").as_array();
   return !pieces.empty() && pieces.front().is_table();
 }
 

@@ -40,8 +40,8 @@ struct coordinate_row {
   return {x, "node", "element_size in [beam] puts a node at every x that the file names"};
 }
 
-/// Is EI in the beam's table a list of pieces, each up to the x that it names?
-[[nodiscard]] bool has_pieces(const toml_value& beam);
+/// Is EI, or section, in the beam's table a list of pieces, each up to the x that it names?
+[[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
 
 /// Coordinates, and what they are made of.
 struct mesh_line {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contct/matrix/sparse_factor.hpp"
+#include "contct/model/line.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/mesh.hpp"
 #include "contct/text/input_text.hpp"
@@ -33,25 +34,63 @@ std::vector<double> read_coordinates(const toml_value& t, const char* key, const
   return x;
 }
 
-/// EI piece by piece, each from the end of the one before it to the node at its own.
-void read_pieces(const toml_value& t, beam& b) {
+/// EI or section piece by piece, each from the end of the one before it to the node at its own. read(piece,
+/// elements) takes what a piece says beside `to`, by these keys.
+template <class Read>
+void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::string_view> keys,
+                 const Read& read) {
   int end = 0;
-  for (const toml_value& piece : t["EI"].tables()) {
-    piece.allow_only({"to", "value"});
+  keys.insert(keys.begin(), "to");
+  for (const toml_value& piece : pieces.tables()) {
+    piece.allow_only(keys);
     const toml_value to = piece["to"];
     (void)to.required("the coordinate at which this piece ends");
     const int next = nodes_along(b.x).index_of(to);
     if (next <= end) to.refuse(fmt::format("more than {}, where this piece begins", b.x[end]));
-    b.EI.insert(b.EI.end(), next - end, piece["value"].real(positive_real));
+    read(piece, next - end);
     end = next;
   }
   if (end < b.elements())
-    t["EI"].refuse(fmt::format("pieces that end at {}", b.x[end]),
-                   fmt::format("a last piece to {}, where the beam ends", b.x.back()));
+    pieces.refuse(fmt::format("pieces that end at {}", b.x[end]),
+                  fmt::format("a last piece to {}, where the beam ends", b.x.back()));
+}
+
+struct section_key {
+  const char* name;
+  double beam_section::*value;
+};
+/// What a section may say beside E and I, which every piece says or none: stresses and self-weight are the
+/// whole beam's.
+constexpr section_key more_of_sections[] = {
+    {"W", &beam_section::W}, {"A", &beam_section::A}, {"weight", &beam_section::weight}};
+
+void add_section(const toml_value& t, int elements, beam& b) {
+  beam_section s{t["E"].real(positive_real), t["I"].real(positive_real)};
+  for (const auto& [key, value] : more_of_sections) {
+    if (t.has(key)) s.*value = t[key].real(positive_real);
+    if (!b.sections.empty() && (b.sections.front().*value > 0.0) != t.has(key))
+      t.refuse(fmt::format("{} in some pieces and not in others", key), "it in each piece, or in none");
+  }
+  b.sections.insert(b.sections.end(), elements, s);
+  b.EI.insert(b.EI.end(), elements, product_of<double>(s.E, s.I));
+}
+
+void read_sections(const toml_value& t, beam& b) {
+  const std::vector<std::string_view> keys = {"E", "I", "W", "A", "weight"};
+  t.refuse_beside({"EI"}, "section", "either EI, or section with E and I");
+  const toml_value section = t["section"];
+  if (section.is_array())
+    return read_pieces(section, b, keys, [&b](const auto& piece, int n) { add_section(piece, n, b); });
+  section.table().allow_only(keys);
+  add_section(section.table(), b.elements(), b);
 }
 
 void read_stiffness(const toml_value& t, beam& b) {
-  if (has_pieces(t)) return read_pieces(t, b);
+  if (t.has("section")) return read_sections(t, b);
+  if (has_pieces(t, "EI"))
+    return read_pieces(t["EI"], b, {"value"}, [&b](const toml_value& piece, int n) {
+      b.EI.insert(b.EI.end(), n, piece["value"].real(positive_real));
+    });
   const std::size_t elements = b.elements();
   if (t.has("element_size") && t["EI"].is_array())
     t["EI"].refuse("one number, or pieces { to = .., value = .. }: element_size sets the elements");
@@ -90,7 +129,7 @@ mesh_line read_nodes(const toml_value& t, const toml_value& top) {
 }
 
 beam read_beam(const toml_value& t, const toml_value& top) {
-  t.allow_only({"x", "length", "elements", "element_size", "EI"});
+  t.allow_only({"x", "length", "elements", "element_size", "EI", "section"});
   beam b;
   mesh_line line = read_nodes(t, top);
   b.x = std::move(line.x);
@@ -142,11 +181,13 @@ void read_material(const toml_value& t, plate& p) {
   p.nu = t["nu"].real(poisson);
   if (t.has("D")) {
     t.refuse_beside({"E", "thickness"}, "D", "either D, or E and thickness");
+    t.refuse_beside({"weight"}, "D", "weight beside E and thickness");
     p.D = t["D"].real(positive_real);
     return;
   }
   p.E = t["E"].real(positive_real);
   p.thickness = t["thickness"].real(positive_real);
+  if (t.has("weight")) p.weight = t["weight"].real(positive_real);
   p.D = bending_stiffness(p.E, p.nu, p.thickness);
   if (!std::isnormal(p.D))
     t.refuse(fmt::format("E, nu and thickness that make D = {:g}", p.D),
@@ -171,7 +212,7 @@ void check_elements(const toml_value& t, const plate& p) {
 }
 
 plate read_plate(const toml_value& t) {
-  t.allow_only({"x", "y", "size", "elements", "E", "nu", "thickness", "D"});
+  t.allow_only({"x", "y", "size", "elements", "E", "nu", "thickness", "weight", "D"});
   plate p;
   read_grid(t, p);
   read_material(t, p);

@@ -107,4 +107,12 @@ std::vector<int> node_reader::dofs_in(const toml_value& t, std::string_view foun
   return there;
 }
 
+void node_reader::refuse_hinge(const toml_value& named, int node, int dof) const {
+  const auto* const b = std::get_if<beam>(&structure_.kind);
+  if (b == nullptr || dof == 0 || !b->has_hinge(node)) return;
+  named.refuse(
+      fmt::format("theta at node {}, where a hinge parts the slopes of its left and right", node + 1),
+      "w there, and theta at a node beside the hinge");
+}
+
 }  // namespace contct

@@ -33,6 +33,9 @@ class node_reader {
   /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 
+  /// Refuse `named`, which acts on dof `dof` of `node`, where that is one of the two slopes at a hinge.
+  void refuse_hinge(const toml_value& named, int node, int dof) const;
+
   /// The names of a node's dofs.
   [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }
 

@@ -47,8 +47,8 @@ class problem_reader {
       : files_(file, allowed), top_(document, file) {}
 
   problem read() {
-    top_.allow_only({"title", "units", "beam", "plate", "matrix", "calculix", "support", "contact", "bed",
-                     "step", "case", "combination", "train"});
+    top_.allow_only({"title", "units", "beam", "plate", "matrix", "calculix", "hinge", "support", "contact",
+                     "bed", "step", "case", "combination", "train"});
     if (top_.has("title")) problem_.title = top_["title"].text();
     if (top_.has("units")) read_units(top_["units"].table());
     problem_.geometry = read_model(top_, files_, problem_.warnings);
@@ -57,6 +57,7 @@ class problem_reader {
     if (nodes_->on_matrix() && top_.has("bed"))
       top_["bed"].refuse("this with a matrix",
                          "a [[contact]] at each dof: a matrix knows no lengths or areas");
+    for (const toml_value& t : top_["hinge"].optional_tables()) read_hinge(t);
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
@@ -85,6 +86,21 @@ class problem_reader {
     problem_.units = {label("length"), label("force")};
   }
 
+  /// At an end of the beam a hinge would only say that no support fixes theta.
+  void read_hinge(const toml_value& t) {
+    beam* const b = std::get_if<beam>(&problem_.geometry.kind);
+    if (b == nullptr) t.refuse("this without a beam", "a [[hinge]] of a [beam]");
+    t.allow_only(nodes_->keys_with({}));
+    for (const int node : nodes_->read(t)) {
+      if (node == 0 || node + 1 == b->nodes())
+        t.refuse(fmt::format("a hinge at node {}, where the beam ends", node + 1),
+                 "a node between others; an end carries no moment unless a [[support]] holds its theta");
+      if (b->has_hinge(node))
+        t.refuse(fmt::format("a second hinge at node {}", node + 1), "one hinge a node");
+      b->hinges.insert(std::lower_bound(b->hinges.begin(), b->hinges.end(), node), node);
+    }
+  }
+
   void add_support(const support& s) {
     problem_.supports.push_back(s);
     if (s.fixed) fixed_[dof_of(s.node, s.dof)] = 1;
@@ -97,7 +113,10 @@ class problem_reader {
     if (!t.has("fix") && !t.has("spring")) t.refuse("neither fix nor spring", "at least one of them");
     if (t.has("fix"))
       for (const int dof : read_fix(t))
-        for (const int node : at) add_support({node, dof, true});
+        for (const int node : at) {
+          nodes_->refuse_hinge(t["fix"], node, dof);
+          add_support({node, dof, true});
+        }
     if (t.has("spring")) read_springs(t["spring"].table(), at);
   }
 
@@ -129,7 +148,10 @@ class problem_reader {
     t.allow_only(nodes_->dof_names());
     for (const int dof : nodes_->dofs_in(t, "an empty table")) {
       const double stiffness = t[nodes_->dof_names()[dof]].real(positive_real);
-      for (const int node : at) add_support({node, dof, false, stiffness});
+      for (const int node : at) {
+        nodes_->refuse_hinge(t[nodes_->dof_names()[dof]], node, dof);
+        add_support({node, dof, false, stiffness});
+      }
     }
   }
 

@@ -34,8 +34,10 @@ class step_reader {
     refuse_curvature(t);
     std::vector<std::string_view> keys = {"name", whole, "point", "settlement"};
     if (of_beam() != nullptr) keys.insert(keys.begin() + 3, "curvature");
+    if (!on_matrix) keys.emplace_back("self_weight");
     t.allow_only(keys);
-    if (!t.has(whole) && !t.has("point") && !t.has("curvature") && !t.has("settlement"))
+    if (!t.has(whole) && !t.has("point") && !t.has("curvature") && !t.has("settlement") &&
+        !t.has("self_weight"))
       t.refuse("a step without loads and settlements",
                fmt::format("at least one of {}, point{} and settlement; {} takes all load off", whole,
                            of_beam() != nullptr ? ", curvature" : "",
@@ -44,6 +46,7 @@ class step_reader {
     if (t.has("name")) l.name = t["name"].text();
     if (t.has("load")) read_vector(t, l);
     if (t.has("uniform")) read_uniform(t, l);
+    if (t.has("self_weight")) read_self_weight(t["self_weight"], l);
     for (const toml_value& p : t["point"].optional_tables()) {
       if (of_beam() != nullptr && p.has("x")) {
         read_points_along(p, *of_beam(), l);
@@ -112,6 +115,33 @@ class step_reader {
         add_polynomial(sum.polynomial, part.polynomial, 1.0);
         sum.parts.push_back({std::move(part.polynomial)});
       }
+    }
+  }
+
+  /// Weight per volume times area, or thickness, of every element; neighbours that weigh as much together.
+  void read_self_weight(const toml_value& t, load& l) const {
+    const std::optional<bool> acts = t.required("true or false").value_exact<bool>();
+    if (!acts) t.refuse("true or false");
+    if (!*acts) return;
+    const auto add = [&l](double weight, double times, std::vector<int> elements) {
+      l.distributed.push_back(
+          {{product_of<double>(-weight, times)}, std::move(elements), {{{-weight}, 1.0, times}}});
+    };
+    if (const auto* p = std::get_if<plate>(&nodes_.structure().kind)) {
+      if (p->weight == 0.0)
+        t.refuse("a plate without weight", "this with E, thickness and weight in [plate]");
+      return add(p->weight, p->thickness, {});
+    }
+    const std::vector<beam_section>& all = std::get<beam>(nodes_.structure().kind).sections;
+    if (all.empty() || all[0].weight == 0.0 || all[0].A == 0.0)
+      t.refuse("a beam without weight or area", "this with A and weight in section of [beam]");
+    for (std::size_t e = 0; e < all.size();) {
+      std::vector<int> alike;
+      const beam_section& s = all[e];
+      for (; e < all.size() && all[e].weight == s.weight && all[e].A == s.A; ++e)
+        alike.push_back(static_cast<int>(e));
+      if (alike.size() == all.size()) alike.clear();
+      add(s.weight, s.A, std::move(alike));
     }
   }
 
@@ -220,7 +250,10 @@ class step_reader {
     std::vector<point_load> values;
     for (const int dof : nodes_.dofs_in(t, fmt::format("{} without {}", what, fmt::join(names, " or ")))) {
       const double value = t[names[dof]].real(any_real);
-      for (const int node : at) values.push_back({node, dof, value});
+      for (const int node : at) {
+        nodes_.refuse_hinge(t[names[dof]], node, dof);
+        values.push_back({node, dof, value});
+      }
     }
     return values;
   }
