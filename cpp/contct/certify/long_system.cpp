@@ -23,8 +23,6 @@ load merged(const load& l, int elements) {
         sum.polynomial.resize(std::max(sum.polynomial.size(), d->polynomial.size()));
         if (d->parts.empty()) sum.parts.push_back({d->polynomial});
         sum.parts.insert(sum.parts.end(), d->parts.begin(), d->parts.end());
-        sum.times.insert(sum.times.end(), d->times.begin(), d->times.end());
-        sum.times.resize(sum.parts.size(), 1.0);
       }
     }
     together.distributed.back().elements.push_back(e);

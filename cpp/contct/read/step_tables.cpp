@@ -234,6 +234,7 @@ class step_reader {
       const double value = t[names[dof]].real(any_real);
       for (const double x : places) {
         if (const std::optional<int> node = find_coordinate(b.x, x)) {
+          nodes_.refuse_hinge(t[names[dof]], *node, dof);
           l.points.push_back({*node, dof, value});
         } else {
           l.placed.push_back({dof == 0 ? load_kind::point : load_kind::moment, x, x, {value}});
