@@ -277,14 +277,11 @@ std::vector<element_line> beam_lines::pieces(int e) const {
     left.shear += p.force;
     left.moment -= p.moment;  // of a moment that works on the slope
     const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);
-    all.push_back(completed({p.left,
-                             p.h.hi,
-                             p.right,
-                             in_doubles(line.w),
-                             {},
-                             in_doubles(line.moment),
-                             in_doubles(line.shear),
-                             in_doubles(p.q)}));
+    element_line piece{p.left, p.h.hi, p.right, in_doubles(line.w), {}, {}, {}, in_doubles(p.q)};
+    piece.moment = in_doubles(line.moment);
+    piece.shear = in_doubles(line.shear);
+    piece.curvature = p.curvature.hi;
+    all.push_back(completed(std::move(piece)));
     const double h = h_[e];
     size += p.size + sum_of_sizes(all.back().shear) / h + sum_of_sizes(all.back().moment) / (h * h);
     left = line.right_end(p.h);

@@ -20,6 +20,7 @@ struct element_line {
   double left = 0.0, h = 0.0, right = 0.0;
   std::vector<double> w, slope, moment, shear, load;
   double load_size = 0.0;  ///< see load_on_element
+  double curvature = 0.0;  ///< imposed
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
@@ -35,6 +36,8 @@ class beam_lines {
   /// The pieces of element `e` between the places where loads begin, end or stand: itself where there are
   /// none. A load at a place makes the shear or the moment jump there.
   [[nodiscard]] std::vector<element_line> pieces(int e) const;
+  /// Has element `e` more than one, or an imposed curvature?
+  [[nodiscard]] bool is_broken(int e) const { return pieces_.contains(e); }
   /// Shear and moment at the ends of the elements.
   [[nodiscard]] const element_results& ends() const { return ends_; }
 

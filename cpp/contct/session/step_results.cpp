@@ -77,6 +77,11 @@ step_results results_of(const problem& p, const load& l, const structure_state& 
   step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}};
   if (s.numbers) r.elements.values = s.numbers->element_values;
   r.ranges = ranges_of(p.geometry, l, u, deflecting_nodes(p), r.elements.values);
+  if (const auto* const b = std::get_if<beam>(&p.geometry.kind); b != nullptr && !l.placed.empty()) {
+    const beam_lines lines(*b, l, u, r.elements.values);
+    for (int e = 0; e < b->elements(); ++e)
+      if (lines.is_broken(e)) r.pieces.emplace(e, lines.pieces(e));
+  }
   r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
   for (std::size_t i = 0; i < p.pairs.size(); ++i)
     r.pairs.push_back(reading_of(p.pairs[i], deflection_of(p, u, p.pairs[i].node), s.closed(i)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,6 +51,8 @@ struct step_results {
   element_results elements;
   std::vector<double> reactions;    ///< [supports]
   std::vector<pair_reading> pairs;  ///< [pairs]
+  /// Of a beam's elements in which loads begin, end or stand, or impose a curvature: see beam_lines.
+  std::map<std::size_t, std::vector<element_line>> pieces = {};
 
   /// The pair that presses hardest; none where no pair presses.
   [[nodiscard]] std::optional<std::size_t> hardest_pair() const;

@@ -76,10 +76,19 @@ json envelope_json(const problem& p, const envelope& e, const envelope_curves& a
   return out;
 }
 
-json element_json(const element_results& results, std::size_t e) {
+json piece_json(const element_line& line) {
+  const auto ends = [](const std::vector<double>& p) -> json { return {p.front(), polynomial_at(p, 1.0)}; };
+  return {{"x", {line.left, line.right}}, {"w", ends(line.w)},         {"theta", ends(line.slope)},
+          {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
+}
+
+json element_json(const step_results& results, std::size_t e) {
   json entry = {{"element", e + 1}};
-  for (std::size_t i = 0; i < results.names.size(); ++i)
-    entry[std::string(results.names[i])] = results.at(e, i);
+  const element_results& at_ends = results.elements;
+  for (std::size_t i = 0; i < at_ends.names.size(); ++i)
+    entry[std::string(at_ends.names[i])] = at_ends.at(e, i);
+  if (const auto pieces = results.pieces.find(e); pieces != results.pieces.end())
+    entry["pieces"] = list_of(pieces->second, piece_json);
   return entry;
 }
 
@@ -192,7 +201,7 @@ class result_writer {
         {"pairs", p.pairs.size(),
          [&](auto i) { return pair_state_json(p, i, s.isep[i], read.pairs[i].gap, read.pairs[i].force); }},
         {"reactions", p.supports.size(), [&](auto i) { return reaction_json(p, i, read.reactions[i]); }},
-        {"elements", read.elements.elements(), [&](auto i) { return element_json(read.elements, i); }}};
+        {"elements", read.elements.elements(), [&](auto i) { return element_json(read, i); }}};
   }
 
   void add_step(std::size_t number) {

@@ -264,7 +264,7 @@ function drawSupports(root, f, on) {
 function drawPoints(root, f, on) {
   for (const p of pointsOf(f).filter(({ at, value }) => at >= 0 && value !== 0)) {
     const [[x, y], t] = [on.spot(p), on.along(p)];
-    const words = `Load ${short(p.value)} at ${placed(p.name)}`;
+    const words = `Load ${short(p.value)} at ${p.between ? `x = ${digits(p.x, 6)}` : placed(p.name)}`;
     if (t === null) {
       const turns = p.direction > 3;
       const arc = turns ? `M${x + 13} ${y + 7}A15 15 0 1 1 ${x + 13} ${y - 7}` : `M${x - 8} ${y}a8 8 0 1 1 16 0a8 8 0 1 1 -16 0`;
@@ -351,10 +351,12 @@ function drawStrip(root, f, page, top, name, title) {
     const here = [X(xAt([e, a])), Y(forceAt(f, name, [e, a]))];
     return i === 0 || a !== 0 ? [here] : [[here[0], Y(forceAt(f, name, [e - 1, 1]))], here];
   });
-  // The least and the largest value may be between these places.
-  for (const v of [range.min, range.max]) {
-    const after = points.findIndex(([x]) => x > X(v.x));
-    if (after > 0 && !structure.nodes.some((n) => n.x === v.x)) points.splice(after, 0, [X(v.x), Y(v.value)]);
+  // Loads inside elements, and the least and the largest value, may be between these places.
+  const jumps = besidePieces(f, name);
+  const known = new Set([...structure.nodes.map((n) => n.x), ...jumps.map(([x]) => x)]);
+  for (const [at, value] of [...jumps, ...[range.min, range.max].filter((v) => !known.has(v.x)).map((v) => [v.x, v.value])]) {
+    const after = points.findIndex(([x]) => x > X(at));
+    if (after > 0) points.splice(after, 0, [X(at), Y(value)]);
   }
   root.append(path([[X(x0), Y(0)], ...points, [X(x1), Y(0)]], name + "-area", "Z"), path(points, name));
 }
@@ -481,7 +483,7 @@ function sceneOf() {
     still: [...at.keys()].filter((i) => !met.has(i)),
     force: largest((f) => f.pairs.map((p) => Math.max(0, p.force))),
     point: largest((f) => pointsOf(f).filter((p) => p.direction <= 3).map((p) => p.value)),
-    lineLoad: isBeam() ? largest((f) => { const q = lineLoadOf(f); return q ? structure.nodes.slice(1).flatMap((n, e) => [q(e, structure.nodes[e].x), q(e, n.x)]) : []; }) : 0,
+    lineLoad: isBeam() ? largest((f) => { const q = lineLoadOf(f); return q ? [...structure.nodes.slice(1).flatMap((n, e) => [q(e, structure.nodes[e].x), q(e, n.x)]), ...f.load.uniform.flatMap(({ elements, from, to }) => (elements ? [] : [from, to].map((x) => q(elementAt(x), x))))] : []; }) : 0,
   };
 }
 
@@ -585,11 +587,11 @@ function drawAxes(root, { width, bottom, scale }) {
 }
 
 // Where marks stand on a page, see above. Marks are smaller where there are many.
-function marksOn(root, page, spots) {
+function marksOn(root, page, spots, f) {
   const count = places.pairs.length;
   const apart = (scene.size * page.scale) / (isBeam() ? count : Math.sqrt(count));
   return {
-    spot: ({ at }) => spots[at], along: ({ direction }) => onPage(direction)?.t ?? null,
+    spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(deflectionAt(f, x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
     pixels: ({ direction }) => scene.times * page.scale * (onPage(direction)?.length ?? 0),
     limit: scene.times * scene.most * page.scale + 40, r: Math.max(1.6, Math.min(5, apart * 0.3)), half: Math.max(1, Math.min(14, apart * 0.36)),
     say: wordsInFreePlaces(root, page.width, page.bottom - (isBeam() ? 0 : 30), isBeam() ? 62 : 2),
@@ -616,7 +618,7 @@ function drawPicture(f, holder, isSketch = false) {
   if (isBeam()) drawBeam(root, f, page, isSketch);
   else drawEdges(root, spots, "member");
   root.append(marksAt(scene.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
-  page.on = marksOn(root, page, spots);
+  page.on = marksOn(root, page, spots, f);
   drawPoints(root, f, page.on);
   drawPairs(root, pairsOf(f), page.on);
   drawSupports(root, f, page.on);

@@ -285,12 +285,13 @@ function gathered(list, keyOf, fewest = 13) {
 }
 
 function loadRows(s) {
-  const { uniform = [], settlement = [] } = s.load;
+  const { uniform = [], settlement = [], curvature = [] } = s.load;
+  const part = ({ from, to }) => (isBeam() ? `x = ${from} to ${to}` : `(${from.join(", ")}) to (${to.join(", ")})`);
   const polynomial = (a) => a.map((c, i) => `${short(c)}${i === 0 ? "" : i === 1 ? " x" : ` x^${i}`}`).join(" + ");
-  const at = (p) => placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`);
+  const at = (p) => (p.between ? `x = ${short(p.x)}` : placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`));
   const pointRows = (load, words, what) => pointsOf({ load }).map((p) => [stepName(s), ofMatrix ? words : words + what(p), at(p), p.value]);
-  const rows = [...uniform.map((d) => [stepName(s), inUnit(isBeam() ? "per length" : "pressure", "load"), elementsWords(d.elements), d.polynomial ? polynomial(d.polynomial) : d.value]),
-    ...pointRows(s.load, "", whatHolds), ...pointRows({ point: settlement }, "settlement ", (p) => inUnit(p.dof, p.dof))];
+  const rows = [...uniform.map((d) => [stepName(s), inUnit(isBeam() ? "per length" : "pressure", "load"), d.elements ? elementsWords(d.elements) : part(d), d.polynomial ? polynomial(d.polynomial) : d.value]),
+    ...pointRows(s.load, "", whatHolds), ...curvature.map((c) => [stepName(s), "imposed curvature", part(c), c.value]), ...pointRows({ point: settlement }, "settlement ", (p) => inUnit(p.dof, p.dof))];
   return rows.length > 0 ? rows : [[stepName(s), "resultant of all loads", "", sumOf(s)]];
 }
 
@@ -370,7 +371,7 @@ function showCuts() {
     cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
   }
-  const isSum = ({ words, uniform, point, settlement }) => words !== "none" && words !== "" && !uniform && !point && !settlement;
+  const isSum = ({ words, uniform, point, settlement, curvature }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature;
   if (frames.some((f) => isSum(f.load))) cuts.add("Loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
   const list = cuts.size > 0 ? [...cuts] : [`Nothing: every increment, ${unitOf()}, pair and call is on this page.`];
@@ -391,7 +392,7 @@ const pictureWords = {
 
 function showLegend() {
   const there = (test) => frames.some((f) => f.pairs.some(test));
-  const loaded = frames.some((f) => [...pointsOf(f), ...(f.load.uniform || [])].length > 0);
+  const loaded = frames.some((f) => [...pointsOf(f), ...(f.load.uniform || []), ...(f.load.curvature || [])].length > 0);
   const items = [
     [there((p) => p.look === "c"), "in contact, with a force", () => pairMark("c", 11, 9, 5)],
     [there((p) => p.look === "o"), "separated, with a gap", () => pairMark("o", 11, 9, 5)],

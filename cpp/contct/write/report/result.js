@@ -90,29 +90,43 @@ const elementAt = (x) => Math.max(0, Math.min(structure.nodes.length - 2, struct
 
 const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
 
+// Element e of a beam at x, or its piece there where loads begin, end or stand inside.
+function pieceAt(f, e, x) {
+  const { moment, shear, pieces } = f.elements[e];
+  if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
+  const [w0, t0, w1, t1] = f.u.slice(2 * e, 2 * e + 4);
+  return { x: [structure.nodes[e].x, structure.nodes[e + 1].x], w: [w0, w1], theta: [t0, t1], moment, shear, curvature: 0 };
+}
+
 // The deflection of a beam at x. Inside an element it is the polynomial through what its ends have: deflections,
 // slopes and, with the stiffness EI, moments. It is exact where the load along the element is straight.
 function deflectionAt(f, x, e = elementAt(x)) {
-  const [left, right] = [structure.nodes[e].x, structure.nodes[e + 1].x];
+  const { x: [left, right], w: [w0, w1], theta: [t0, t1], moment, curvature } = pieceAt(f, e, x);
   const [h, a] = [right - left, (x - left) / (right - left)];
-  const [w0, t0, w1, t1] = f.u.slice(2 * e, 2 * e + 4);
-  const [k0, k1] = f.elements[e].moment.map((m) => m / structure.EI[e]);
+  const [k0, k1] = moment.map((m) => m / structure.EI[e] + curvature);
   // What the cubic of deflections and slopes has for the curvatures, less what is told.
   const [c0, c1] = [k0 - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h, k1 - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h];
   return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
 }
 
 // Moment or shear of a beam: the polynomials through what the ends of element e have. The shear is the moment's slope.
-function forceAt(f, name, [e, a]) {
-  const { moment: [m0, m1], shear: [v0, v1] } = f.elements[e];
-  const h = structure.nodes[e + 1].x - structure.nodes[e].x;
+function forceAt(f, name, [e, share]) {
+  const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
+  const x = from + share * (to - from);
+  const { x: [left, right], moment: [m0, m1], shear: [v0, v1] } = pieceAt(f, e, x);
+  const [h, a] = [right - left, share === 1 ? 1 : (x - left) / (right - left)];
   if (name === "moment") return hermite(h, m0, m1, v0, v1, a);
   return a === 0 ? v0 : a === 1 ? v1 : (6 * a * (1 - a) * (m1 - m0)) / h + v0 * (1 - 4 * a + 3 * a * a) + v1 * (3 * a * a - 2 * a);
 }
 
-// Concentrated loads of a state: at which dof, and how much.
+// Values on both sides of the places inside elements where loads begin, end or stand: [x, value].
+const besidePieces = (f, name) => f.elements.flatMap(({ pieces = [] }) =>
+  pieces.slice(1).flatMap((p, i) => [[p.x[0], pieces[i][name][1]], [p.x[0], p[name][0]]]));
+
+// Concentrated loads of a state: at which dof, or at which x between two nodes, and how much.
 const pointsOf = (f) => (f.load.point || []).map((p) => {
-  const dof = Object.keys(p).find((key) => key !== "node" && key !== "dof");
+  const dof = Object.keys(p).find((key) => !["node", "dof", "x"].includes(key));
+  if ("x" in p) return { dof, x: p.x, at: 0, between: true, direction: dofsOfNode.beam[dof], value: p[dof] };
   return { ...places.locate(p, dof), value: p[dof] };
 });
 
@@ -126,9 +140,9 @@ function numbersIn(elements) {
 
 // The distributed load of a beam in element e at x: a function; null where there is none.
 function lineLoadOf(f) {
-  const parts = (f.load.uniform || []).map((part) => ({ ...part, has: numbersIn(part.elements) }));
+  const parts = (f.load.uniform || []).map((part) => ({ ...part, has: part.elements ? numbersIn(part.elements) : (e, x) => part.from <= x && x <= part.to }));
   if (parts.length === 0) return null;
-  return (e, x) => parts.filter((part) => part.has(e + 1))
+  return (e, x) => parts.filter((part) => part.has(e + 1, x))
     .reduce((sum, { value, polynomial = [value] }) => sum + polynomial.reduceRight((y, a) => y * x + a, 0), 0);
 }
 
