@@ -4,6 +4,7 @@ Written from the differential equations and not after the program's C++, which i
 constant first; a number that is not rational is a Fraction within 1e-60 of it, relative to its size.
 """
 from fractions import Fraction
+from itertools import zip_longest
 from math import comb, isqrt
 
 
@@ -97,7 +98,7 @@ def hull(p, h):
 
 
 class Beam:
-    """A beam's problem: x [nodes], EI [elements], and q of each step, one polynomial in x for all elements."""
+    """A beam's problem: x [nodes], EI [elements], and what acts in each step: see loads_of."""
 
     dofs = ("w", "theta")
 
@@ -107,7 +108,7 @@ class Beam:
         elements = len(self.x) - 1
         EI = table["EI"]
         self.EI = [Fraction(v) for v in EI] if isinstance(EI, list) else [Fraction(EI)] * elements
-        self.q = [load_of(step.get("uniform", 0)) for step in problem["step"]]
+        self.loads = [loads_of(step, self.x) for step in problem["step"]]
 
     def nodes(self):
         return len(self.x)
@@ -116,30 +117,48 @@ class Beam:
         """Places along the beam, and their nodes."""
         return [(x, node) for node, x in enumerate(self.x)]
 
-    def line(self, u, step, e):
-        """w, moment and shear in element e as polynomials in x - left: EI w'''' = q, with the ends' displacements."""
-        h = self.x[e + 1] - self.x[e]
-        load = [c / self.EI[e] for c in shifted(self.q[step], self.x[e])]
-        w = [Fraction(0)] * 4 + [c / ((i + 1) * (i + 2) * (i + 3) * (i + 4)) for i, c in enumerate(load)]
-        w0, slope0, w1, slope1 = u[2 * e : 2 * e + 4]
-        w[:2] = w0, slope0
-        missing, turn = w1 - at(w, h), slope1 - at(derivative(w), h)
-        w[2] = (3 * missing - turn * h) / h**2
-        w[3] = (turn * h - 2 * missing) / h**3
-        moment = [self.EI[e] * c for c in derivative(derivative(w))]
-        return {"w": w, "moment": moment, "shear": derivative(moment)}
+    def chain(self, step, e, w, slope, moment, shear):
+        """The pieces of element e between the places of loads, and w and the slope at the right end, from what the left end has.
+
+        Each piece is (left, length, polynomials in x - left): EI (w'' - curvature) is the moment, its slope the shear, whose slope is the load.
+        """
+        lines, points, curvatures = self.loads[step]
+        left, right = self.x[e], self.x[e + 1]
+        ends = [x for a, b, _ in lines + curvatures for x in (a, b)] + [x for x, _, _ in points]
+        cuts = [left, *sorted({x for x in ends if left < x < right}), right]
+        pieces = []
+        for a, b in zip(cuts, cuts[1:]):
+            shear += sum(force for x, force, _ in points if x == a)
+            moment -= sum(turn for x, _, turn in points if x == a)
+            q, curvature = [Fraction(0)], sum(value for c, d, value in curvatures if c <= a and b <= d)
+            for p in (shifted(p, a) for c, d, p in lines if c <= a and b <= d):
+                q = [sum(c) for c in zip_longest(q, p, fillvalue=0)]
+            v = [shear] + [c / (i + 1) for i, c in enumerate(q)]
+            m = [moment] + [c / (i + 1) for i, c in enumerate(v)]
+            bend = [c / self.EI[e] + (curvature if i == 0 else 0) for i, c in enumerate(m)]
+            line = [w, slope] + [c / ((i + 1) * (i + 2)) for i, c in enumerate(bend)]
+            pieces.append((a, b - a, {"w": line, "moment": m, "shear": v}))
+            w, slope, moment, shear = at(line, b - a), at(derivative(line), b - a), at(m, b - a), at(v, b - a)
+        return pieces, w, slope
+
+    def pieces(self, u, step, e):
+        """The same with the displacements of both ends."""
+        h, (w0, slope0, w1, slope1) = self.x[e + 1] - self.x[e], u[2 * e : 2 * e + 4]
+        _, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
+        missing, turn = w1 - w, slope1 - slope
+        moment, shear = 2 * self.EI[e] * (3 * missing - turn * h) / h**2, 6 * self.EI[e] * (turn * h - 2 * missing) / h**3
+        return self.chain(step, e, w0, slope0, moment, shear)[0]
 
     def place(self, u, step, quantity, element, end):
-        h = self.x[element] - self.x[element - 1]
-        return at(self.line(u, step, element - 1)[quantity], h if end == "right" else Fraction(0))
+        _, h, line = self.pieces(u, step, element - 1)[-1 if end == "right" else 0]
+        return at(line[quantity], h if end == "right" else Fraction(0))
 
     def extreme(self, u, step, quantity, most):
         """The largest (or least) value, and the x of all places where it is."""
         sign = 1 if most else -1
         best, places = None, []
-        for e in range(len(self.x) - 1):
-            h = self.x[e + 1] - self.x[e]
-            p = [sign * c for c in self.line(u, step, e)[quantity]]
+        for left, h, line in (piece for e in range(len(self.x) - 1) for piece in self.pieces(u, step, e)):
+            p = [sign * c for c in line[quantity]]
             candidates = [Fraction(0), h]
             if best is None or hull(p, h)[1] >= max(best, at(p, Fraction(0)), at(p, h)):
                 candidates += zeros_inside(derivative(p), h)
@@ -149,17 +168,25 @@ class Beam:
                 if best is None or (value > best and not tied):
                     best, places = value, []
                 if tied or value == best:
-                    places.append(self.x[e] + t)
+                    places.append(left + t)
         return sign * best, places
 
 
-def load_of(uniform):
-    """The one polynomial of a step's distributed load; what these problems do not have is refused."""
-    if not isinstance(uniform, list):
-        return [Fraction(uniform)]
-    if len(uniform) != 1 or set(uniform[0]) != {"polynomial"}:
-        raise ValueError(f"uniform: found {uniform}, allowed: a number or one polynomial over all elements")
-    return [Fraction(c) for c in uniform[0]["polynomial"]]
+def loads_of(step, x):
+    """What acts along a beam: (from, to, polynomial in x), (x, force, moment) between nodes and (from, to, curvature).
+
+    What these problems do not have is refused.
+    """
+    def ends(part):
+        return Fraction(part.get("from", x[0])), Fraction(part.get("to", x[-1]))
+    uniform = step.get("uniform", 0)
+    parts = uniform if isinstance(uniform, list) else [{"value": uniform}]
+    if any(part.keys() - {"value", "polynomial", "from", "to"} for part in parts):
+        raise ValueError(f"uniform: found {uniform}, allowed: a number, or parts with value or polynomial, from and to")
+    lines = [(*ends(part), [Fraction(c) for c in part.get("polynomial", [part.get("value")])]) for part in parts]
+    points = [(Fraction(part["x"]), Fraction(part.get("w", 0)), Fraction(part.get("theta", 0)))
+              for part in step.get("point", []) if "x" in part and Fraction(part["x"]) not in x]
+    return lines, points, [(*ends(part), Fraction(part["value"])) for part in step.get("curvature", [])]
 
 
 class Plate:
