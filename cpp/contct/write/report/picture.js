@@ -377,14 +377,13 @@ function drawBeam(root, f, page, isSketch) {
   if (hasBed()) drawPressure(root, f, page, bottom + 316);
 }
 
-// Values of distributed loads, in the middle of each of their runs of elements.
+// Values of distributed loads, in the middle of where they are.
 function sayLineLoads(f, { X, Y }, say) {
-  for (const { value, polynomial, elements } of f.load.uniform || []) {
-    if (polynomial) continue;
-    const has = numbersIn(elements);
-    for (const [first, last] of runsOf(structure.nodes.slice(1).map((_, e) => has(e + 1)))) {
-      if (has(first + 1)) say(X((structure.nodes[first].x + structure.nodes[last + 1].x) / 2), Y(0) + (value > 0 ? 58 : -42), inUnit(rough(value), "load"), "value");
-    }
+  const { nodes } = structure;
+  for (const { value, elements, from, to } of (f.load.uniform || []).filter((part) => part.value)) {
+    const has = elements && numbersIn(elements);
+    const spans = !elements ? [[from, to]] : runsOf(nodes.slice(1).map((_, e) => has(e + 1))).filter(([e]) => has(e + 1)).map(([first, last]) => [nodes[first].x, nodes[last + 1].x]);
+    for (const [x0, x1] of spans) say(X((x0 + x1) / 2), Y(0) + (value > 0 ? 58 : -42), inUnit(rough(value), "load"), "value");
   }
 }
 

@@ -154,14 +154,14 @@ function showCalls() {
 // ---- the ends of steps, the envelope and the input ----
 
 const markOf = (c) => (!c ? "no certificate" : c.exact ? "certified" : "NOT certified");
-const quantityHead = (name) => inUnit(/^m[xy]/.test(name) || name === "w" ? name : sentence(name).slice(0, -1), name);
+const quantityHead = (name) => inUnit(/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
 // The ends of so many steps, in their order: those with the largest values, of each quantity relative to the largest of all.
 function endsOf(what, most) {
-  const { steps } = result;
+  const steps = result.steps.filter((s) => s.extremes);
   if (steps.length <= most) return steps;
   cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
   const sizes = Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)));
@@ -237,7 +237,8 @@ function drawEnvelope() {
         const points = spots(values, [first, Math.min(last + 1, x.length - 1)]);
         const words = `${bound} ${name} from x = ${rough(x[first])} to ${rough(x[last])}: step ${stepName(result.steps[steps[first] - 1])}`;
         const piece = titled(words, path(points, name), path(points, "under-pointer"));
-        piece.addEventListener("click", () => show(frames.findIndex((f) => f.end && f.step === steps[first])));
+        const at = frames.findIndex((f) => f.end && f.step === steps[first]);
+        if (at >= 0) piece.addEventListener("click", () => show(at));
         root.append(piece);
       }
     }
@@ -474,7 +475,7 @@ function drawSheets() {
   };
   const loaded = result.steps[result.steps.length - 1];
   const final = frames[frames.length - 1];
-  byId("system").replaceChildren(...(loaded ? [drawn({ ...frames[0], load: loaded.load }, `The undeformed structure with supports, pairs and the loads of step ${stepName(loaded)}.`, true)] : []));
+  byId("system").replaceChildren(...(loaded ? [drawn({ ...frames[0], load: loaded.load }, `The undeformed structure with supports, pairs and the loads of step ${stepName(loaded)}: ${minus(loaded.load.words)}.`, true)] : []));
   const chosen = field;
   const quantities = fields.length > 0 ? fields : [undefined];
   const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor(12 / quantities.length))).map((s) => s.step));
