@@ -56,15 +56,15 @@ def matrix(of, t, folder):
     labels = (Path(folder) / of["dofs"]).read_bytes().split() if "dofs" in of else [b"%d" % (i + 1) for i in range(len(K))]
     number = {label: i + 1 for i, label in enumerate(labels)}
     need(len(labels) == len(number) == len(K), f"{of.get('dofs')}: not one label for each row")
-    keys = {"support": ["fix", "spring"], "contact": ["surface", "face", "stiffness", "state"], "point": ["value"], "settlement": ["value"]}
+    keys = {"support": ["fix", "spring"], "contact": ["surface", "face", "stiffness", "state"], "point": ["value"], "settlement": ["value"], "move": ["value"]}
 
     def converted(table, key):
         return [as_nodes(dict(part), number, keys[key]) for part in table.get(key, [])]
 
     steps = []
     for step in t["step"]:
-        only(step, {"name", "load", "point", "settlement"})
+        only(step, {"name", "load", "point", "settlement", "move"})
         whole = vector(Path(folder) / step["load"], len(K)) if "load" in step else {}
         loads = [{"node": dof + 1, "w": load} for dof, load in whole.items()]
-        steps.append({"point": converted(step, "point") + loads, "settlement": converted(step, "settlement")})
+        steps.append({"point": converted(step, "point") + loads} | {key: converted(step, key) for key in ("settlement", "move")})
     return K, {"support": converted(t, "support"), "contact": converted(t, "contact"), "step": steps}

@@ -46,6 +46,7 @@ class Problem:
             self.of_elements = (4 if "beam" in t else 12) * len(self.elements)
         self.steps, self.n, self.count = combinations(t, self.lines and self.lines[0]) if t.keys() & {"combination", "train"} else t["step"], len(self.K), len(share)
         need(self.steps, "no step")
+        self.told_faces = []
         for element, dofs, _ in self.elements:
             for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
                 self.K[i][j] = self.K[i].get(j, 0) + k
@@ -53,13 +54,14 @@ class Problem:
         for s in t.get("support", []):
             self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs = []  # (dof, n, face, stiffness)
+        self.pairs = []  # (dof, n, face, stiffness); `loads` puts the faces where a step moves them
         for c in t.get("contact", []):
             nodes = self.nodes(c, {"surface", "face", "stiffness", "state"})
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
         for c in t.get("bed", []):
             nodes = self.nodes(c, {"surface", "face", "modulus", "state"}, "all")
             self.contact(c, nodes, c.get("surface", "below"), [real(c["modulus"]) * share[node] for node in nodes], self.fixed)
+        self.unmoved = self.pairs
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
         self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
         self.kinds |= {"reaction": sum(dof % len(self.names) == 0 for dof, _ in self.supports)} if self.supports else {}  # and how many numbers
@@ -119,7 +121,7 @@ class Problem:
         if isinstance(step, list):
             return self.combined(step)
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
-        only(step, {"name", "point", "settlement"} | ({"uniform"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
+        only(step, {"name", "point", "settlement", "move"} | ({"uniform"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
 
         def add(e, work):
             own[e] = [a + b for a, b in zip(own[e], work)]
@@ -154,6 +156,7 @@ class Problem:
             for dof, value in self.at_dofs(part):
                 need(dof in self.fixed and dof not in settled, "a settlement of a dof that is free, or a second one")
                 settled[dof] = value
+        self.move_faces(step.get("move", []))
         return f, dict.fromkeys(self.fixed, F(0)) | settled, own
 
     def inside(self, i, x):
@@ -173,6 +176,15 @@ class Problem:
         if len(sides) == 1:
             return [(e, [at]) for e, at in sides[0]]
         return [(j * (len(self.lines[0]) - 1) + i, [x, y]) for j, y in sides[1] for i, x in sides[0]]
+
+    def move_faces(self, moves):
+        """Exactly, and as doubles add the face and its move up."""
+        moved = {}
+        for dof, value in (at for part in moves for at in self.at_dofs(part)):
+            need(dof in {pair[0] for pair in self.unmoved} and dof not in moved, "a move where there is no pair, or a second one")
+            moved[dof] = value
+        self.pairs = [(dof, n, face + moved.get(dof, 0), k) for dof, n, face, k in self.unmoved]
+        self.told_faces = [float(face) + float(moved.get(dof, 0)) for dof, _, face, _ in self.unmoved]
 
     def at_dofs(self, part):
         """Each dof that a table names, with its value."""

@@ -62,7 +62,7 @@ def sizes_of(p, f, settled, told, largest):
     `told`: the largest number of each kind; `largest`: sizes on the path so far, which count where nothing acts.
     """
     gap = {"gap": max(told.get("gap", F(0)), told.get("w", F(0)))}
-    if not any(f) and not any(settled.values()):
+    if not any(f) and not any(settled.values()) and all(n * face >= 0 for _, n, face, _ in p.pairs):
         return {kind: max(x, largest.get(kind, F(0))) for kind, x in (largest | gap).items()}, {}
     per, size = len(p.names), told | gap
     acting = {kind: max([abs(x) for dof, x in enumerate(f) if (dof % per > 0) == (kind == "moment")] + [F(0)]) for kind in ("force", "moment")}
@@ -79,9 +79,9 @@ def sizes_of(p, f, settled, told, largest):
 def check_pairs(p, s, deep, rho2, reach, told):
     """The gap of each pair is within its bound; gives the pairs that certainly have the other state."""
     error, wrong = F(s["error"]["gap"]), []
-    for i, ((dof, n, face, _), d, state) in enumerate(zip(p.pairs, deep, s["state"])):
+    for i, ((dof, n, _, _), face, d, state) in enumerate(zip(p.pairs, p.told_faces, deep, s["state"])):
         square = 0 if dof in p.fixed else reach[dof] * rho2
-        gap = F(0) if state == "contact" else F(n * (float(face) - s["displacement"][dof]))
+        gap = F(0) if state == "contact" else F(n * (face - s["displacement"][dof]))
         least, most = -d - (gap - error), gap + error + d  # how far -d may be from either
         need(gap <= error or least >= 0 and least * least >= square, f"the bound on gap does not hold for pair {i + 1}")
         need(most >= 0 and most * most >= square, f"the bound on gap does not hold for pair {i + 1}")

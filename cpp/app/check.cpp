@@ -49,7 +49,8 @@ std::string step_words(const load& l) {
       {l.distributed.size() + placed({load_kind::force}), "distributed load"},
       {l.points.size() + placed({load_kind::point, load_kind::moment}), "point load"},
       {placed({load_kind::curvature}), "imposed curvature"},
-      {l.settlements.size(), "settlement"}};
+      {l.settlements.size(), "settlement"},
+      {l.moves.size(), "moved face"}};
   std::vector<std::string> words;
   if (!l.name.empty()) words.push_back(in_quotes(l.name));
   for (const auto& [count, what] : parts)

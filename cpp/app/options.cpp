@@ -184,7 +184,7 @@ void declare_pictures(CLI::App* c, run_options& o) {
            "Write a table with a row for each increment to this file (- is standard output), and beside "
            "F.csv a file F.pairs.csv with a row for each pair and increment. Columns: step, increment, "
            "kind, s, share, force, events, closed, open, at_face, smin, kernels; and step, increment, "
-           "pair, node, surface, state, look, w, gap, force");
+           "pair, node, surface, state, look, w, gap, force, face");
   add_file(c, "--vtu", o.vtu,
            "For ParaView: write the final state to this file, and beside F.vtu the files F.000.vtu, "
            "F.001.vtu, .. for the start and each kept increment, with every step's final state, and F.pvd, "

@@ -38,6 +38,11 @@ void check(const problem& p) {
   for (const load& l : p.steps) {
     for (const point_load& f : l.points)
       require(is_dof(f.node, f.dof) && std::isfinite(f.value), "a load is a number at a dof");
+    for (const face_move& m : l.moves) {
+      require(is_dof(m.node, m.dof) && std::isfinite(m.factor * m.value), "a move is a number at a dof");
+      require(std::ranges::any_of(p.pairs, [&m](const contact_pair& c) { return c.node == m.node; }),
+              "a face that moves is that of a pair");
+    }
     for (const prescribed_displacement& g : l.settlements) {
       require(is_dof(g.node, g.dof) && std::isfinite(g.value), "a settlement is a number at a dof");
       require(

@@ -48,6 +48,7 @@ STRUCTURES_TABLES = {
     "A part of `uniform`": "[[step]]\nuniform = [ { %s } ]\n",
     "A `point` load": "[[step]]\npoint = [ { %s } ]\n",
     "A `settlement`": "[[step]]\nsettlement = [ { %s } ]\n",
+    "A `move`": "[[step]]\nmove = [ { %s } ]\n",
 }
 NOT_WITH_A_MATRIX = {"`spring` of a `[[support]]`", "`[[bed]]`", "A part of `uniform`"}
 SHARED = {"Places", "Degrees of freedom"}  # their keys are those of other tables

@@ -64,10 +64,16 @@ thickness = 1.0
 [[support]]
 nodes = "1..3"
 fix = ["w", "wx", "wy"]
+[[contact]]
+node = 5
+surface = "below"
+face = -1.0e-3
+stiffness = 1.0
 [[step]]
 uniform = [ { value = 1.0, from = [0.1, 0.2], to = [0.9, 0.3] } ]
 point = [ { node = 5, w = 1.0, wx = 1.0, wy = 1.0 } ]
 settlement = [ { node = 1, wx = 1.0e-3, wy = 1.0e-3 }, { node = 2, w = 1.0e-3 } ]
+move = [ { node = 5, w = 1.0e-2 } ]
 """
 MANY_PARTS = PLATE + f"[[step]]\npoint = [ {', '.join(['{ node = 5, w = 1 }'] * 40)} ]\n"
 SETTLED_BEAM = """

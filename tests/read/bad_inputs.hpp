@@ -242,6 +242,16 @@ inline std::vector<bad_input> bad_units_and_steps() {
        "a table", "[ { .. } ], with brackets around the braces"},
       {"a decimal comma behind thousands", with("1.0e4", "10.000,5"), "3:", "", "not TOML",
        "a decimal point, 4.0 for 4,0"},
+      {"a move where no pair is", step_with("move = [ { node = 2, w = 1 } ]\n"), "13:10", "step[1].move[1]",
+       "no pair at node 2", "at which a [[contact]] or a [[bed]] has a pair"},
+      {"a face that moves twice", step_with("move = [ { node = 3, w = 1 }, { x = 2, w = 2 } ]\n"), "13:44",
+       "step[1].move[2].w", "node 3, a second time in this step", "each place once"},
+      {"a move of a slope", step_with("move = [ { node = 3, theta = 1 } ]\n"), "13:22",
+       "step[1].move[1].theta", "unknown", "node, nodes, x, w"},
+      {"a move without a distance", step_with("move = [ { node = 3 } ]\n"), "13:10", "step[1].move[1].w",
+       "missing", "number"},
+      {"a settlement of a pair", step_with("settlement = [ { node = 3, w = 1 } ]\n"), "13:32",
+       "step[1].settlement[1].w", "node 3, whose w no support holds", "move, written like settlement"},
       {"a decimal comma", with("-0.004", "-0,004"), "10:", "", "not TOML", "a decimal point, 4.0 for 4,0"},
   };
 }

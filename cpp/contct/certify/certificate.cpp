@@ -87,6 +87,13 @@ certificate certifier::judge(const step_state& s) {
   return c;
 }
 
+std::vector<double> certifier::from_faces(int step, std::span<const double> displacement) const {
+  std::vector<double> v(displacement.begin(), displacement.end());
+  const std::vector<double> moved = total_load_.moved(step, v.size());
+  for (std::size_t dof = 0; dof < moved.size(); ++dof) v[dof] -= moved[dof];
+  return v;
+}
+
 std::vector<double> certifier::load_at(int step) const {
   std::vector<double> load(structure_.dofs());
   total_load_(step, load);
@@ -115,9 +122,10 @@ certificate certifier::proof_of(const step_state& s) {
 /// Which pair in contact pulls most, where that is more than a millionth of the largest contact force.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
+  const std::vector<double> v = from_faces(s.step, s.displacement);
   for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {
     const std::size_t dof = structure_.dof_of_pair(static_cast<int>(i));
-    const double force = force_of(structure_.pairs[i], s.displacement[dof], s.isep[i] == in_contact);
+    const double force = force_of(structure_.pairs[i], v[dof], s.isep[i] == in_contact);
     largest = std::max(largest, std::abs(force));
     if (-force > c.pull) {
       c.pulling = static_cast<int>(i);
@@ -129,7 +137,8 @@ void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
 
 std::string certifier::status_words(std::size_t pair, const step_state& s) const {
   const contact_pair& p = structure_.pairs[pair];
-  const double off = p.surface * (p.face - s.displacement[structure_.dof_of_pair(pair)]);
+  const std::vector<double> v = from_faces(s.step, s.displacement);
+  const double off = p.surface * (p.face - v[structure_.dof_of_pair(pair)]);
   char text[120];
   (void)std::snprintf(text, sizeof text, "pair %zu is given as %s, but it is %s its face by %.2g", pair + 1,
                       s.isep[pair] == in_contact ? "in contact" : "separated",
@@ -228,10 +237,11 @@ double certifier::largest_length() const {
 /// From the state alone: equilibrium, penetration, tension.
 void certifier::measure_state(const step_state& s, std::span<const double> load, certificate& c) const {
   const auto row = [this](std::size_t dof) { return structure_.row_of(static_cast<int>(dof)); };
+  const std::vector<double> v = from_faces(s.step, s.displacement);
   std::vector<double> u(load.size());
   std::vector<long double> left(load.size());
   for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    u[row(dof)] = s.displacement[dof];
+    u[row(dof)] = v[dof];
     left[row(dof)] = structure_.in_row(dof, load[dof]);
   }
   structure_.stiffness.subtract_product(std::span<const double>(u), left);
@@ -242,14 +252,13 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {
     const contact_pair& p = structure_.pairs[i];
     const std::size_t dof = structure_.dof_of_pair(static_cast<int>(i));
-    const double pressing = p.surface * (s.displacement[dof] - p.face);
+    const double pressing = p.surface * (v[dof] - p.face);
     if (s.isep[i] == separated) {
       deepest = std::max(deepest, pressing);
     } else {
       farthest = std::max(farthest, -pressing);
       if (structure_.fixed[dof] != 0) continue;  // the support takes its force
-      left[row(dof)] -=
-          static_cast<long double>(p.stiffness) * (static_cast<long double>(s.displacement[dof]) - p.face);
+      left[row(dof)] -= static_cast<long double>(p.stiffness) * (static_cast<long double>(v[dof]) - p.face);
       stiffness[dof] += p.stiffness;
     }
   }
@@ -278,7 +287,10 @@ void certifier::compare_with(const reference_answer& a, const step_state& s, cer
 reference_answer certifier::reference_at(int step) {
   if (!reference_) reference_.emplace(structure_);
   if (problem_.steps[step - 1].from_zero) reference_->start_undeformed();
-  return reference_->solve(load_at(step), total_load_.work(step));
+  reference_answer answer = reference_->solve(load_at(step), total_load_.work(step));
+  const std::vector<double> moved = total_load_.moved(step, answer.displacement.size());
+  for (std::size_t dof = 0; dof < moved.size(); ++dof) answer.displacement[dof] += moved[dof];
+  return answer;
 }
 
 namespace {

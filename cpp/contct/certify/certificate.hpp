@@ -87,6 +87,8 @@ class certifier final : public observer {
   void take(const error_bounds& b, const step_state& s, certificate& c);
   [[nodiscard]] std::string status_words(std::size_t pair, const step_state& s) const;
   [[nodiscard]] std::vector<double> load_at(int step) const;
+  /// Displacements at the end of a step, counted from the faces that it moves.
+  [[nodiscard]] std::vector<double> from_faces(int step, std::span<const double> displacement) const;
   [[nodiscard]] reference_answer reference_at(int step);
   void compare(const step_state& s, std::span<const double> load, certificate& c);
   void measure_state(const step_state& s, std::span<const double> load, certificate& c) const;

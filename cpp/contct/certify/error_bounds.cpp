@@ -50,9 +50,10 @@ reported_state reported_state_at(const problem& p, const step_state& s) {
                    {{},
                     reactions(p, now, s.displacement, s.isep),
                     results_in_elements(p.geometry, now, s.displacement).values}};
-  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const double w = s.displacement[std::size_t{1} * p.pairs[i].node * dofs_per_node(p.geometry)];
-    h.numbers.pair_forces.push_back(force_of(p.pairs[i], w, s.isep[i] == in_contact));
+  const std::vector<contact_pair> pairs = pairs_under(p, now);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double w = s.displacement[std::size_t{1} * pairs[i].node * dofs_per_node(p.geometry)];
+    h.numbers.pair_forces.push_back(force_of(pairs[i], w, s.isep[i] == in_contact));
   }
   return h;
 }
@@ -66,7 +67,9 @@ void error_prover::keep_proof() {
 }
 
 const long_loads& error_prover::loads_of(int step) {
-  if (loads_.step != step) loads_ = system_.loads(step);
+  if (loads_.step == step) return loads_;
+  loads_ = system_.loads(step);
+  system_.move_faces(loads_);
   return loads_;
 }
 
@@ -271,9 +274,10 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
 /// Each pair's status, and its gap, which is 0 for a pair in contact; the bounds on gaps only where
 /// displacements have bounds.
 void error_prover::bound_pairs(const reported_state& told, error_bounds& b) const {
+  const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[told.step - 1]);
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     const bool is_closed = told.isep[i] == in_contact;
-    const double told_gap = gap_of(problem_.pairs[i], told.displacement[system_.pairs[i].dof], is_closed);
+    const double told_gap = gap_of(pairs[i], told.displacement[system_.pairs[i].dof], is_closed);
     const double_double gap = -system_.depth(i, state_.u);
     const double reach = contacts_.reach_of_pair(i, state_.u, b.rho);
     const bool is_wrong =

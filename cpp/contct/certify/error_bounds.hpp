@@ -142,7 +142,7 @@ class error_prover {
   void keep(const reported_state& told, error_bounds& b) const;
 
   const problem& problem_;
-  const long_system system_;
+  long_system system_;  // its faces as at the end of the step of `loads_`
   certain_contacts contacts_;
   exact_means* exactly_;
   std::optional<bool> semidefinite_;

@@ -141,8 +141,16 @@ void long_system::add_product(std::span<const double_double> u, std::span<double
   }
 }
 
+void long_system::move_faces(const long_loads& l) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double_double& moved = l.moved[pairs[i].dof];
+    pairs[i].face = unmoved[i].face + moved;
+    face_size[i] = std::abs(unmoved[i].face.hi) + std::abs(moved.hi);
+  }
+}
+
 double long_system::doubt(std::size_t pair, std::span<const double_double> u) const {
-  const double size = std::abs(u[pairs[pair].dof].hi) + std::abs(pairs[pair].face.hi);
+  const double size = std::abs(u[pairs[pair].dof].hi) + face_size[pair];
   return size == 0.0 ? 0.0 : 2 * long_rounding * size + 0x1p-1000;  // of underflow
 }
 
@@ -155,7 +163,7 @@ bool long_system::is_below_range(const long_loads& l) const {
   };
   return least_product < least || std::ranges::any_of(stiffness, has_small_entry) ||
          std::ranges::any_of(pairs, has_small_pair) || std::ranges::any_of(l.force, too_small) ||
-         std::ranges::any_of(l.settlement, too_small);
+         std::ranges::any_of(l.settlement, too_small) || std::ranges::any_of(l.moved, too_small);
 }
 
 void long_system::put_forces(long_residual& r) const {
@@ -183,7 +191,7 @@ long_residual long_system::residual(std::span<const double_double> u, const long
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const long_pair& p = pairs[i];
     const double_double deep = depth(i, u);
-    const double size = std::abs(u[p.dof].hi) + std::abs(p.face.hi);
+    const double size = std::abs(u[p.dof].hi) + face_size[i];
     if (deep.hi > -long_rounding * size) r.slack[p.dof] += p.stiffness.hi * size;
     if (!(deep.hi <= 0.0)) r.needed[p.dof] += p.stiffness * deep * p.surface;  // what is no number is told
   }

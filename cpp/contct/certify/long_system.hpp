@@ -2,6 +2,7 @@
 // put them off.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -49,7 +50,14 @@ struct element_value {
 
 struct long_system : equations<double_double> {
   long_system() = default;
-  explicit long_system(equations<double_double> e) : equations(std::move(e)) {}
+  explicit long_system(equations<double_double> e) : equations(std::move(e)), unmoved(pairs) {
+    for (const long_pair& p : pairs) face_size.push_back(std::abs(p.face.hi));
+  }
+
+  std::vector<long_pair> unmoved;  ///< the pairs, with their faces where the file has them
+  std::vector<double> face_size;   ///< [pairs] of the face and its move
+  /// Puts the faces of `pairs` where these loads move them.
+  void move_faces(const long_loads& l);
 
   std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
   std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope

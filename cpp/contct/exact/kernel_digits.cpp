@@ -65,8 +65,9 @@ void digit_counter::step_ended(const step_state& s) {
     error_[kind] =
         std::max(error_[kind], error_of(s.displacement[dof], exactly.displacement[dof], largest_[kind]));
   }
-  for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
-    const contact_pair& c = problem_.pairs[i];
+  const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[step]);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const contact_pair& c = pairs[i];
     const double w = s.displacement[c.node * error_.size()];
     const double force =
         s.numbers != nullptr ? s.numbers->pair_forces[i] : force_of(c, w, s.isep[i] == in_contact);

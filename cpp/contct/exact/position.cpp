@@ -18,16 +18,32 @@ void position::begin_step(std::size_t number) {
   const exact_step& after = problem.steps[number];
   increment_ = after.force;
   settlement_ = after.settlement;
+  rational_vector moved = after.moved;
   for (std::size_t dof = 0; dof < u.size(); ++dof) {
     increment_[dof] -= before_.force[dof];
     settlement_[dof] -= before_.settlement[dof];
+    moved[dof] -= before_.moved[dof];
   }
-  increment_ = less_settled(std::move(increment_), settlement_);
+  increment_ = less_settled(std::move(increment_), shift_of(settlement_, moved));
+  settlement_ = settled_from_faces(std::move(settlement_), moved);
+}
+
+rational_vector position::shift_of(const rational_vector& settled, const rational_vector& moved) const {
+  rational_vector all = settled;
+  for (std::size_t dof = 0; dof < all.size(); ++dof)
+    if (problem.fixed[dof] == 0) all[dof] = moved[dof];
+  return all;
+}
+
+rational_vector position::settled_from_faces(rational_vector settled, const rational_vector& moved) const {
+  for (std::size_t dof = 0; dof < settled.size(); ++dof)
+    if (problem.fixed[dof] != 0) settled[dof] -= moved[dof];
+  return settled;
 }
 
 void position::unload() {
   u.assign(problem.dofs(), rational());
-  before_ = {u, {}, u};
+  before_ = {u, {}, u, u};
   closed.clear();
   for (const exact_pair& c : problem.pairs) closed.push_back(c.closed ? 1 : 0);
 }
@@ -62,7 +78,8 @@ rational_vector position::at_start_of_step() const {
     const exact_pair& c = problem.pairs[i];
     if (closed[i] != 0) b[c.dof] += c.stiffness * c.face;
   }
-  return moved(less_settled(std::move(b), before_.settlement), before_.settlement);
+  return moved(less_settled(std::move(b), shift_of(before_.settlement, before_.moved)),
+               settled_from_faces(before_.settlement, before_.moved));
 }
 
 std::vector<event> position::events_since(const std::vector<char>& before) const {
@@ -74,14 +91,15 @@ std::vector<event> position::events_since(const std::vector<char>& before) const
 }
 
 /// Of a fixed dof: K u less the load and the forces of pairs there. A dof fixed twice gives it to the first.
-rational_vector position::reactions(const rational_vector& forces) const {
+rational_vector position::reactions(const rational_vector& displacement,
+                                    const rational_vector& forces) const {
   const exact_step& after = problem.steps[step];
   std::set<int> reacted;
   rational_vector values;
   for (const auto& s : problem.supports) {
-    rational value = -s.spring * u[s.dof];
+    rational value = -s.spring * displacement[s.dof];
     if (s.fixed && reacted.insert(s.dof).second) {
-      for (const auto& [column, k] : problem.stiffness[s.dof]) value += k * u[column];
+      for (const auto& [column, k] : problem.stiffness[s.dof]) value += k * displacement[column];
       value -= before_.force[s.dof] + fraction * (after.force[s.dof] - before_.force[s.dof]) + forces[s.dof];
     }
     values.push_back(std::move(value));
@@ -92,6 +110,7 @@ rational_vector position::reactions(const rational_vector& forces) const {
 exact_step_end position::end(path_status status, std::vector<exact_increment> increments,
                              bool pairs_react) const {
   exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}, status};
+  for (std::size_t dof = 0; dof < u.size(); ++dof) e.displacement[dof] += moved_face(dof);
   rational_vector at_dofs(u.size());
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
@@ -99,7 +118,7 @@ exact_step_end position::end(path_status status, std::vector<exact_increment> in
     e.force.push_back(closed[i] != 0 ? rational(-c.stiffness * gap(i)) : rational(0));
     if (pairs_react) at_dofs[c.dof] -= c.surface * e.force.back();
   }
-  e.reactions = reactions(at_dofs);
+  e.reactions = reactions(e.displacement, at_dofs);
   return e;
 }
 

@@ -19,13 +19,14 @@ class position {
   void factor();
   [[nodiscard]] const lifted_solver& solver() const { return solver_; }
 
-  /// R of the step at the dofs that are not fixed: the load's increment, and what settlements add to it.
+  /// R of the step at the dofs that are not fixed: the load's increment, and what settlements and moves of
+  /// faces add to it.
   [[nodiscard]] const rational_vector& increment() const { return increment_; }
   /// u with (K + springs) u = b, for a `b` at the dofs that are not fixed, and the others moved to `settled`.
   [[nodiscard]] rational_vector moved(const rational_vector& b, const rational_vector& settled) const;
   /// The response to the step's whole load.
   [[nodiscard]] rational_vector response() const { return moved(increment_, settlement_); }
-  /// How fixed dofs move in the step.
+  /// How fixed dofs move in the step, less how far faces move there.
   [[nodiscard]] const rational_vector& settlement() const { return settlement_; }
   /// Where the springs of the pairs in contact hold the structure under the load at the start of the step.
   [[nodiscard]] rational_vector at_start_of_step() const;
@@ -50,13 +51,22 @@ class position {
   const exact_problem& problem;
   std::size_t step = 0;      ///< from 0
   rational fraction;         ///< of its load
-  rational_vector u;         ///< displacements [dofs]
+  rational_vector u;         ///< displacements, counted from moving faces: see count_from_faces [dofs]
   std::vector<char> closed;  ///< [pairs]
 
  private:
   void unload();
-  [[nodiscard]] rational_vector reactions(const rational_vector& forces) const;
-  /// b less what K makes of fixed dofs that are moved to `settled`.
+  [[nodiscard]] rational_vector reactions(const rational_vector& displacement,
+                                          const rational_vector& forces) const;
+  /// How far the faces at a dof are moved by now.
+  [[nodiscard]] rational moved_face(std::size_t dof) const {
+    return before_.moved[dof] + fraction * (problem.steps[step].moved[dof] - before_.moved[dof]);
+  }
+  /// What K moves to nothing: settlements at fixed dofs, moves of faces at others.
+  [[nodiscard]] rational_vector shift_of(const rational_vector& settled, const rational_vector& moved) const;
+  [[nodiscard]] rational_vector settled_from_faces(rational_vector settled,
+                                                   const rational_vector& moved) const;
+  /// b less what K makes of dofs that are moved to `settled`.
   [[nodiscard]] rational_vector less_settled(rational_vector b, const rational_vector& settled) const;
 
   lifted_solver solver_;

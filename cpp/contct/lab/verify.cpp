@@ -111,14 +111,13 @@ double of_support(const problem& p, const step_results& s, const expected_number
   return not_there;
 }
 
-double of_pair(const problem& p, const structure_state& end, const step_results& s,
-               const expected_number& e) {
+double of_pair(const structure_state& end, const step_results& s, const expected_number& e) {
   const std::size_t pair = e.pair - std::size_t{1};
   if (pair >= s.pairs.size()) return not_there;
   if (e.quantity == "state") return end.isep[pair];
   if (e.quantity == "force") return s.pairs[pair].force;
   if (e.quantity != "gap") return not_there;
-  return gap_of(p.pairs[pair], deflection_of(p, end.displacement, p.pairs[pair].node), end.closed(pair));
+  return s.pairs[pair].gap;
 }
 
 /// "max moment", "min w", or where that is: "x of max moment".
@@ -228,7 +227,7 @@ double measurement::of(const expected_number& e) const {
   if (e.quantity.find(' ') != std::string::npos) return of_extreme(read, e.quantity);
   if (const auto quantity = place_in(read.elements.names, e.quantity))
     return of_element(read.elements, e, *quantity);
-  return of_pair(problem_, step.end, read, e);
+  return of_pair(step.end, read, e);
 }
 
 double measurement::size_of(const expected_number& e) const {

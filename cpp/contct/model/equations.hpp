@@ -37,6 +37,7 @@ struct loads_in {
   std::vector<Number> force;       ///< [dofs] consistent loads
   std::vector<double> size;        ///< [dofs] the sum of their parts' magnitudes; 0 of rational numbers
   std::vector<Number> settlement;  ///< [dofs] what fixed dofs are moved to; 0 at all others
+  std::vector<Number> moved;       ///< [dofs] how far the faces of pairs are moved there
   bool from_zero = false;          ///< see load
 };
 
@@ -109,7 +110,8 @@ void add_pairs(const problem& p, const Elements& elements, equations<Number>& e)
 template <class Number, class Elements>
 [[nodiscard]] loads_in<Number> loads_in_numbers(const load& l, const Elements& elements, std::size_t dofs,
                                                 int per_node) {
-  loads_in<Number> f{std::vector<Number>(dofs), std::vector<double>(dofs), std::vector<Number>(dofs)};
+  loads_in<Number> f{std::vector<Number>(dofs), std::vector<double>(dofs), std::vector<Number>(dofs),
+                     std::vector<Number>(dofs)};
   for (const auto& [dof, values] : point_loads_at(l, per_node)) {
     f.force[dof] = sum_of<Number>(values);
     f.size[dof] = size_of(f.force[dof]);
@@ -122,6 +124,8 @@ template <class Number, class Elements>
   });
   for (const prescribed_displacement& g : l.settlements)
     f.settlement[g.node * per_node + g.dof] += product_of<Number>(g.value, g.factor);
+  for (const face_move& m : l.moves)
+    f.moved[m.node * per_node + m.dof] += product_of<Number>(m.value, m.factor);
   f.from_zero = l.from_zero;
   return f;
 }

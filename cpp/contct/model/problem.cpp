@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -208,6 +209,16 @@ std::string unit_words(const problem& p, std::string_view quantity) {
     return on_one_line(" " + force + " " + length + "/" + length);
   if (quantity == "w") return " " + length;
   return " " + force + (quantity == "moment" ? " " + length : "");
+}
+
+std::vector<contact_pair> pairs_under(const problem& p, const load& l) {
+  std::vector<contact_pair> pairs = p.pairs;
+  std::map<int, double> moved;  // by nodes
+  for (const face_move& m : l.moves) moved[m.node] += product_of<double>(m.value, m.factor);
+  if (!moved.empty())
+    for (contact_pair& c : pairs)
+      if (const auto at = moved.find(c.node); at != moved.end()) c.face += at->second;
+  return pairs;
 }
 
 resultant resultant_of(const model& m, const load& l) {

@@ -310,5 +310,7 @@ struct problem {
 [[nodiscard]] inline bool starts_from_zero(const problem& p) {
   return !p.steps.empty() && p.steps.front().from_zero;
 }
+/// The pairs under a load, their faces where it has moved them.
+[[nodiscard]] std::vector<contact_pair> pairs_under(const problem& p, const load& l);
 
 }  // namespace contct

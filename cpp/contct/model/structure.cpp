@@ -18,6 +18,7 @@ load mix(const load& before, const load& after, double fraction) {
   std::map<std::vector<int>, std::vector<double>> distributed;
   std::map<std::pair<int, int>, double> settlements;
   std::map<std::tuple<load_kind, double, double, std::array<double, 2>>, std::vector<double>> placed;
+  std::map<std::pair<int, int>, double> moves;
   for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
     for (const point_load& p : part->points)
       points[{p.node, p.dof}] += share * product_of<double>(p.value, p.factor);
@@ -27,6 +28,8 @@ load mix(const load& before, const load& after, double fraction) {
       settlements[{g.node, g.dof}] += share * product_of<double>(g.value, g.factor);
     for (const placed_load& p : part->placed)
       add_polynomial(placed[{p.what, p.from, p.to, p.across}], values_of(p), share);
+    for (const face_move& m : part->moves)
+      moves[{m.node, m.dof}] += share * product_of<double>(m.value, m.factor);
   }
   load sum;
   for (const auto& [place, value] : points) sum.points.push_back({place.first, place.second, value});
@@ -37,6 +40,7 @@ load mix(const load& before, const load& after, double fraction) {
     const auto& [what, from, to, across] = at;
     sum.placed.push_back({what, from, to, polynomial, across});
   }
+  for (const auto& [place, value] : moves) sum.moves.push_back({place.first, place.second, value});
   sum.name = after.name;
   return sum;
 }
@@ -174,6 +178,22 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
     f[dof] += product_of<double>(g.value, g.factor);
   }
   for (const auto& [free, settling, value] : s.to_settling) f[free] -= value * f[settling];
+}
+
+void add_moves(const load& l, int dofs_per_node, std::span<double> moved) {
+  for (const face_move& m : l.moves) moved[m.node * dofs_per_node + m.dof] += product_of<double>(m.value, m.factor);
+}
+
+void count_from_faces(const linear_structure& s, std::span<const double> moved, std::span<double> f) {
+  std::vector<double> m(moved.size());
+  std::vector<long double> needed(moved.size());
+  for (std::size_t dof = 0; dof < m.size(); ++dof) {
+    needed[s.row_of(dof)] = f[dof];
+    if (s.fixed[dof] == 0) m[s.row_of(dof)] = moved[dof];
+  }
+  s.stiffness.subtract_product(std::span<const double>(m), needed);
+  for (std::size_t dof = 0; dof < m.size(); ++dof)
+    f[dof] = s.fixed[dof] == 0 ? static_cast<double>(needed[s.row_of(dof)]) : f[dof] - moved[dof];
 }
 
 }  // namespace contct

@@ -65,11 +65,20 @@ struct prescribed_displacement {
   double factor = 1.0;  ///< as a point load's
 };
 
+/// Moves the faces of all pairs at one dof of one node.
+struct face_move {
+  int node;             ///< from 0
+  int dof;              ///< within the node, from 0
+  double value;         ///< positive as the dof
+  double factor = 1.0;  ///< as a point load's
+};
+
 /// Everything that acts on the structure at one moment.
 struct load {
   std::vector<point_load> points;
   std::vector<distributed_load> distributed;
   std::vector<prescribed_displacement> settlements = {};
+  std::vector<face_move> moves = {};
   std::string name = {};  ///< of the step that ends with it, for people; may be empty
   std::vector<placed_load> placed = {};
   bool from_zero = false;  ///< its step starts from the unloaded structure, whatever stands before it
@@ -232,5 +241,13 @@ void put_on_supports(linear_structure& s, std::span<const support> supports, std
 /// that `l` prescribes, at free ones -K g. Throws std::logic_error where the support of a settlement was not
 /// built to settle.
 void add_settlements(const linear_structure& s, const load& l, std::span<double> f);
+
+/// How far `l` moves the faces at each dof: added to `moved` [dofs].
+void add_moves(const load& l, int dofs_per_node, std::span<double> moved);
+
+/// A path counts displacements from moving faces: v = u - m, where m is how far the faces at a dof are moved.
+/// What a pair sees of its face, c + m - u, is then c - v, with the c that never changes, and K u = f becomes
+/// K v = f - K m. Completes such a load [dofs], which has f and the settlements by now.
+void count_from_faces(const linear_structure& s, std::span<const double> moved, std::span<double> f);
 
 }  // namespace contct

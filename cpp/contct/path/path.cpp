@@ -79,9 +79,11 @@ class path {
   /// led it. Nothing where it is out of the range of doubles.
   [[nodiscard]] std::optional<reached_state> reached() {
     reached_state r{std::vector<double>(now_.total.size()), 0.0};
-    if (!policy_->displace(r.u)) return reached_state{now_.shape, 0.0};
-    if (!std::ranges::all_of(r.u, [](double x) { return std::isfinite(x); })) return std::nullopt;
-    r.rcond = policy_->reciprocal_condition();
+    const bool is_held = policy_->displace(r.u);
+    if (!is_held) r.u = now_.shape;
+    if (is_held && !std::ranges::all_of(r.u, [](double x) { return std::isfinite(x); })) return std::nullopt;
+    if (is_held) r.rcond = policy_->reciprocal_condition();
+    now_.to_displacement(r.u);
     return r;
   }
 

@@ -47,25 +47,42 @@ struct path_end {
   }
 };
 
-/// Loads along the path.
+/// Loads along the path, and moves of faces.
 class load_history {
  public:
   /// Write the total load at the end of `step` (from 1) to `total` [dofs], which comes zeroed; at dofs that
-  /// settle, the displacement that is prescribed (add_settlements).
+  /// settle, the displacement that is prescribed (add_settlements). Where faces move, of displacements that
+  /// are counted from them (count_from_faces).
   using totals = std::function<void(int step, std::span<double> total)>;
   /// The work of that load on the rigid motions, without rounding.
   using works = std::function<rigid_work(int step)>;
   /// Does a step start from the unloaded structure, whatever stands before it?
   using restarts = std::function<bool(int step)>;
+  /// Add how far the faces at each dof are moved at the end of `step` to `moved` [dofs].
+  using moves = std::function<void(int step, std::span<double> moved)>;
 
   load_history() = default;
   template <class Totals>
   requires std::is_invocable_v<Totals&, int, std::span<double>> load_history(
       Totals total, works work = nullptr,  // NOLINT(google-explicit-constructor): loads, as they are
-      restarts from_zero = nullptr)
-      : total_(std::move(total)), work_(std::move(work)), from_zero_(std::move(from_zero)) {}
+      restarts from_zero = nullptr, moves moved = nullptr)
+      : total_(std::move(total)),
+        work_(std::move(work)),
+        from_zero_(std::move(from_zero)),
+        moves_(std::move(moved)) {}
 
   void operator()(int step, std::span<double> total) const { total_(step, total); }
+  /// Empty where no step moves a face, and in step 0; otherwise [dofs].
+  [[nodiscard]] std::vector<double> moved(int step, std::size_t dofs) const {
+    if (!moves_ || step == 0) return {};
+    std::vector<double> m(dofs);
+    moves_(step, m);
+    return m;
+  }
+  /// The same where a step begins.
+  [[nodiscard]] std::vector<double> moved_before(int step, std::size_t dofs) const {
+    return moved(from_zero(step) ? 0 : step - 1, dofs);
+  }
   /// Not known, where only rounded loads are given, and in step 0.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
   [[nodiscard]] bool from_zero(int step) const { return step == 1 || (from_zero_ && from_zero_(step)); }
@@ -74,6 +91,7 @@ class load_history {
   totals total_;
   works work_;
   restarts from_zero_;
+  moves moves_;
 };
 
 /// A state under the full load of a step.

@@ -69,6 +69,8 @@ class cycle_detector {
 };
 
 /// R*, D, d*, and all that belongs to the pairs. Pairs and dofs count from 0, but for ID.
+/// Displacements, D and d* among them, are counted from moving faces (count_from_faces): a row of DD and
+/// DTEST at which faces move is that of the pairs there. What leaves the path is the displacement itself.
 struct path_state {
   /// `as_listed`: the kernel is called with D and d* over the dofs of the whole structure, and finds its
   /// pairs there by ID, INDOF and NDOFPN, as the listing was; and springs gather their forces increment by
@@ -132,11 +134,14 @@ struct path_state {
   /// R* becomes the load of step `number` less the previous one's.
   void begin_step(int number, const load_history& total_load) {
     step = number;
+    moved_.clear();
     if (total_load.from_zero(step)) unload();
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
     std::fill(total.begin(), total.end(), 0.0);
     total_load(step, total);
     for (std::size_t i = 0; i < total.size(); ++i) increment[i] += total[i];
+    moved_before_ = total_load.moved_before(step, total.size());
+    moved_ = total_load.moved(step, total.size());
     residual = {increment, 1.0, residual.version + 1};
     last_opened.clear();
     cycles.reset();
@@ -223,9 +228,22 @@ struct path_state {
     sprung = status;
   }
 
-  /// Where the pairs act, D is `u` [dofs], and their statuses are `isep` [pairs].
+  /// How far the faces at a dof are moved when that share of the step's load is still to be applied.
+  [[nodiscard]] double moved(std::size_t dof, double share_left) const {
+    if (moved_.empty()) return 0.0;
+    const double before = moved_before_.empty() ? 0.0 : moved_before_[dof];
+    return moved_[dof] - share_left * (moved_[dof] - before);
+  }
+
+  /// `v` [dofs], counted from the faces, becomes the displacement under the load applied so far.
+  void to_displacement(std::span<double> v) const {
+    for (std::size_t dof = 0; dof < v.size(); ++dof) v[dof] += moved(dof, residual.share);
+  }
+
+  /// At the end of the step the displacement where the pairs act is `u` [dofs], and their statuses are `isep`
+  /// [pairs].
   void put_at(std::span<const double> u, std::span<const int> isep) {
-    for (std::size_t i = 0; i < pairs(); ++i) d[i] = u[at_dof[i]];
+    for (std::size_t i = 0; i < pairs(); ++i) d[i] = u[at_dof[i]] - moved(at_dof[i], 0.0);
     status.assign(isep.begin(), isep.end());
     find_events();
     switch_springs();
@@ -277,11 +295,14 @@ struct path_state {
   }
   void tell_end(const step_state& end) {
     shape.assign(end.displacement.begin(), end.displacement.end());
+    const double share_left = end.fraction == 1.0 ? 0.0 : residual.share;
+    for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] -= moved(dof, share_left);
     for (observer* o : observers_) o->step_ended(end);
   }
 
  private:
   const load_history* loads_ = nullptr;
+  std::vector<double> moved_before_, moved_;  // faces, at the step's start and end; empty: nowhere [dofs]
   std::span<observer* const> observers_;
   std::int64_t calls_ = 0;
   bool as_listed_;

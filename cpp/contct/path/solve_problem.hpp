@@ -1,6 +1,7 @@
 // The path of a problem.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <span>
@@ -21,20 +22,31 @@ namespace contct {
   std::set<std::pair<int, int>> settling;
   for (const load& l : p.steps)
     for (const prescribed_displacement& g : l.settlements) settling.emplace(g.node, g.dof);
+  for (const load& l : p.steps)  // counted from a face that moves, a fixed dof does too
+    for (const face_move& m : l.moves) settling.emplace(m.node, m.dof);
   for (support& s : supports) s.settles = s.fixed && settling.contains({s.node, s.dof});
   return build(p.geometry, supports, p.pairs);
 }
 
 /// The loads of a problem's steps. `p` and its structure must outlive them.
 [[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
-  const auto total = [&p, &s](int step, std::span<double> f) {
+  const auto moved = [&p](int step, std::span<double> m) {
+    add_moves(p.steps[step - 1], dofs_per_node(p.geometry), m);
+  };
+  const auto total = [&p, &s, moved](int step, std::span<double> f) {
     add_consistent_loads(p.geometry, p.steps[step - 1], f);
     add_settlements(s, p.steps[step - 1], f);
+    if (p.steps[step - 1].moves.empty()) return;
+    std::vector<double> m(f.size());
+    moved(step, m);
+    count_from_faces(s, m, f);
   };
   const auto work = [&p, truth = s.truth](int step) {
     return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
   };
-  return {total, work, [&p](int step) { return p.steps[step - 1].from_zero; }};
+  const bool any = std::ranges::any_of(p.steps, [](const load& l) { return !l.moves.empty(); });
+  return {total, work, [&p](int step) { return p.steps[step - 1].from_zero; },
+          any ? load_history::moves(moved) : nullptr};
 }
 
 /// The engine of a path that a kernel leads: the one that was asked for, by name or as "auto", the quickest;
@@ -63,8 +75,9 @@ inline path_end follow(const problem& p, const linear_structure& s, std::string_
   std::vector<int> held_by(nodes(p.geometry), -1);  // the first support that fixes a node's deflection
   for (int i = static_cast<int>(p.supports.size()) - 1; i >= 0; --i)
     if (p.supports[i].fixed && p.supports[i].dof == 0) held_by[p.supports[i].node] = i;
-  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const contact_pair& at = p.pairs[i];
+  const std::vector<contact_pair> pairs = pairs_under(p, l);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const contact_pair& at = pairs[i];
     const double force = at.surface * force_of(at, u[at.node * stride], isep[i] == in_contact);
     if (held_by[at.node] >= 0 && force != 0.0) all[held_by[at.node]] += force;
   }

@@ -32,6 +32,10 @@ void add(load& sum, const load& part, double factor) {
     for (std::size_t i = 0; i < exactly.size() && factor != 1.0; ++i) d.polynomial[i] = rounded(exactly[i]);
     sum.distributed.push_back(std::move(d));
   }
+  for (face_move m : part.moves) {
+    m.factor = factor;
+    sum.moves.push_back(m);
+  }
   for (placed_load p : part.placed) {
     p.factor = factor;
     sum.placed.push_back(std::move(p));
@@ -169,11 +173,11 @@ void refuse_mixed(const toml_value& top) {
 }  // namespace
 
 std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
-                             const std::vector<support>& supports, const named_files& files,
-                             std::vector<std::string>& warnings) {
+                             const std::vector<support>& supports, const std::vector<contact_pair>& pairs,
+                             const named_files& files, std::vector<std::string>& warnings) {
   refuse_mixed(top);
   const auto read = [&](const std::vector<toml_value>& tables) {
-    return read_loads(tables, nodes, supports, files, warnings);
+    return read_loads(tables, nodes, supports, pairs, files, warnings);
   };
   if (!top.has("combination") && !top.has("train")) return read(top["step"].tables());
   const std::vector<toml_value> cases = top["case"].optional_tables();

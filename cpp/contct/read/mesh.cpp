@@ -26,7 +26,7 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
     for (const toml_value& t : top[key].optional_tables()) take(t, "x");
   for (const char* loads : {"step", "case"})
     for (const toml_value& step : top[loads].optional_tables())
-      for (const char* key : {"point", "settlement"})
+      for (const char* key : {"point", "settlement", "move"})
         for (const toml_value& t : step[key].optional_tables()) take(t, "x");
   for (const char* key : {"EI", "section"})
     if (has_pieces(beam, key))

@@ -61,7 +61,7 @@ class problem_reader {
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
-    problem_.steps = read_steps(top_, *nodes_, problem_.supports, files_, problem_.warnings);
+    problem_.steps = read_steps(top_, *nodes_, problem_.supports, problem_.pairs, files_, problem_.warnings);
     problem_.files = files_.all();
     return std::move(problem_);
   }
@@ -163,7 +163,8 @@ class problem_reader {
       const auto faces = t["face"].each("");
       faces[std::min(i, faces.size() - 1)].refuse(
           found + ": the face is inside the undeformed structure",
-          f.surface < 0 ? "at most 0 for a face below" : "at least 0 for a face above");
+          fmt::format("at {} 0 for a face {}; to push the structure with it, face = 0 and move in a [[step]]",
+                      f.surface < 0 ? "most" : "least", f.surface < 0 ? "below" : "above"));
     }
     if (f.closed == true && face != 0)
       t["state"].refuse(

@@ -19,9 +19,11 @@ namespace {
 /// Reads one table after the other.
 class step_reader {
  public:
-  step_reader(const node_reader& nodes, const std::vector<support>& supports, const named_files& files,
+  step_reader(const node_reader& nodes, const std::vector<support>& supports,
+              const std::vector<contact_pair>& pairs, const named_files& files,
               std::vector<std::string>& warnings)
       : nodes_(nodes), files_(files), warnings_(warnings), held_(dofs(nodes.structure()), hold::none) {
+    for (const contact_pair& c : pairs) paired_.insert(c.node);
     for (const support& s : supports) {
       hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
       here = std::max(here, s.fixed ? hold::fixed : hold::spring);
@@ -32,14 +34,13 @@ class step_reader {
     const bool on_matrix = nodes_.on_matrix();
     const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
     refuse_curvature(t);
-    std::vector<std::string_view> keys = {"name", whole, "point", "settlement"};
+    std::vector<std::string_view> keys = {"name", whole, "point", "settlement", "move"};
     if (of_beam() != nullptr) keys.insert(keys.begin() + 3, "curvature");
     if (!on_matrix) keys.emplace_back("self_weight");
     t.allow_only(keys);
-    if (!t.has(whole) && !t.has("point") && !t.has("curvature") && !t.has("settlement") &&
-        !t.has("self_weight"))
-      t.refuse("a step without loads and settlements",
-               fmt::format("at least one of {}, point{} and settlement; {} takes all load off", whole,
+    if (std::all_of(keys.begin() + 1, keys.end(), [&t](std::string_view key) { return !t.has(key); }))
+      t.refuse("a step without loads, settlements and moves of faces",
+               fmt::format("at least one of {}, point{}, settlement and move; {} takes all load off", whole,
                            of_beam() != nullptr ? ", curvature" : "",
                            on_matrix ? "a load of 0 at any dof" : "uniform = 0"));
     load l;
@@ -56,6 +57,7 @@ class step_reader {
     }
     for (const toml_value& c : t["curvature"].optional_tables()) l.placed.push_back(read_curvature(c));
     read_settlements(t, l);
+    read_moves(t, l);
     refuse_endless_sums(t, nodes_.structure(), l);
     return l;
   }
@@ -269,7 +271,9 @@ class step_reader {
         fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
                     here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
                                          : "no support holds, so that loads decide where it goes"),
-        "a dof that a [[support]] fixes, by fix");
+        paired_.contains(node) && dof == 0 ? "a dof that a [[support]] fixes, by fix; move, written like "
+                                             "settlement, moves the face of a pair"
+                                           : "a dof that a [[support]] fixes, by fix");
   }
 
   void read_settlements(const toml_value& t, load& l) const {
@@ -286,10 +290,32 @@ class step_reader {
     }
   }
 
+  /// The deflection of a node is what its pairs see.
+  void read_moves(const toml_value& t, load& l) const {
+    const std::string_view name = nodes_.dof_names().front();
+    std::set<int> moved;
+    for (const toml_value& m : t["move"].optional_tables()) {
+      m.allow_only(nodes_.keys_with({name}));
+      const std::vector<int> at = nodes_.read(m);
+      const double value = m[name].real(any_real);
+      for (const int node : at) {
+        const std::string place = place_words(nodes_.structure(), node);
+        if (!paired_.contains(node))
+          m.refuse("no pair at " + place, "places at which a [[contact]] or a [[bed]] has a pair");
+        if (!moved.insert(node).second)
+          m[name].refuse(place + ", a second time in this step",
+                         "each place once: a move is the whole distance from where the face stands in the "
+                         "file");
+        l.moves.push_back({node, 0, value});
+      }
+    }
+  }
+
   const node_reader& nodes_;
   const named_files& files_;
   std::vector<std::string>& warnings_;
   std::vector<hold> held_;  // [dofs] by supports
+  std::set<int> paired_;    // nodes with pairs
 };
 
 }  // namespace
@@ -317,9 +343,9 @@ std::vector<double> read_polynomial(const toml_value& t, const model& m, std::st
 }
 
 std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
-                             const std::vector<support>& supports, const named_files& files,
-                             std::vector<std::string>& warnings) {
-  const step_reader reader(nodes, supports, files, warnings);
+                             const std::vector<support>& supports, const std::vector<contact_pair>& pairs,
+                             const named_files& files, std::vector<std::string>& warnings) {
+  const step_reader reader(nodes, supports, pairs, files, warnings);
   std::vector<load> loads;
   for (const toml_value& t : tables) loads.push_back(reader.read(t));
   return loads;

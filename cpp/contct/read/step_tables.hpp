@@ -19,7 +19,8 @@ void refuse_endless_sums(const toml_value& t, const model& m, const load& l);
 /// The loads of these tables, on these supports. `files` finds those that a table names; `warnings` gets
 /// those about their numbers.
 [[nodiscard]] std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
-                                           const std::vector<support>& supports, const named_files& files,
+                                           const std::vector<support>& supports,
+                                           const std::vector<contact_pair>& pairs, const named_files& files,
                                            std::vector<std::string>& warnings);
 
 }  // namespace contct

@@ -194,11 +194,12 @@ struct given_states {
 };
 
 /// Where no list says so, a pair is closed whose face the state touches or enters.
-std::vector<int> statuses_at(const problem& p, const linear_structure& s,
+std::vector<int> statuses_at(const problem& p, const load& l, const linear_structure& s,
                              std::span<const double> displacement) {
   std::vector<int> isep(p.pairs.size(), separated);
-  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const contact_pair& at = p.pairs[i];
+  const std::vector<contact_pair> pairs = pairs_under(p, l);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const contact_pair& at = pairs[i];
     const double w = displacement[static_cast<std::size_t>(at.node) * s.dofs_per_node];
     if (at.surface * (w - at.face) >= 0) isep[i] = in_contact;
   }
@@ -235,7 +236,7 @@ given_states read_states(const request& r, const problem& p, const linear_struct
       throw std::invalid_argument(
           fmt::format("options: displacement: found {} numbers; allowed: {}, one for each dof", u.size(),
                       dofs(p.geometry)));
-    states.isep.push_back(closed.empty() ? statuses_at(p, s, u) : statuses_in(p, closed[i]));
+    states.isep.push_back(closed.empty() ? statuses_at(p, p.steps[i], s, u) : statuses_in(p, closed[i]));
   }
   return states;
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// How much there is to write: a list of scattered elements counts by its length.
 std::size_t parts_of(const load& l) {
-  std::size_t parts = l.points.size() + l.settlements.size() + l.placed.size();
+  std::size_t parts = l.points.size() + l.settlements.size() + l.placed.size() + l.moves.size();
   for (const distributed_load& d : l.distributed)
     parts += d.elements.empty() || is_run(d.elements) ? 1 : d.elements.size();
   return parts;
@@ -26,14 +26,15 @@ struct load_words {
   std::string after{};
 };
 
-/// Of settlements alone: the only one, or the largest.
-load_words settlement_words(const model& m, const std::vector<prescribed_displacement>& all) {
-  const auto size = [](const prescribed_displacement& g) { return std::abs(g.factor * g.value); };
-  const prescribed_displacement& g = *std::ranges::max_element(all, {}, size);
-  if (all.size() > 1) return {"settle ", product_of<double>(g.value, g.factor)};
+/// Of settlements alone, or moves of faces alone: the only one, or the largest.
+template <class Moves>
+load_words motion_words(const model& m, const std::string& verb, const Moves& all) {
+  const auto amount = [](const auto& g) { return product_of<double>(g.value, g.factor); };
+  const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });
+  if (all.size() > 1) return {verb, amount(g)};
   const std::string name =
       std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
-  return {"settle " + name, product_of<double>(g.value, g.factor), " at " + place_words(m, g.node)};
+  return {verb + name, amount(g), " at " + place_words(m, g.node)};
 }
 
 /// Of one that need not follow the mesh, alone.
@@ -50,12 +51,15 @@ load_words words_for(const model& m, const placed_load& p) {
 
 load_words words_for(const model& m, const load& l, const resultant& r) {
   const bool of_matrix = std::holds_alternative<assembled>(m.kind);
-  const bool placed_alone = l.points.empty() && l.distributed.empty() && l.settlements.empty();
-  if (placed_alone && l.placed.size() == 1 && l.placed[0].polynomial.size() == 1)
+  const bool has_forces = !l.points.empty() || !l.distributed.empty();
+  const bool has_motions = !l.settlements.empty() || !l.moves.empty();
+  if (!has_forces && !has_motions && l.placed.size() == 1 && l.placed[0].polynomial.size() == 1)
     return words_for(m, l.placed[0]);
-  if (!l.settlements.empty() && l.points.empty() && l.distributed.empty() && l.placed.empty())
-    return settlement_words(m, l.settlements);
-  if (!l.settlements.empty() || !l.placed.empty()) return {of_matrix ? "sum " : "force ", r.force};
+  if (!has_forces && l.placed.empty() && l.moves.empty() && has_motions)
+    return motion_words(m, "settle ", l.settlements);
+  if (!has_forces && l.placed.empty() && l.settlements.empty() && has_motions)
+    return motion_words(m, "move face ", l.moves);
+  if (has_motions || !l.placed.empty()) return {of_matrix ? "sum " : "force ", r.force};
   if (l.points.size() == 1 && l.distributed.empty()) {
     const point_load& p = l.points[0];
     return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), product_of<double>(p.value, p.factor),

@@ -87,6 +87,10 @@ std::vector<double> path_states::shape_after(const increment_record& i) {
   }
   std::vector<double> u = with_pair_forces(structure_, load, forces);
   stiffness_->solve_refined(std::vector(u), u);
+  const std::vector<double> before = total_load_.moved_before(i.step, u.size());
+  const std::vector<double> after = total_load_.moved(i.step, u.size());
+  for (std::size_t dof = 0; dof < after.size(); ++dof)
+    u[dof] += i.fraction * after[dof] + (before.empty() ? 0.0 : (1.0 - i.fraction) * before[dof]);
   return u;
 }
 

@@ -69,7 +69,7 @@ pair_reading reading_of(const contact_pair& p, double w, bool closed) {
   const pair_state look = std::abs(p.face - w) < constants<double>::epsgap ? pair_state::at_face
                           : closed                                         ? pair_state::closed
                                                                            : pair_state::open;
-  return {w, gap_of(p, w, closed), force_of(p, w, closed), look};
+  return {w, gap_of(p, w, closed), force_of(p, w, closed), look, p.face};
 }
 
 step_results results_of(const problem& p, const load& l, const structure_state& s) {
@@ -83,8 +83,8 @@ step_results results_of(const problem& p, const load& l, const structure_state& 
       if (lines.is_broken(e)) r.pieces.emplace(e, lines.pieces(e));
   }
   r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
-  for (std::size_t i = 0; i < p.pairs.size(); ++i)
-    r.pairs.push_back(reading_of(p.pairs[i], deflection_of(p, u, p.pairs[i].node), s.closed(i)));
+  for (const contact_pair& c : pairs_under(p, l))
+    r.pairs.push_back(reading_of(c, deflection_of(p, u, c.node), s.closed(r.pairs.size())));
   const std::vector<double>& known = s.numbers ? s.numbers->pair_forces : s.pair_forces;
   for (std::size_t i = 0; i < known.size(); ++i) r.pairs[i].force = known[i];
   return r;
@@ -105,16 +105,17 @@ std::optional<penetration> deepest_penetration(const problem& p, const load& l, 
   constexpr double worth_a_word = 1e-3;
   const auto* const b = std::get_if<beam>(&p.geometry.kind);
   if (b == nullptr) return {};
-  std::vector<std::size_t> order(p.pairs.size());
+  const std::vector<contact_pair> pairs = pairs_under(p, l);
+  std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {},
-                           [&](std::size_t i) { return std::pair(p.pairs[i].surface, p.pairs[i].node); });
+                           [&](std::size_t i) { return std::pair(pairs[i].surface, pairs[i].node); });
   const beam_lines lines(*b, l, u);
   const auto beyond = [&](const contact_pair& c, double w) { return c.surface * (w - c.face); };
   penetration worst;
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    const contact_pair& left = p.pairs[order[i]];
-    const contact_pair& right = p.pairs[order[i + 1]];
+    const contact_pair& left = pairs[order[i]];
+    const contact_pair& right = pairs[order[i + 1]];
     if (left.surface != right.surface || left.face != right.face || left.node == right.node) continue;
     const value_range w = deflections_between(*b, lines, u, left.node, right.node);
     const placed_value& outmost = left.surface == face_above ? w.most : w.least;

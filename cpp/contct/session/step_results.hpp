@@ -41,8 +41,9 @@ enum class pair_state { open, closed, at_face };
 struct pair_reading {
   double w, gap, force;
   pair_state look;
+  double face;  ///< where it is now
 };
-/// At deflection `w`.
+/// At deflection `w`; of a pair whose face is where it is now.
 [[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
 
 /// Read off one state. Pairs, supports and nodes count from 0.

@@ -190,6 +190,11 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
     put_place(settled, m, g.node);
     settled[names[g.dof]] = product_of<double>(g.value, g.factor);
   }
+  for (const face_move& g : l.moves) {
+    json& moved = out["move"].emplace_back();
+    put_place(moved, m, g.node);
+    moved[names[g.dof]] = product_of<double>(g.value, g.factor);
+  }
   return out;
 }
 

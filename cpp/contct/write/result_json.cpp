@@ -197,11 +197,15 @@ class result_writer {
   [[nodiscard]] std::vector<json_document::list> lists(const step_results& read,
                                                        const structure_state& s) const {
     const problem& p = r_.what;
-    return {
-        {"pairs", p.pairs.size(),
-         [&](auto i) { return pair_state_json(p, i, s.isep[i], read.pairs[i].gap, read.pairs[i].force); }},
-        {"reactions", p.supports.size(), [&](auto i) { return reaction_json(p, i, read.reactions[i]); }},
-        {"elements", read.elements.elements(), [&](auto i) { return element_json(read, i); }}};
+    return {{"pairs", p.pairs.size(),
+             [&](auto i) {
+               const pair_reading& r = read.pairs[i];
+               json entry = pair_state_json(p, i, s.isep[i], r.gap, r.force);
+               if (r.face != p.pairs[i].face) entry["face"] = r.face;
+               return entry;
+             }},
+            {"reactions", p.supports.size(), [&](auto i) { return reaction_json(p, i, read.reactions[i]); }},
+            {"elements", read.elements.elements(), [&](auto i) { return element_json(read, i); }}};
   }
 
   void add_step(std::size_t number) {

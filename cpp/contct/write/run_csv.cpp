@@ -53,13 +53,16 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
 }
 
 /// Within a step by the path's own D.
-std::vector<pair_reading> readings_at(const problem& p, const path_moment& m) {
+std::vector<pair_reading> readings_at(const problem& p, const load& l, const path_moment& m) {
+  const std::vector<contact_pair> now = pairs_under(p, l);
   std::vector<pair_reading> all;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const contact_pair& at = p.pairs[i];
+    const contact_pair& at = now[i];
+    // D is counted from moving faces.
     all.push_back(
         m.is_end ? reading_of(at, deflection_of(p, m.step->end.displacement, at.node), m.step->end.closed(i))
-                 : reading_of(at, m.increment->d[i], m.increment->isep[i] == in_contact));
+                 : reading_of(at, m.increment->d[i] + (at.face - p.pairs[i].face),
+                              m.increment->isep[i] == in_contact));
     if (m.is_end && m.step->end.numbers) all.back().force = m.step->end.numbers->pair_forces[i];
   }
   return all;
@@ -72,19 +75,20 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
   const load_path loads(p);
   path_states states(r);
   increments.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w\r\n");
-  if (pairs != nullptr) pairs->write("step,increment,pair,node,surface,state,look,w,gap,force\r\n");
+  if (pairs != nullptr) pairs->write("step,increment,pair,node,surface,state,look,w,gap,force,face\r\n");
   for (const path_moment& m : moments_of(r)) {
     const structure_state s = states.at(m);
-    const std::vector<pair_reading> readings = readings_at(p, m);
+    const std::vector<pair_reading> readings = readings_at(p, loads.at(s.step, s.fraction), m);
     std::optional<double> w;
     if (!s.displacement.empty()) w = deflection_of(p, s.displacement, watched);
     increments.write(csv_row(r, loads, m, readings, watched, w));
     for (std::size_t i = 0; i < readings.size() && pairs != nullptr; ++i) {
       const contact_pair& at = p.pairs[i];
       const pair_reading& now = readings[i];
-      pairs->write(fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", s.step, s.number, i + 1,
+      pairs->write(fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", s.step, s.number, i + 1,
                                csv_field(place_name(p.geometry, at.node)), surface_name(at.surface),
-                               state_name(s.isep[i]), look_name(now.look), now.w, now.gap, now.force));
+                               state_name(s.isep[i]), look_name(now.look), now.w, now.gap, now.force,
+                               now.face));
     }
   }
   increments.finish();

@@ -154,7 +154,7 @@ std::string cell_data(const read_state& r, std::size_t elements, const std::vect
       column("state", -1, [&](const pair_cell& c) { return static_cast<int>(now[c.pair].look); }) +
       column("surface", 0, [&](const pair_cell& c) { return pairs[c.pair].surface; }) +
       column("direction", 0, [](const pair_cell& c) { return c.at.direction; }) +
-      column("face", 0.0, [&](const pair_cell& c) { return pairs[c.pair].face; }) +
+      column("face", 0.0, [&](const pair_cell& c) { return now[c.pair].face; }) +
       column("gap", 0.0, [&](const pair_cell& c) { return now[c.pair].gap; }) +
       column("force", 0.0, [&](const pair_cell& c) { return now[c.pair].force; });
   const auto places = static_cast<std::size_t>(read.places);

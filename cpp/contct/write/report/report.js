@@ -268,7 +268,7 @@ const inputTables = () => [
   ...tableOf("Beds: a pair at each node, whose stiffness is the modulus times the node's share", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
     gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
       .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)]), mostRows),
-  ...tableOf("Loads and settlements at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s)), mostRows, (r) => Math.abs(r[3]) || 0),
+  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s)), mostRows, (r) => Math.abs(r[3]) || 0),
 ];
 
 const modulus = (p) => p.stiffness / p.bed;
@@ -286,13 +286,14 @@ function gathered(list, keyOf, fewest = 13) {
 }
 
 function loadRows(s) {
-  const { uniform = [], settlement = [], curvature = [] } = s.load;
+  const { uniform = [], settlement = [], curvature = [], move = [] } = s.load;
   const part = ({ from, to }) => (isBeam() ? `x = ${from} to ${to}` : `(${from.join(", ")}) to (${to.join(", ")})`);
   const polynomial = (a) => a.map((c, i) => `${short(c)}${i === 0 ? "" : i === 1 ? " x" : ` x^${i}`}`).join(" + ");
   const at = (p) => (p.between ? `x = ${short(p.x)}` : placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`));
   const pointRows = (load, words, what) => pointsOf({ load }).map((p) => [stepName(s), ofMatrix ? words : words + what(p), at(p), p.value]);
   const rows = [...uniform.map((d) => [stepName(s), inUnit(isBeam() ? "per length" : "pressure", "load"), d.elements ? elementsWords(d.elements) : part(d), d.polynomial ? polynomial(d.polynomial) : d.value]),
-    ...pointRows(s.load, "", whatHolds), ...curvature.map((c) => [stepName(s), "imposed curvature", part(c), c.value]), ...pointRows({ point: settlement }, "settlement ", (p) => inUnit(p.dof, p.dof))];
+    ...pointRows(s.load, "", whatHolds), ...curvature.map((c) => [stepName(s), "imposed curvature", part(c), c.value]), ...pointRows({ point: settlement }, "settlement ", (p) => inUnit(p.dof, p.dof)),
+    ...pointRows({ point: move }, "face moved ", (p) => inUnit(p.dof, p.dof))];
   return rows.length > 0 ? rows : [[stepName(s), "resultant of all loads", "", sumOf(s)]];
 }
 
@@ -372,7 +373,7 @@ function showCuts() {
     cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
   }
-  const isSum = ({ words, uniform, point, settlement, curvature }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature;
+  const isSum = ({ words, uniform, point, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature && !move;
   if (frames.some((f) => isSum(f.load))) cuts.add("Loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
   const list = cuts.size > 0 ? [...cuts] : [`Nothing: every increment, ${unitOf()}, pair and call is on this page.`];

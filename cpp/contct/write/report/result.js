@@ -62,8 +62,9 @@ function framesOf() {
     u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
     pairs: places.pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
-      const look = Math.abs(p.face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
-      return { ...p, w, closed, look, gap: state.pairs[i].gap, force: state.pairs[i].force };
+      const face = state.pairs[i].face ?? p.face;  // a step may have moved it
+      const look = Math.abs(face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
+      return { ...p, face, w, closed, look, gap: state.pairs[i].gap, force: state.pairs[i].force };
     }),
   });
   const begun = {
