@@ -51,7 +51,7 @@ std::string square(int elements) {
 TEST_CASE("events of one moment in another order are the same events, and the states are the answer's") {
   const both_rules pb7(read_input(CONTCT_REFERENCE "/problems/pb07-three-gap-supports.toml"));
   CHECK(pb7.run.result.kernels == std::vector<std::string>{"corrected", "fortran", "cpp"});
-  CHECK(pb7.beside().same_events());
+  CHECK(pb7.beside().same_events);
   CHECK(pb7.beside().differences.size() == 4);
   CHECK(pb7.wrong().empty());
   CHECK(pb7.beside().compared.calls() == 8);
@@ -65,7 +65,7 @@ TEST_CASE("an offset that survives unloading is a wrong step: k gap L^3 / 3 EI w
   const state_difference& unloaded = near.wrong()[1];
   CHECK(unloaded.step == 2);
   CHECK(unloaded.what == quantity::w);
-  CHECK(unloaded.index == 4);  // node 3
+  CHECK(unloaded.at == "node 3");
   CHECK(unloaded.value == Approx(0.5 * 8 / 30000).epsilon(1e-9));
   CHECK(unloaded.right == 0.0);
   CHECK(near.run.result.judged.all_certified());
@@ -78,8 +78,9 @@ TEST_CASE("an event that the 1989 rule has at another share is told with that sh
   CHECK(first.at(0).otherwise.empty());
   REQUIRE(first.at(1).otherwise.size() == 1);
   CHECK(first[1].otherwise[0].what == event{1, change::make});
-  CHECK(first[1].otherwise[0].at.value_or(0) == Approx(0.25));  // a tip of 60 at 15, where the first stop is met
-  CHECK_FALSE(near.beside().same_events());
+  CHECK(first[1].otherwise[0].at.value_or(0) ==
+        Approx(0.25));  // a tip of 60 at 15, where the first stop is met
+  CHECK_FALSE(near.beside().same_events);
 }
 
 TEST_CASE("an event that only the 1989 rule has is told in the increment that follows it") {
@@ -88,7 +89,7 @@ TEST_CASE("an event that only the 1989 rule has is told in the increment that fo
   REQUIRE(first.otherwise.size() == 1);
   CHECK(first.otherwise[0].what == event{0, change::make});
   REQUIRE(marked.wrong().size() == 1);
-  CHECK(marked.wrong()[0].of == state_difference::place::pair);
+  CHECK(marked.wrong()[0].at == "pair 1");
   CHECK(marked.wrong()[0].value == Approx(-5e4));  // the stiffness, 5e4, times the distance, 1
   CHECK(marked.wrong()[0].right == 0.0);
 }

@@ -1,8 +1,9 @@
 #include "contct/session/rule_1989.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "contct/kernel/registry.hpp"
@@ -28,123 +29,88 @@ std::string engine_beside(const run_result& answer, const run_request& wanted, b
   return is_short ? "refactor" : std::string(quickest_engine(s));
 }
 
-/// Finds events of the 1989 path that are the answer's. Of one step.
-class event_pairing {
- public:
-  explicit event_pairing(const step_record& of_1989) {
-    for (const increment_record& i : of_1989.increments)
-      for (const event& e : i.events) left_[key_of(e)].push_back(i.fraction);
-  }
+/// Take the first of these events that is `e`, at about this share where one is given; its share.
+std::optional<double> take_event(std::vector<timed_event>& from, const event& e, std::optional<double> at) {
+  const auto found = std::find_if(from.begin(), from.end(), [&](const timed_event& t) {
+    return t.what == e && (!at || std::abs(t.fraction - *at) <= same_share);
+  });
+  if (found == from.end()) return std::nullopt;
+  const double share = found->fraction;
+  from.erase(found);
+  return share;
+}
 
-  /// Take an event at about this share out of those that are left; false where there is none.
-  bool takes(const event& e, double fraction) {
-    std::vector<double>& shares = left_[key_of(e)];
-    const auto at = std::find_if(shares.begin(), shares.end(),
-                                 [&](double share) { return std::abs(share - fraction) <= same_share; });
-    if (at == shares.end()) return false;
-    shares.erase(at);
-    return true;
+/// The rows of a step, without the events of both, which are taken out of `others`; what is left of these
+/// goes to the increment that it came before. `limit`: the share of the step at which the 1989 path ended.
+std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_event>& others, double limit) {
+  std::vector<row_of_1989> rows(answer.increments.size());
+  std::vector<std::pair<row_of_1989*, event>> alone;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].reached = answer.increments[i].fraction <= limit;
+    for (const event& e : answer.increments[i].events)
+      if (!take_event(others, e, answer.increments[i].fraction)) alone.emplace_back(&rows[i], e);
   }
-
-  /// The first of these events that is left, at whichever share.
-  std::optional<double> first(const event& e) {
-    std::vector<double>& shares = left_[key_of(e)];
-    if (shares.empty()) return std::nullopt;
-    const double share = shares.front();
-    shares.erase(shares.begin());
-    return share;
+  for (const auto& [row, e] : alone) {
+    const std::optional<double> at = take_event(others, e, std::nullopt);
+    if (at || row->reached) row->otherwise.push_back({e, at});
   }
-
-  /// What is left after all.
-  [[nodiscard]] std::vector<other_event> rest() const {
-    std::vector<other_event> all;
-    for (const auto& [known, shares] : left_)
-      for (const double share : shares) all.push_back({{known.first, known.second}, share});
-    return all;
+  for (std::size_t i = 0; const timed_event& e : others) {
+    while (i + 1 < rows.size() && answer.increments[i].fraction < e.fraction) ++i;
+    if (!rows.empty()) rows[i].otherwise.push_back({e.what, e.fraction});
   }
-
- private:
-  using key = std::pair<int, change>;
-  static key key_of(const event& e) { return {e.pair, e.what}; }
-
-  std::map<key, std::vector<double>> left_;  // the shares of each event, in order
-};
-
-/// The rows of a step. `limit`: the share of the step at which the 1989 path ended. Events that are left go
-/// to the increment that they came before; false where there is none.
-bool pair_events(const step_record& answer, event_pairing& events, double limit,
-                 std::vector<row_of_1989>& rows) {
-  std::vector<std::pair<std::size_t, event>> alone;
-  for (std::size_t i = 0; i < answer.increments.size(); ++i) {
-    const increment_record& at = answer.increments[i];
-    rows[i].reached = at.fraction <= limit;
-    for (const event& e : at.events)
-      if (!events.takes(e, at.fraction)) alone.emplace_back(i, e);
-  }
-  for (const auto& [i, e] : alone) {
-    const std::optional<double> at = events.first(e);
-    if (at || rows[i].reached) rows[i].otherwise.push_back({e, at});
-  }
-  const std::vector<other_event> rest = events.rest();
-  for (const other_event& e : rest) {
-    std::size_t i = 0;
-    while (i + 1 < rows.size() && answer.increments[i].fraction < *e.at) ++i;
-    if (!rows.empty()) rows[i].otherwise.push_back(e);
-  }
-  for (row_of_1989& row : rows)
-    std::stable_sort(row.otherwise.begin(), row.otherwise.end(),
-                     [](const other_event& a, const other_event& b) { return a.at < b.at; });
-  return rest.empty() || !rows.empty();
+  return rows;
 }
 
 void compare_events(const run_result& answer, rule_1989& r) {
-  const step_record none{};
-  for (std::size_t step = 0; step < answer.record.steps.size(); ++step) {
-    const step_record& mine = answer.record.steps[step];
-    const bool begun = step < r.record.steps.size();
-    const step_record& other = begun ? r.record.steps[step] : none;
-    const bool ended_here = r.end.status != path_status::solved && step + 1 >= r.record.steps.size();
-    event_pairing events(other);
-    r.rows.emplace_back(mine.increments.size());
-    if (!pair_events(mine, events, !begun ? -1.0 : ended_here ? other.end.fraction : 1.0, r.rows.back()))
-      r.has_further_events = true;
+  std::size_t step = 0;
+  for (const step_record& mine : answer.record.steps) {
+    std::vector<timed_event> others;
+    double limit = -1.0;
+    if (step < r.record.steps.size()) {
+      for (const increment_record& i : r.record.steps[step].increments)
+        for (const event& e : i.events) others.push_back({i.step, i.fraction, e});
+      limit = r.record.steps[step].end.fraction;  // less than 1 where the path ended
+    }
+    r.rows.push_back(rows_of(mine, others, limit));
+    r.same_events = r.same_events && others.empty() && limit == 1.0;
+    for (const row_of_1989& row : r.rows.back()) r.same_events = r.same_events && row.otherwise.empty();
+    ++step;
   }
 }
 
-/// Compares the numbers of two ends of a step, kind by kind.
+/// Finds the number that differs most.
 struct end_comparison {
   const by_quantity& allowed;
   state_difference worst;
 
-  void take(quantity q, state_difference::place of, std::size_t index, double value, double right) {
+  void take(quantity q, double value, double right, const auto& place) {
     if (!allowed[q]) return;  // nothing is proved of these numbers: others may be as good
     const double share = share_of(std::abs(value - right), allowed[q]);
-    if (share <= worst.share) return;
-    worst = {worst.step, q, of, index, value, right, share};
+    if (share > worst.share) worst = {worst.step, q, place(), value, right, share};
   }
 };
 
 state_difference difference_of(const run_result& answer, const load& l, const structure_state& right,
                                const structure_state& other, const certificate& c) {
-  using place = state_difference::place;
-  const linear_structure& s = answer.structure;
-  const step_results a = results_of(answer.what, l, other);
-  const step_results b = results_of(answer.what, l, right);
+  const problem& p = answer.what;
+  const step_results a = results_of(p, l, other);
+  const step_results b = results_of(p, l, right);
   end_comparison all{c.allowed, {right.step}};
-  for (std::size_t dof = 0; dof < right.displacement.size(); ++dof)
-    all.take(s.deflects(static_cast<int>(dof)) ? quantity::w : quantity::slope, place::dof, dof,
-             other.displacement[dof], right.displacement[dof]);
+  for (int dof = 0; dof < std::ssize(right.displacement); ++dof)
+    all.take(answer.structure.deflects(dof) ? quantity::w : quantity::slope, other.displacement[dof],
+             right.displacement[dof],
+             [&] { return place_words(p.geometry, dof / answer.structure.dofs_per_node); });
   for (std::size_t i = 0; i < b.pairs.size(); ++i)
-    all.take(quantity::force, place::pair, i, a.pairs[i].force, b.pairs[i].force);
+    all.take(quantity::force, a.pairs[i].force, b.pairs[i].force,
+             [&] { return fmt::format("pair {}", i + 1); });
   for (std::size_t i = 0; i < b.reactions.size(); ++i)
-    all.take(answer.what.supports[i].dof == 0 ? quantity::reaction : quantity::moment, place::support, i,
-             a.reactions[i], b.reactions[i]);
-  const std::size_t in_element = b.elements.names.size() * b.elements.places;
-  for (std::size_t i = 0; i < b.elements.values.size(); ++i) {
-    const bool shear = b.elements.names[i % in_element / b.elements.places] == "shear";
-    all.take(shear ? quantity::shear : quantity::moment, place::element, i / in_element, a.elements.values[i],
-             b.elements.values[i]);
-  }
+    all.take(p.supports[i].dof == 0 ? quantity::reaction : quantity::moment, a.reactions[i], b.reactions[i],
+             [&] { return "the support at " + place_words(p.geometry, p.supports[i].node); });
+  const auto& [names, places, values] = b.elements;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    all.take(names[i / places % names.size()] == "shear" ? quantity::shear : quantity::moment,
+             a.elements.values[i], values[i],
+             [&, n = i / places / names.size()] { return fmt::format("element {}", n + 1); });
   return all.worst;
 }
 
@@ -172,13 +138,6 @@ rule_1989::rule_1989(std::string engine_name, recorded_parts parts)
     : engine(std::move(engine_name)),
       compared(facts_of_kernel(kernels_of_1989.front()), std::span(kernels_of_1989).subspan(1)),
       record(&compared, parts) {}
-
-bool rule_1989::same_events() const {
-  bool same = !has_further_events;
-  for (const auto& step : rows)
-    for (const row_of_1989& row : step) same = same && row.reached && row.otherwise.empty();
-  return same;
-}
 
 std::shared_ptr<const rule_1989> follow_rule_1989(const run_result& answer, const run_request& wanted,
                                                   bool calls_are_kept, recorded_parts parts,

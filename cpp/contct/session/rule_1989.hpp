@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -30,12 +29,10 @@ struct row_of_1989 {
 /// The number at the end of a step in which the 1989 rule differs most from the answer, relative to the size
 /// of its kind.
 struct state_difference {
-  enum class place { dof, pair, support, element };
-  int step;                     ///< from 1
-  quantity what = quantity::w;  ///< its kind
-  place of = place::dof;
-  std::size_t index = 0;            ///< of that dof, pair, support or element, from 0
-  double value = 0.0, right = 0.0;  ///< of the 1989 rule, and of the answer
+  int step;                         ///< from 1
+  quantity what = quantity::w;      ///< its kind
+  std::string at = {};              ///< its place: "pair 3", "node 5", "the support at node 1", "element 2"
+  double value = 0.0, right = 0.0;  ///< by the 1989 rule, and in the answer
   double share = 0.0;               ///< their difference, of the size of the kind
 
   [[nodiscard]] bool is_wrong() const { return !(share <= certified_share); }
@@ -44,15 +41,12 @@ struct state_difference {
 struct rule_1989 {
   rule_1989(std::string engine_name, recorded_parts parts);
 
-  /// Whether each event of the answer's path and of this one has its partner.
-  [[nodiscard]] bool same_events() const;
-
   std::string engine;
   lockstep_on_path compared;
   run_recorder record;
   path_end end = {};
   std::vector<std::vector<row_of_1989>> rows = {};  ///< of the answer [steps][increments]
-  bool has_further_events = false;                  ///< in a step in which the answer has no increment
+  bool same_events = true;                          ///< each event of either path has its partner
   std::vector<state_difference> differences = {};   ///< of each step that both ended, the answer certified
 };
 

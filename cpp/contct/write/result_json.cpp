@@ -114,13 +114,13 @@ json rule_1989_json(const run_result& r) {
     if (d.is_wrong())
       wrong.push_back({{"step", d.step},
                        {"quantity", quantity_names[static_cast<std::size_t>(d.what)]},
-                       {"at", place_words(r.what, d)},
+                       {"at", d.at},
                        {"value", d.value},
                        {"right", d.right}});
   return {{"engine", beside.engine},
           {"status", status_name(beside.end.status)},
           {"lockstep", lockstep_json(beside.compared)},
-          {"same_events", beside.same_events()},
+          {"same_events", beside.same_events},
           {"wrong_steps", wrong}};
 }
 

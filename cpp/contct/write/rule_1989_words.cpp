@@ -9,11 +9,6 @@
 namespace contct {
 namespace {
 
-/// "the contact force of pair 3 (node 4, below)".
-std::string number_words(const run_result& r, const state_difference& d) {
-  return fmt::format("the {} of {}", name_of_kind(d.what), place_words(r.what, d));
-}
-
 /// "1.2 kN, 4 % of the largest of its kind".
 std::string size_words(const run_result& r, const state_difference& d) {
   return fmt::format("{:.3g}{}, {} of the largest of its kind", std::abs(d.value - d.right),
@@ -22,8 +17,9 @@ std::string size_words(const run_result& r, const state_difference& d) {
 
 std::string wrong_words(const run_result& r, const state_difference& d) {
   const std::string unit = unit_of(r.what, d.what);
-  return fmt::format("the 1989 rule is wrong in step {}: {} is {:.6g}{}, right is {:.6g}{}: off by {}",
-                     d.step, number_words(r, d), d.value, unit, d.right, unit, size_words(r, d));
+  return fmt::format(
+      "the 1989 rule is wrong in step {}: the {} of {} is {:.6g}{}, right is {:.6g}{}: off by {}", d.step,
+      name_of_kind(d.what), d.at, d.value, unit, d.right, unit, size_words(r, d));
 }
 
 /// How closely states agree, none of which is wrong; `all` is not empty.
@@ -31,10 +27,10 @@ std::string agreement_words(const run_result& r, std::span<const state_differenc
   constexpr double ten_digits = 1e-10;  // what lies below depends on the LAPACK in use
   const auto worst = std::ranges::max_element(all, {}, &state_difference::share);
   const std::string start = fmt::format("the 1989 rule comes to the same states{}",
-                                        r.beside->same_events() ? "" : " by other events");
+                                        r.beside->same_events ? "" : " by other events");
   if (worst->share < ten_digits) return start + ": every number agrees to 10 digits or more";
-  return fmt::format("{}: the largest difference is that of {} in step {}: {}", start,
-                     number_words(r, *worst), worst->step, size_words(r, *worst));
+  return fmt::format("{}: the largest difference is that of the {} of {} in step {}: {}", start,
+                     name_of_kind(worst->what), worst->at, worst->step, size_words(r, *worst));
 }
 
 std::string ended_words(const run_result& r) {
@@ -47,19 +43,6 @@ std::string ended_words(const run_result& r) {
 }
 
 }  // namespace
-
-std::string place_words(const problem& p, const state_difference& d) {
-  switch (d.of) {
-    case state_difference::place::pair:
-      return pair_words(p, d.index);
-    case state_difference::place::support:
-      return "the support at " + place_words(p.geometry, p.supports[d.index].node);
-    case state_difference::place::element:
-      return fmt::format("element {}", d.index + 1);
-    default:
-      return place_words(p.geometry, static_cast<int>(d.index / dofs_per_node(p.geometry)));
-  }
-}
 
 std::vector<std::string> rule_1989_words(const run_result& r) {
   constexpr std::size_t most_named = 4;

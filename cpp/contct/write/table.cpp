@@ -224,7 +224,6 @@ increment_record table_printer::ties_from(increments all, std::size_t& i) const 
   increment_record row = all[i++];
   if (!run_.beside || detail_) return row;
   const double s = row.s;
-  std::set<int> pairs;
   std::vector<event> events = row.events;
   for (; i < all.size() && all[i].s < 1.0 && !all[i].snaps && all[i].fraction - row.fraction <= no_share;
        ++i) {
@@ -232,8 +231,7 @@ increment_record table_printer::ties_from(increments all, std::size_t& i) const 
     row = all[i];
     row.s = s;
   }
-  for (const event& e : events) pairs.insert(e.pair);
-  if (pairs.size() == events.size()) std::ranges::sort(events, {}, &event::pair);
+  std::ranges::stable_sort(events, {}, &event::pair);
   row.events = std::move(events);
   return row;
 }

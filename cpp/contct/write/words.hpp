@@ -67,11 +67,6 @@ constexpr std::string_view end_reason(path_status status) {
 /// `is_answer`: nothing else leads to an equilibrium that it did not reach.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end, bool is_answer = true);
 
-struct state_difference;  // contct/session/rule_1989.hpp
-
-/// "pair 3 (node 4, below)", "node 5", "the support at node 1" or "element 2".
-[[nodiscard]] std::string place_words(const problem& p, const state_difference& d);
-
 /// Of a run of both rules: whether the 1989 rule comes to the states of the answer, and what is wrong with
 /// those that differ, a line each. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
