@@ -119,6 +119,7 @@ def runs(root, plugin):
     yield PLATE, ["--html", "page.html"], 0
     for part in ("problems/pb07-three-gap-supports", "problems/pp05a-free-plate-on-bed-n8", "structures/frame", "structures/calculix/console"):
         yield root / f"reference/{part}.toml", ["--html", "page.html"], 0
+    yield PLATE.replace("D = 1.0", "E = 10.92\nthickness = 1.0"), ["--html", "page.html"], 0
 
 
 def result_of_run(program, folder, problem, options, status):

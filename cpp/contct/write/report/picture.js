@@ -262,7 +262,8 @@ function drawSupports(root, f, on) {
 
 // Concentrated loads as arrows; about an axis as arcs, and as rings where they point at the eye.
 function drawPoints(root, f, on) {
-  for (const p of pointsOf(f).filter(({ at, value }) => at >= 0 && value !== 0)) {
+  const loads = pointsOf(f).filter(({ at, value }) => at >= 0 && value !== 0);
+  for (const p of some("loads", loads.length, 1000).map((i) => loads[i])) {
     const [[x, y], t] = [on.spot(p), on.along(p)];
     const words = `Load ${short(p.value)} at ${p.between ? `x = ${digits(p.x, 6)}` : placed(p.name)}`;
     if (t === null) {

@@ -207,7 +207,7 @@ function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
   const sizeOf = (r) => Math.max(...r.slice(-2).flat().map((v) => Math.abs(v.number ?? 0)));
   return states === 0 ? [] : [
     ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. " +
-      "The pointer is told which step a piece of a curve is of; a click shows the end of that step."))] : []),
+      "Point at a curve to see which step it comes from; click it to show the end of that step."))] : []),
     ...tableOf("Least and largest of all increments", ["Quantity", "Least", "Largest"],
       Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
     ...tableOf(inUnit("Largest contact force of each pair", "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
@@ -374,7 +374,7 @@ function showCuts() {
       "increments, evenly chosen, and the ends of steps.");
   }
   const isSum = ({ words, uniform, point, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature && !move;
-  if (frames.some((f) => isSum(f.load))) cuts.add("Loads of more than 32 parts are not drawn: their sum is told.");
+  if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
   const list = cuts.size > 0 ? [...cuts] : [`Nothing: every increment, ${unitOf()}, pair and call is on this page.`];
   byId("cuts").replaceChildren(...list.map((text) => element("li", {}, text)));
