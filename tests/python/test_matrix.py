@@ -1,6 +1,7 @@
 """contct.certify of a stiffness matrix in memory: what is proved of displacements that another program gives."""
 import contct
 import pytest
+from conftest import PROBLEMS
 
 
 class Coo:
@@ -112,3 +113,10 @@ def test_any_state_that_is_given_has_its_answer_and_a_run_has_none(beam):
     assert found.answer.certified and found.answer.steps[0].w[2] == pytest.approx(-10 * 8 / 3e4, rel=1e-12)
     with pytest.raises(contct.InputError, match="contct.certify"):
         contct.run(beam).answer
+
+
+def test_the_answer_is_certified_where_the_1989_rule_goes_wrong():
+    near_tie = PROBLEMS / "divergences/near-tie.toml"
+    path = contct.run(near_tie)
+    assert not path.certified
+    assert contct.certify(near_tie, [step.displacement for step in path.steps]).answer.certified
