@@ -40,7 +40,9 @@ std::string bed_words(const problem& p, const bed& b) {
                      b.first_pair + 1, b.first_pair + b.share.size());
 }
 
-std::string step_words(const load& l) {
+constexpr std::size_t most_combinations_told = 20;
+
+std::string load_words(const load& l) {
   const auto placed = [&l](std::initializer_list<load_kind> kinds) {
     return static_cast<std::size_t>(std::ranges::count_if(
         l.placed, [&](const placed_load& p) { return std::ranges::find(kinds, p.what) != kinds.end(); }));
@@ -53,6 +55,7 @@ std::string step_words(const load& l) {
       {l.moves.size(), "moved face"}};
   std::vector<std::string> words;
   if (!l.name.empty()) words.push_back(in_quotes(l.name));
+  if (l.from_zero) words.emplace_back("from zero");
   for (const auto& [count, what] : parts)
     if (count > 0) words.push_back(counted(count, what));
   return words.empty() ? "no load" : joined(words, ", ");
@@ -68,8 +71,12 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   facts.emplace_back("pairs", pair_words(p));
   for (std::size_t i = 0; i < p.beds.size(); ++i)
     facts.emplace_back(fmt::format("bed {}", i + 1), bed_words(p, p.beds[i]));
-  for (std::size_t i = 0; i < p.steps.size(); ++i)
-    facts.emplace_back(fmt::format("step {}", i + 1), step_words(p.steps[i]));
+  for (std::size_t i = 0; i < p.steps.size(); ++i) {
+    if (starts_from_zero(p) && i == most_combinations_told)
+      facts.emplace_back("..", counted(p.steps.size() - i - 1, "more combination"));
+    if (!starts_from_zero(p) || i < most_combinations_told || i + 1 == p.steps.size())
+      facts.emplace_back(fmt::format("step {}", i + 1), load_words(p.steps[i]));
+  }
   facts.emplace_back(
       "units", p.units.length.empty() ? "none given" : on_one_line(p.units.length + ", " + p.units.force));
   facts.emplace_back("warnings", p.warnings.empty() ? "none" : std::to_string(p.warnings.size()));

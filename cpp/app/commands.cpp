@@ -157,13 +157,16 @@ exit_status run_command(const exact_options& options) {
     print_text(exact_text(run, options.digits, look_at_terminal()));
   flush_standard_output();
   if (output_file* const file = files["--json"]) write_exact_json(run, *file);
-  if (path.status != path_status::solved)
-    complain("{}: step {}, at share {} of its load: {}", whole_line(options.file), path.steps.size(),
-             short_words(path.steps.back().fraction, options.digits),
-             path.status == path_status::mechanism ? "no equilibrium"
-             : path.status == path_status::path_ended
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const exact_step_end& s = path.steps[i];
+    if (s.status == path_status::solved) continue;
+    complain("{}: {}, at share {} of its load: {}", whole_line(options.file),
+             step_words(p, static_cast<int>(i) + 1), short_words(s.fraction, options.digits),
+             s.status == path_status::mechanism ? "no equilibrium"
+             : s.status == path_status::path_ended
                  ? "the path of the 1989 rule ended: nothing held the structure"
                  : "the limit of increments is reached");
+  }
   return status_of(path.status);
 }
 

@@ -100,7 +100,7 @@ exit_status run_command(const explain_options& options) {
   if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, run);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));
-  if (end.status != path_status::solved) complain("{}: {}", whole_line(options.file), end_words(p, end));
+  for (const std::string& line : end_lines(p, end)) complain("{}: {}", whole_line(options.file), line);
   if (!anything) return nothing_told(options, wanted, end, told);
   if (json) json->finish(status_name(end.status, run.equal()), told);
   return status_of(end.status, run.equal());

@@ -124,7 +124,7 @@ int node_that_deflects_most(const run_setup& setup) {
     std::vector<double> load(setup.structure.dofs());
     loads(step, load);
     const reference_answer answer = finds.solve(load, loads.work(step));
-    if (answer.how != reference_answer::outcome::found) break;
+    if (answer.how != reference_answer::outcome::found) continue;
     for (const int node : nodes) {
       const double size = std::abs(deflection_of(setup.what, answer.displacement, node));
       if (size > most) at = node;
@@ -270,7 +270,7 @@ check_report check_report_of(const shown_run& o) {
     r.results.push_back({"1989 rule", is_wrong ? outcome::skipped : outcome::passed,
                          lines.empty() ? "not compared" : lines.front(), joined(lines, "\n")});
   }
-  const std::string ended = end_words(run.what, run.end);
+  const std::string ended = joined(end_lines(run.what, run.end), "\n");
   const bool solved = run.end.status == path_status::solved;
   r.results.push_back({"path", passed_if(solved), solved ? "every step's load is applied" : ended, ended});
   if (run.judged.all_certified()) {
@@ -303,7 +303,7 @@ void write_files(shown_run& o) {
 exit_status finish(shown_run& o) {
   const bool solved = o.run.result.end.status == path_status::solved;
   const bool certified = o.run.result.judged.all_certified();
-  std::vector<std::string> summary = certificate_summary(o.run.result.judged, solved);
+  std::vector<std::string> summary = certificate_summary(o.run.result, solved);
   if (solved && certified) summary.front() += " for this mesh";
   print_verdict(o, solved && certified ? paint::good : paint::bad, summary);
   const exit_status status = o.run.exit();

@@ -131,3 +131,25 @@ TEST_CASE("the digits of the corrected rule are those of the numbers that a run 
   CHECK(kernel["name"] == "corrected");
   CHECK(kernel["force_digits"].get<double>() > 15.0);
 }
+
+TEST_CASE(
+    "combinations without an equilibrium are named, those behind them are solved, and the exit status is 4") {
+  const scratch_folder dir;
+  dir.write("p.toml",
+            "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[contact]]\nx = [0, 2]\nsurface = \"below\"\nface = 0\n"
+            "stiffness = 1e4\n[[case]]\nname = \"down\"\nuniform = -1\n"
+            "[[combination]]\nname = \"lifts\"\nterms = { down = -1 }\n"
+            "[[combination]]\nname = \"rests\"\nterms = { down = 1.5 }\n"
+            "[[combination]]\nname = \"flies\"\nterms = { down = -2 }\n");
+  const std::vector<std::vector<std::string>> commands = {
+      {"run", "p.toml", "--json", "out.json"}, {"exact", "p.toml"}, {"run", "p.toml", "--final-only"}};
+  for (const auto& command : commands) {
+    const finished f = contct_program(dir.path(), command);
+    INFO(command.back() << "\n" << f.out << f.err);
+    CHECK(f.exit == 4);
+    CHECK_THAT(f.err, Contains("combination \"lifts\"") && Contains("combination \"flies\""));
+    CHECK_THAT(f.err, !Contains("\"rests\", at share"));
+    CHECK_THAT(f.out, Contains("rests"));
+  }
+  CHECK(result_in(dir)["steps"][1]["pairs"][0]["force"] == Approx(1.5));
+}

@@ -76,6 +76,29 @@ settlement = [ { node = 1, wx = 1.0e-3, wy = 1.0e-3 }, { node = 2, w = 1.0e-3 } 
 move = [ { node = 5, w = 1.0e-2 } ]
 """
 MANY_PARTS = PLATE + f"[[step]]\npoint = [ {', '.join(['{ node = 5, w = 1 }'] * 40)} ]\n"
+COMBINATIONS = """
+[beam]
+length = 2.0
+elements = 2
+EI = 1.0
+[[contact]]
+x = [0, 2]
+surface = "below"
+face = 0
+stiffness = 10
+[[case]]
+name = "down"
+uniform = -1.0
+[[combination]]
+name = "lifts"
+terms = { down = -1.0 }
+[[combination]]
+name = "rests"
+terms = { down = 1.5 }
+[[combination]]
+name = "lifts more"
+terms = { down = -2.0 }
+"""
 SETTLED_BEAM = """
 [beam]
 length = 2.0
@@ -113,6 +136,7 @@ def runs(root, plugin):
     yield pb07, ["--kernels", "fortran", "--max-increments", "1"], 5
     yield root / "reference/problems/divergences/near-tie.toml", ["--kernels", "fortran,cpp", "--strict"], 3
     yield MECHANISM, ["--envelope"], 4
+    yield COMBINATIONS, ["--envelope"], 4
     yield MECHANISM, ["--final-only"], 4
     for text in (PLATE, MANY_PARTS, SETTLED_BEAM, PARTS):
         yield text, ["--envelope"], 0

@@ -317,3 +317,45 @@ TEST_CASE("the structure of a matrix has labels, and places and edges where they
   CHECK(bare["nodes"].empty());
   CHECK(bare["dofs"][16] == nlohmann::json({{"dof", "6.y"}}));
 }
+
+TEST_CASE("a combination says that it starts from zero, and every one without an equilibrium is in the end") {
+  const std::string beam =
+      "[beam]\nlength = 2\nelements = 2\nEI = 100\n[[contact]]\nx = [0, 2]\nsurface = \"below\"\nface = 0\n"
+      "stiffness = 10\n[[case]]\nname = \"down\"\nuniform = -1\n";
+  const auto combined = [](const std::string& name, const std::string& factor) {
+    return "[[combination]]\nname = \"" + name + "\"\nterms = { down = " + factor + " }\n";
+  };
+  const nlohmann::json r =
+      result_of(beam + combined("up", "-1") + combined("rests", "2") + combined("off", "-3"));
+  REQUIRE(r["steps"].size() == 3);
+  CHECK(r["steps"][1]["start"] == "zero");
+  CHECK(r["steps"][1]["name"] == "rests");
+  CHECK(r["steps"][1]["certificate"]["exact"] == true);
+  CHECK(r["steps"][0]["certificate"].is_null());
+  CHECK(r["status"] == "mechanism");
+  CHECK(r["end"]["step"] == 1);
+  REQUIRE(r["end"]["others"].size() == 1);
+  CHECK(r["end"]["others"][0]["step"] == 3);
+  CHECK_FALSE(result_of(good_problem)["steps"][0].contains("start"));
+}
+
+TEST_CASE(
+    "a page of many combinations has the states of some, those with the least and largest values among "
+    "them") {
+  const a_run r(
+      "[beam]\nlength = 200\nelements = 200\nEI = 1e4\n[[support]]\nx = [0, 100, 200]\nfix = \"w\"\n"
+      "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\nfrom = 1\nto = 199\nby = 1\n");
+  const nlohmann::json page = json_of(r.result, result_parts::report);
+  std::size_t drawn = 0;
+  double most = 0.0;
+  for (const auto& s : page["steps"]) {
+    CHECK(s.contains("displacement") == s.contains("elements"));
+    if (!s.contains("displacement")) continue;
+    ++drawn;
+    most = std::max(most, s["extremes"]["moment"]["max"]["value"].get<double>());
+  }
+  CHECK(page["steps"].size() == 199);
+  CHECK(drawn > 4);
+  CHECK(drawn <= 126);
+  CHECK(most == Approx(100 * 0.207414).epsilon(2e-4));  // largest moment of two spans under a moving load
+}

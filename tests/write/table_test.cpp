@@ -114,11 +114,11 @@ TEST_CASE("the table of increments has their numbers to the last digit, and thei
   const tables t = tables_of(a_run(loaded_and_freed));
   REQUIRE(t.increments.size() == t.states.size());  // a heading, where the states have the start
   CHECK(t.increments[0] == row{"step", "increment", "kind", "s", "share", "force", "events", "closed", "open",
-                               "at_face", "smin", "kernels", "node", "w"});
+                               "at_face", "smin", "kernels", "node", "w", "name"});
   for (std::size_t i = 1; i < t.increments.size(); ++i) {
     const row& r = t.increments[i];
     INFO("row " << i);
-    REQUIRE(r.size() == 14);
+    REQUIRE(r.size() == 15);
     CHECK(r[0] == std::to_string(t.states[i].step));
     CHECK(r[1] == std::to_string(t.states[i].number));
     CHECK(number(r[3]) == number(r[10]));
@@ -222,4 +222,29 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
 TEST_CASE("What is nothing but the rounding of larger numbers before it is printed as 0, without a place") {
   CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
              Contains("        moment        0\n") && Contains("        reaction      0\n"));
+}
+
+TEST_CASE("more than 12 combinations have a row each, with the name, and below stand the largest of all") {
+  const std::string train =
+      "[beam]\nlength = 24\nelements = 24\nEI = 1e4\n[[support]]\nx = [0, 24]\nfix = \"w\"\n"
+      "[[train]]\nname = \"HL-93\"\naxles = [ { at = 0, w = -10 } ]\nfrom = 0\nto = 24\nby = ";
+  const std::string many = table_of(a_run(train + "1\n").result, terminal{}, false).text;
+  CHECK_THAT(many, Contains("\nHL-93 at 7      1        0  moment 49.5833"));  // 10 * 7 * 17 / 24
+  CHECK_THAT(many, !Contains("incr  share"));
+  CHECK_THAT(many,
+             Contains("largest moment  60                  node 13, x = 12     HL-93 at 12\n"));  // P L / 4
+  const std::string few = table_of(a_run(train + "8\n").result, terminal{}, false).text;
+  CHECK_THAT(few, Contains("   2.1  1"));
+  CHECK_THAT(few, Contains("end  HL-93 at 8;"));
+}
+
+TEST_CASE("a row of --csv ends with the name of its step") {
+  std::string text;
+  output_file out(&text);
+  write_csv(a_run("[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+                  "[[step]]\nname = \"dead, live\"\npoint = [ { node = 2, w = 3 } ]\n")
+                .result,
+            1, out, nullptr);
+  CHECK(rows_of(text).at(0).back() == "name");
+  CHECK(rows_of(text).at(1).back() == "dead, live");
 }

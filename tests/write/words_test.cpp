@@ -25,15 +25,15 @@ TEST_CASE("a path that stops short of its load has one of three statuses, and a 
 
 TEST_CASE("a certified run says how many steps are, and names no complaint") {
   const a_run one(good_problem);
-  CHECK(certificate_summary(one.result.judged, true)[0] == "the final state is certified");
+  CHECK(certificate_summary(one.result, true)[0] == "the final state is certified");
   CHECK(certificate_complaints(one.result).empty());
   const a_run two(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n");
-  CHECK(certificate_summary(two.result.judged, true)[0] == "both final states are certified");
+  CHECK(certificate_summary(two.result, true)[0] == "both final states are certified");
 }
 
 TEST_CASE("a path that ended before its full load is not certified as a whole, whatever its steps are") {
   const a_run one(good_problem);
-  const std::vector<std::string> items = certificate_summary(one.result.judged, false);
+  const std::vector<std::string> items = certificate_summary(one.result, false);
   REQUIRE(items.size() == 2);
   CHECK_THAT(items[0], Contains("the run is NOT certified"));
   CHECK(items[1] == "step 1 is certified");
@@ -56,7 +56,7 @@ TEST_CASE("of a state with locked-in forces the summary names the step, the comp
   const std::vector<std::string> complaints = certificate_complaints(r.result);
   REQUIRE_FALSE(complaints.empty());
   const std::string step = complaints[0].substr(0, complaints[0].find(" is not certified: "));
-  CHECK_THAT(certificate_summary(r.result.judged, true)[0], Contains(step + " is NOT certified: "));
+  CHECK_THAT(certificate_summary(r.result, true)[0], Contains(step + " is NOT certified: "));
   const early_toggle& first = r.result.early.all().front();
   CHECK_THAT(complaints[0],
              Contains("; in increment ") && Contains(" contact ") && Contains(" from its face"));
@@ -86,7 +86,7 @@ TEST_CASE("the digits that are proved of a run are those of its worst step") {
   REQUIRE(worst > 1e-10);  // in doubles alone
   const int digits = static_cast<int>(-std::log10(worst));
   const std::string said = digits >= 10 ? "10 digits or more" : std::to_string(digits) + " digits";
-  CHECK(certificate_summary(two.result.judged, true)[1] == "proved: " + said + " of every number");
+  CHECK(certificate_summary(two.result, true)[1] == "proved: " + said + " of every number");
 }
 
 TEST_CASE("a toggle too early by no more than rounding of the step's deflections is not told as the cause") {

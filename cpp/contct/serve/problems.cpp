@@ -183,7 +183,7 @@ void explain_path(const char* text, const char* options, served_answer& a) {
             ? fmt::format("{}: no increment is explained: the path has no such one", r.file())
             : r.file() + ": " + end_words(p, end));
   written.finish(status_name(end.status, run.equal()), run.told);
-  if (end.status != path_status::solved) a.messages.push_back(r.file() + ": " + end_words(p, end));
+  for (const std::string& line : end_lines(p, end)) a.messages.push_back(r.file() + ": " + line);
   a.exit = status_of(end.status, run.equal());
 }
 

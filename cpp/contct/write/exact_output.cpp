@@ -74,7 +74,7 @@ class exact_printer {
     const std::string title =
         fmt::format("step {}{}", step + 1, name.empty() ? "" : ", " + on_one_line(name));
     out_ += fmt::format("{}{}\n", out_.empty() ? "" : "\n", painted(terminal_, paint::strong, title));
-    const rational before = total_load(step);
+    const rational before = r_.exactly.steps[step].from_zero ? rational() : total_load(step);
     const rational added = total_load(step + 1) - before;
     for (const exact_increment& i : s.increments) {
       std::vector<std::string> events;
@@ -107,10 +107,15 @@ class exact_printer {
 
   /// The free motion by the deflections of its nodes.
   void print_mechanism(const mechanism_proof& proof) {
+    const auto at = std::ranges::find(r_.path.steps, path_status::mechanism, &exact_step_end::status);
+    const std::string where =
+        starts_from_zero(r_.what)
+            ? " of " + step_words(r_.what, static_cast<int>(at - r_.path.steps.begin()) + 1)
+            : "";
     out_ += fmt::format(
-        "\n{}: the supports and the pairs in contact allow this rigid-body motion, no other pair stops it, "
+        "\n{}{}: the supports and the pairs in contact allow this rigid-body motion, no other pair stops it, "
         "and the step's full load does work {} on it.\n  w",
-        painted(terminal_, paint::bad, "no equilibrium"), number(proof.work));
+        painted(terminal_, paint::bad, "no equilibrium"), where, number(proof.work));
     const rational_vector w = deflections_in(r_.what, proof.motion);
     for (std::size_t node = 0; node < w.size() && node < most_rows; ++node)
       out_ += (node == 0 ? " " : ", ") + number(w[node]);
@@ -146,14 +151,15 @@ void write_exact_json(const exact_run& r, output_file& out) {
       "steps");
   for (std::size_t step = 0; step < r.path.steps.size(); ++step) {
     const exact_step_end& s = r.path.steps[step];
-    const json members = {{"step", step + 1},
-                          {"name", r.what.steps[step].name},
-                          {"fraction", fraction_words(s.fraction)},
-                          {"increments", nullptr},
-                          {"displacement", fractions(s.displacement)},
-                          {"w", fractions(deflections_in(r.what, s.displacement))},
-                          {"pairs", nullptr},
-                          {"reactions", nullptr}};
+    json members = {{"step", step + 1},
+                    {"name", r.what.steps[step].name},
+                    {"fraction", fraction_words(s.fraction)},
+                    {"increments", nullptr},
+                    {"displacement", fractions(s.displacement)},
+                    {"w", fractions(deflections_in(r.what, s.displacement))},
+                    {"pairs", nullptr},
+                    {"reactions", nullptr}};
+    if (r.what.steps[step].from_zero) members["start"] = "zero";
     document.add(members, {{"increments", s.increments.size(),
                             [&](auto i) { return increment_json(r.what, s.increments[i], i); }},
                            {"pairs", s.closed.size(),

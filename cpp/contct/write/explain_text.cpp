@@ -38,7 +38,9 @@ class increment_printer {
           "On the left: line numbers of the listing, fortran/contct.f. On the right: equations of the "
           "paper.");
     out_ += "\n";
-    const std::string heading = fmt::format("Step {}, increment {}", i_.what.step, i_.what.number);
+    const load& aim = of_.what.steps[i_.what.step - 1];
+    const std::string name = aim.from_zero ? ", " + on_one_line(aim.name) : "";
+    const std::string heading = fmt::format("Step {}{}, increment {}", i_.what.step, name, i_.what.number);
     say(paint::strong, heading);
     say(paint::strong, std::string(heading.size(), '-'));
     print_load();

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "contct/session/envelope_curves.hpp"
 #include "contct/session/path_states.hpp"
 #include "contct/session/rule_1989.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
@@ -124,18 +126,42 @@ json rule_1989_json(const run_result& r) {
           {"wrong_steps", wrong}};
 }
 
+/// About what a state takes as text.
+std::size_t bytes_of_state(const problem& p) {
+  const std::size_t of_element = std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;
+  return std::size_t{20} * dofs(p.geometry) + 100 * p.pairs.size() + 55 * p.supports.size() +
+         of_element * elements(p.geometry) + 1;
+}
+
+/// Of combinations that are too many for a page, those whose states it leaves out, from 0: not those that the
+/// envelope names or that failed, and of the others evenly as many as there is room for.
+std::set<std::size_t> ends_left_out(const run_result& r) {
+  const std::vector<step_record>& steps = r.record.steps;
+  const std::size_t room = std::clamp<std::size_t>(2'000'000 / bytes_of_state(r.what), 4, most_pictures);
+  if (!starts_from_zero(r.what) || steps.size() <= room) return {};
+  std::set<int> named;
+  const auto name = [&named](const auto& at) { named.insert(at.step); };
+  const envelope e = envelope_of(r);
+  for (const auto& v : e.values) {
+    name(v.least);
+    name(v.most);
+  }
+  for (const step_record& s : steps)
+    if (s.end.fraction < 1.0) named.insert(s.end.step);
+  std::set<std::size_t> out;
+  const std::size_t stride = (steps.size() + room - 1) / room;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (i % stride != 0 && !named.contains(steps[i].end.step)) out.insert(i);
+  return out;
+}
+
 /// Of the states within steps, those that are written: evenly chosen, so that all together take not too many
 /// bytes.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
   constexpr std::size_t fewest = 4;
-  const problem& p = r.what;
-  const std::size_t of_element =
-      std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;  // about, as text
-  const std::size_t bytes = std::size_t{20} * dofs(p.geometry) + 100 * p.pairs.size() +
-                            55 * p.supports.size() + of_element * elements(p.geometry);
   std::vector<path_moment> within = moments_of(r);
   std::erase_if(within, [](const path_moment& m) { return m.is_end; });
-  const std::size_t most = std::clamp(most_bytes / std::max<std::size_t>(bytes, 1), fewest, most_pictures);
+  const std::size_t most = std::clamp(most_bytes / bytes_of_state(r.what), fewest, most_pictures);
   const std::size_t stride = (within.size() + most - 1) / most;
   std::map<const increment_record*, path_moment> chosen;
   for (std::size_t i = 0; i < within.size(); i += stride) chosen.emplace(within[i].increment, within[i]);
@@ -146,7 +172,8 @@ class result_writer {
  public:
   result_writer(const run_result& r, output_file& out, result_parts parts)
       : r_(r), parts_(parts), document_(out, head(), "steps") {
-    if (parts == result_parts::ends || !r.record.keeps_states()) return;
+    if (parts == result_parts::report) left_out_ = ends_left_out(r);
+    if (parts == result_parts::ends || !r.record.keeps_states() || !left_out_.empty()) return;
     within_ = states_within(r, parts == result_parts::report ? 6'000'000 : 1'500'000);
     states_.emplace(r);
   }
@@ -174,9 +201,9 @@ class result_writer {
 
   /// What a terminal says when the run is over.
   [[nodiscard]] json words() const {
-    return {{"end", end_words(r_.what, r_.end)},
+    return {{"end", joined(end_lines(r_.what, r_.end), ". ")},
             {"comparison", r_.comparison},
-            {"certificate", certificate_summary(r_.judged, r_.status() == "solved")},
+            {"certificate", certificate_summary(r_, r_.status() == "solved")},
             {"complaints", complaints_of(r_)},
             {"rule_1989", rule_1989_words(r_)},
             {"program", r_.facts}};
@@ -214,17 +241,20 @@ class result_writer {
     const step_results at_end = read(s.end);
     std::vector<double> w(nodes(m));
     for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(r_.what, s.end.displacement, node);
-    json members = {{"step", s.end.step},
-                    {"name", r_.what.steps[s.end.step - 1].name},
-                    {"fraction", s.end.fraction},
-                    {"increments", nullptr},
-                    {"w", w},
-                    {"displacement", s.end.displacement},
-                    {"pairs", nullptr},
-                    {"reactions", nullptr},
-                    {"elements", nullptr},
-                    {"extremes", extremes_json(m, at_end.ranges)},
-                    {"extremes_at", ranges_are_at(m)}};
+    json members = {
+        {"step", s.end.step}, {"name", r_.what.steps[s.end.step - 1].name}, {"fraction", s.end.fraction}};
+    if (r_.what.steps[s.end.step - 1].from_zero) members["start"] = "zero";
+    const bool whole = !left_out_.contains(number);
+    if (whole)
+      members.update({{"increments", nullptr},
+                      {"w", w},
+                      {"displacement", s.end.displacement},
+                      {"pairs", nullptr},
+                      {"reactions", nullptr},
+                      {"elements", nullptr}});
+    else
+      members["increments"] = json::array();
+    members.update({{"extremes", extremes_json(m, at_end.ranges)}, {"extremes_at", ranges_are_at(m)}});
     if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction, true);
     if (s.from_fallback) members["ended_by"] = "oracle";
     if (s.from_exact_path) members["ended_by"] = "exact";
@@ -233,8 +263,11 @@ class result_writer {
                     {"digits", judged ? json(digits_of(*judged)) : json(nullptr)},
                     {"error", error_json(r_.what, judged)},
                     {"certificate", certificate_json(judged)}});
-    std::vector<json_document::list> all = lists(at_end, s.end);
-    all.push_back({"increments", s.increments.size(), [&](auto i) { return increment_of(s.increments[i]); }});
+    std::vector<json_document::list> all;
+    if (whole) all = lists(at_end, s.end);
+    if (whole)
+      all.push_back(
+          {"increments", s.increments.size(), [&](auto i) { return increment_of(s.increments[i]); }});
     document_.add(members, all);
   }
 
@@ -273,6 +306,13 @@ class result_writer {
                       {"solves", end.work.solves},
                       {"updates", end.work.updates},
                       {"checks", end.work.checks}}}};
+    if (!end.others.empty())
+      members["end"]["others"] = list_of(end.others, [](const path_end& e) -> json {
+        return {{"reason", end_reason(e.status)},
+                {"step", e.step},
+                {"fraction", e.fraction},
+                {"pairs", numbered(e.pairs)}};
+      });
     if (!r_.free_runs.empty()) members["free_run"] = nullptr;
     const lockstep_on_path* const calls = r_.compared_calls();
     members["lockstep"] = calls != nullptr ? lockstep_json(*calls) : json(nullptr);
@@ -318,6 +358,7 @@ class result_writer {
   const run_result& r_;
   result_parts parts_;
   load_path loads_{r_.what};
+  std::set<std::size_t> left_out_;  // steps, from 0, of which the page has only what is largest
   std::map<const increment_record*, path_moment> within_;
   std::optional<path_states> states_;  // where they were recorded
   json_document document_;

@@ -41,15 +41,15 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
   const int step = m.step->end.step;
   const double fraction = i == nullptr ? m.step->end.fraction : i->fraction;
   const bool is_compared = i != nullptr && i->smin && r.compared;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", step, i == nullptr ? 0 : i->number,
-                     kind, i == nullptr ? "" : number(i->s), fraction,
-                     loads.resultant_at(step, fraction).force,
-                     csv_field(i == nullptr ? "" : event_names(i->events)), count(pair_state::closed),
-                     count(pair_state::open), count(pair_state::at_face), i == nullptr ? "" : number(i->smin),
-                     !is_compared ? ""
-                     : i->equal   ? "equal"
-                                  : "differ",
-                     csv_field(place_name(r.what.geometry, watched)), number(w));
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", step, i == nullptr ? 0 : i->number, kind,
+      i == nullptr ? "" : number(i->s), fraction, loads.resultant_at(step, fraction).force,
+      csv_field(i == nullptr ? "" : event_names(i->events)), count(pair_state::closed),
+      count(pair_state::open), count(pair_state::at_face), i == nullptr ? "" : number(i->smin),
+      !is_compared ? ""
+      : i->equal   ? "equal"
+                   : "differ",
+      csv_field(place_name(r.what.geometry, watched)), number(w), csv_field(r.what.steps[step - 1].name));
 }
 
 /// Within a step by the path's own D.
@@ -74,7 +74,8 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
   const problem& p = r.what;
   const load_path loads(p);
   path_states states(r);
-  increments.write("step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w\r\n");
+  increments.write(
+      "step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w,name\r\n");
   if (pairs != nullptr) pairs->write("step,increment,pair,node,surface,state,look,w,gap,force,face\r\n");
   for (const path_moment& m : moments_of(r)) {
     const structure_state s = states.at(m);

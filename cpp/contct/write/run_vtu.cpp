@@ -185,14 +185,19 @@ std::string cells_of(const std::vector<std::vector<int>>& cells) {
                      data_array("types", 1, types));
 }
 
-std::string field_data(const structure_state& s) {
+std::string field_data(const problem& p, const structure_state& s) {
   const auto one = [](std::string_view name, std::string_view type, auto value) {
     return fmt::format(
         "      <DataArray type=\"{}\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
         type, name, value);
   };
+  std::string name;
+  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // a text is its bytes, and 0
+    for (const char c : p.steps[s.step - 1].name) name += fmt::format("{} ", static_cast<unsigned char>(c));
+    name = one("name", "String", name + "0");
+  }
   return "    <FieldData>\n" + one("step", "Int32", s.step) + one("increment", "Int32", s.number) +
-         one("share", "Float64", s.fraction) + "    </FieldData>\n";
+         one("share", "Float64", s.fraction) + name + "    </FieldData>\n";
 }
 
 /// A file of VTK's, with what is in its one part.
@@ -215,7 +220,7 @@ std::string vtu_of_state(const problem& p, const structure_state& s) {
   const std::vector<double> points = points_of(p);
   const point_arrays of_points = point_data(r);
   return file_of("UnstructuredGrid",
-                 field_data(s) +
+                 field_data(p, s) +
                      fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                                  points.size() / 3, cells.size()) +
                      section("PointData", of_points.attributes, of_points.arrays) +

@@ -56,18 +56,6 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// The quantity whose extremes stand for the bending of the structure.
-const value_range* bending(const std::vector<value_range>& ranges) {
-  const value_range* most = nullptr;
-  for (const value_range& r : ranges) {
-    const bool is_moment = r.name == "moment" || r.name == "mx" || r.name == "my" || r.name == "mxy";
-    if (is_moment &&
-        (most == nullptr || std::abs(r.largest().value) > (1 + 1e-9) * std::abs(most->largest().value)))
-      most = &r;
-  }
-  return most;
-}
-
 /// The largest of each quantity on a path so far, by name: what is nothing but rounding of it is printed as
 /// 0.
 using sizes_so_far = std::map<std::string, double, std::less<>>;
@@ -162,7 +150,13 @@ class table_printer {
   }
 
   run_table print() {
-    for (std::size_t step = 0; step < run_.record.steps.size(); ++step) print_step(step);
+    const bool of_combinations = starts_from_zero(problem_);
+    if (of_combinations && !detail_ && problem_.steps.size() > most_combinations_in_full) {
+      text_ = combination_rows(run_, terminal_);
+    } else {
+      for (std::size_t step = 0; step < run_.record.steps.size(); ++step) print_step(step);
+    }
+    if (of_combinations && problem_.steps.size() > 1) print_envelope();
     return {std::move(text_), legend()};
   }
 
@@ -186,6 +180,12 @@ class table_printer {
                                 std::string_view kernels, std::string_view load,
                                 std::string_view events) const;
   [[nodiscard]] std::vector<std::string> legend() const;
+
+  void print_envelope() {
+    const std::string lines = envelope_text(problem_, envelope_of(run_));
+    if (lines.empty()) return;
+    text_ += "\n" + painted(terminal_, paint::strong, "all combinations") + "\n" + lines;
+  }
 
   const run_result& run_;
   const problem& problem_;
@@ -349,6 +349,17 @@ std::vector<std::string> table_printer::legend() const {
 }
 
 }  // namespace
+
+const value_range* bending(const std::vector<value_range>& ranges) {
+  const value_range* most = nullptr;
+  for (const value_range& r : ranges) {
+    const bool is_moment = r.name == "moment" || r.name == "mx" || r.name == "my" || r.name == "mxy";
+    if (is_moment &&
+        (most == nullptr || std::abs(r.largest().value) > (1 + 1e-9) * std::abs(most->largest().value)))
+      most = &r;
+  }
+  return most;
+}
 
 run_table table_of(const run_result& r, const terminal& t, bool detail) {
   return table_printer(r, t, detail).print();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contct/session/run_result.hpp"
+#include "contct/session/step_results.hpp"
 #include "contct/text/terminal.hpp"
 
 namespace contct {
@@ -20,5 +21,15 @@ struct run_table {
 };
 /// `detail`: every event, and all numbers of each step's end.
 [[nodiscard]] run_table table_of(const run_result& r, const terminal& t, bool detail);
+
+/// More combinations than this have a row each, instead of one for each increment.
+inline constexpr std::size_t most_combinations_in_full = 12;
+/// Rows of combinations, below a head.
+[[nodiscard]] std::string combination_rows(const run_result& r, const terminal& t);
+/// The least and largest of all, a line each, with the names of combinations.
+[[nodiscard]] std::string envelope_text(const problem& p, const envelope& e);
+
+/// The quantity whose extremes stand for the bending of the structure; null where nothing bends.
+[[nodiscard]] const value_range* bending(const std::vector<value_range>& ranges);
 
 }  // namespace contct

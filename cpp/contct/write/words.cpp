@@ -35,6 +35,16 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
       worst->distance, unit_words(p, "w"), percent_words(worst->share));
 }
 
+/// Of hundreds of combinations nobody reads more.
+std::vector<std::string> first_of(std::vector<std::string> lines) {
+  constexpr std::size_t most = 12;
+  if (lines.size() <= most) return lines;
+  const std::size_t more = lines.size() - most;
+  lines.resize(most);
+  lines.push_back(fmt::format("and {} more combinations; the result of --json has each", more));
+  return lines;
+}
+
 /// The pair in contact that pulls most, in words; nothing where none does.
 std::string pull_words(const certificate& c, const problem& p) {
   if (c.pulling < 0) return "";
@@ -62,17 +72,29 @@ std::string digits_words(const certificate& c) {
   return fmt::format("{} digit{}", digits, digits == 1 ? "" : "s");
 }
 
-std::vector<std::string> certificate_summary(const certifier& judged, bool solved) {
-  const auto& steps = judged.steps();
+std::string step_words(const problem& p, int step) {
+  return starts_from_zero(p) ? "combination " + in_quotes(p.steps[step - 1].name)
+                             : fmt::format("step {}", step);
+}
+
+std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
+  const auto& steps = r.judged.steps();
+  const auto name_of = [&](auto step) {
+    return step_words(r.what, r.record.steps[step - steps.begin()].end.step);
+  };
   const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->certified; });
   if (bad != steps.end()) {
-    return {fmt::format("step {} is NOT certified: {}", bad - steps.begin() + 1, (*bad)->problem),
+    return {fmt::format("{} is NOT certified: {}", name_of(bad), (*bad)->problem),
             "allowed: " + percent_words(certified_share)};
   }
   double worst = 0.0;
   const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
   for (const auto& c : steps)
     if (c) worst = std::max(worst, c->worst_share);
+  if (!solved && starts_from_zero(r.what))
+    return {fmt::format("the run is NOT certified: only {} of {} combinations reach their full load",
+                        certified, r.what.steps.size()),
+            "these are certified"};
   if (!solved) {
     std::vector<std::string> items = {"the run is NOT certified: its path ended before the full load"};
     if (certified == 1) items.emplace_back("step 1 is certified");
@@ -87,22 +109,23 @@ std::vector<std::string> certificate_summary(const certifier& judged, bool solve
   const auto loose = std::ranges::find_if(steps, [](const auto& c) { return c && !c->unique; });
   if (loose != steps.end())
     items.push_back(
-        fmt::format("but displacements of step {}: its load leaves a rigid-body motion as it is, and "
+        fmt::format("but displacements of {}: its load leaves a rigid-body motion as it is, and "
                     "nothing stops that",
-                    loose - steps.begin() + 1));
+                    name_of(loose)));
   return items;
 }
 
 std::vector<std::string> certificate_complaints(const run_result& r) {
   std::vector<std::string> lines;
-  for (int step = 1; const auto& c : r.judged.steps()) {
+  for (std::size_t i = 0; i < r.judged.steps().size(); ++i) {
+    const auto& c = r.judged.steps()[i];
+    const int step = r.record.steps[i].end.step;
     if (c && !c->certified)
-      lines.push_back(fmt::format("step {} is not certified: {}; allowed: {}{}{}", step, c->problem,
+      lines.push_back(fmt::format("{} is not certified: {}; allowed: {}{}{}", step_words(r.what, step), c->problem,
                                   percent_words(certified_share), pull_words(*c, r.what),
                                   worst_until(step, *c, r.what, r.early)));
-    ++step;
   }
-  return lines;
+  return starts_from_zero(r.what) ? first_of(std::move(lines)) : lines;
 }
 
 namespace {
@@ -145,12 +168,19 @@ std::string verdict_words(const path_end& end, bool is_answer) {
 
 }  // namespace
 
+std::vector<std::string> end_lines(const problem& p, const path_end& end) {
+  if (end.status == path_status::solved) return {};
+  std::vector<std::string> lines = {end_words(p, end)};
+  for (const path_end& other : end.others) lines.push_back(end_words(p, other));
+  return first_of(std::move(lines));
+}
+
 std::string end_words(const problem& p, const path_end& end, bool is_answer) {
+  if (end.status == path_status::solved) return "";
   const auto verdict = [&] { return verdict_words(end, is_answer); };
-  const std::string where = fmt::format("step {}, at share {:.9g} of its load: ", end.step, end.fraction);
+  const std::string where =
+      fmt::format("{}, at share {:.9g} of its load: ", step_words(p, end.step), end.fraction);
   switch (end.status) {
-    case path_status::solved:
-      return "";
     case path_status::mechanism:
       return where + mechanism_words(p, end);
     case path_status::cycle:
@@ -184,11 +214,11 @@ std::string passage_warning(const problem& p, std::span<const step_record> steps
   if (!worst) return "";
   const contact_pair& left = p.pairs[worst->first];
   return fmt::format(
-      "step {}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g}{} "
-      "at x = {:.6g}. Where these are separate stops, this is as it should be; where one surface runs "
-      "between "
-      "them, put pairs closer together (at the nodes of a finer mesh: element_size)",
-      step, worst->first + 1, worst->second + 1, left.face, worst->depth, unit_words(p, "w"), worst->x);
+      "{}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g}{} at x = "
+      "{:.6g}. Where these are separate stops, this is as it should be; where one surface runs between them, "
+      "put pairs closer together (at the nodes of a finer mesh: element_size)",
+      step_words(p, step), worst->first + 1, worst->second + 1, left.face, worst->depth, unit_words(p, "w"),
+      worst->x);
 }
 
 std::string digit_warning(std::span<const step_record> steps) {
@@ -258,8 +288,8 @@ std::vector<std::string> complaints_of(const run_result& r) {
 
 std::vector<std::string> end_messages(const run_result& r) {
   std::vector<std::string> lines = complaints_of(r);
-  const std::string why = end_words(r.what, r.end);
-  if (!why.empty()) lines.push_back(r.file + ": " + why);
+  const std::vector<std::string> why = end_lines(r.what, r.end);
+  for (const std::string& w : why) lines.push_back(r.file + ": " + w);
   for (const std::string& w :
        {why.empty() ? digit_warning(r.record.steps) : "", passage_warning(r.what, r.record.steps)})
     if (!w.empty()) lines.push_back("warning: " + w);

@@ -54,9 +54,12 @@ constexpr std::string_view end_reason(path_status status) {
 /// LAPACK in use.
 [[nodiscard]] std::string digits_words(const certificate& c);
 
+/// "step 3", or "combination \"ULS 1\"" of one that starts from zero; from 1.
+[[nodiscard]] std::string step_words(const problem& p, int step);
+
 /// One line for a whole run, in parts: that it is certified and how closely, or the first step that is not.
 /// A path that is not `solved` is not certified as a whole: the steps that are, are named.
-[[nodiscard]] std::vector<std::string> certificate_summary(const certifier& judged, bool solved);
+[[nodiscard]] std::vector<std::string> certificate_summary(const run_result& r, bool solved);
 
 /// For every step that is not certified a line that says what is wrong, how far off, and which
 /// increment toggled which pair away from its face before.
@@ -70,6 +73,9 @@ constexpr std::string_view end_reason(path_status status) {
 /// Of a run of both rules: whether the 1989 rule comes to the states of the answer, and what is wrong with
 /// those that differ, a line each. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
+
+/// The same for every step that was not solved, a line each; of very many the first ones.
+[[nodiscard]] std::vector<std::string> end_lines(const problem& p, const path_end& end);
 
 /// A warning where too few digits of the end of a step are left to rely on; empty otherwise.
 [[nodiscard]] std::string digit_warning(std::span<const step_record> steps);

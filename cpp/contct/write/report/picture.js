@@ -64,7 +64,7 @@ function allEventWords(events, most = 8) {
 function stateWords(f) {
   const [open, closed, atFace] = ["o", "c", "f"].map((look) => f.pairs.filter((p) => p.look === look).length);
   const place = f.step === 0 ? "Before any load."
-    : `Step ${f.step}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}` +
+    : `Step ${nameOfStep(f.step)}${f.number > 0 ? `, increment ${f.number}` : ""}: ${f.snap ? "a rigid-body motion at constant load; " : ""}` +
       `load: ${minus(f.load.words)}, share ${short(f.fraction)} of the step.`;
   const end = !f.end ? "" : f.fraction < 1 ? " The path ends here." : " The step's load is applied.";
   const event = f.events.length > 0 ? ` Then ${allEventWords(f.events, 3)}.` : end;

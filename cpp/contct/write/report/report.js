@@ -49,10 +49,14 @@ function drawChart(f) {
   root.append(panelTitle(room.left, 18, byForce ? sum : "Steps of load applied"),
     axisWord(width - room.right, height - 12, `${ofMatrix ? moves() : inUnit("deflection w", "w")} of ${placed(followed.name)}, which moves most`, "end"));
   const [x, y] = spot(f);
-  root.append(line(x, y, x, bottom, "cross"), line(room.left, y, x, y, "cross"), path(frames.map(spot), "track"));
+  root.append(line(x, y, x, bottom, "cross"), line(room.left, y, x, y, "cross"), ...tracks().map((track) => path(track.map(spot), "track")));
   for (const g of frames) root.append(chartMark(g, ...spot(g)));
   root.append(svg("circle", { cx: x, cy: y, r: 9, class: "here" }));
 }
+
+// The path, or a path for each combination: each begins with the unloaded structure.
+const tracks = () => (!startsFromZero() ? [frames]
+  : [...new Set(frames.slice(1).map((f) => f.step))].map((step) => [frames[0], ...frames.filter((f) => f.step === step)]));
 
 function padded([low, high]) {
   const reach = high - low || Math.abs(high) || 1;
@@ -99,7 +103,6 @@ function tableOf(title, names, rows, most = 40, sizeOf = null) {
     element("table", { "aria-label": title }, element("thead", {}, head), element("tbody", {}, ...rows.filter((r) => kept.has(r)).map(row))))];
 }
 
-const stepName = (s) => (s.name ? `${s.step}, ${s.name}` : String(s.step));
 const inLength = (name) => inUnit(name, "w");
 const placeHead = () => (ofMatrix ? ["Dof"] : structure.kind === "plate" ? ["Node", inLength("x"), inLength("y")] : ["Node", inLength("x")]);
 const placeCells = (p) => (ofMatrix ? [p.name] : structure.kind === "plate" ? [String(p.name), p.x, p.y] : [String(p.name), p.x]);
@@ -202,13 +205,13 @@ function besideEachOther(steps, title, names, begins, read) {
 }
 
 function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
-  const when = (v) => `step ${v.step}, increment ${v.increment}`;
+  const when = (v) => (startsFromZero() ? nameOfStep(v.step) : `step ${v.step}, increment ${v.increment}`);
   const bound = (v, at = when(v)) => [{ number: v.value ?? v.force_max, at }];
   const sizeOf = (r) => Math.max(...r.slice(-2).flat().map((v) => Math.abs(v.number ?? 0)));
   return states === 0 ? [] : [
     ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. " +
       "Point at a curve to see which step it comes from; click it to show the end of that step."))] : []),
-    ...tableOf("Least and largest of all increments", ["Quantity", "Least", "Largest"],
+    ...tableOf(startsFromZero() ? "Least and largest of all combinations" : "Least and largest of all increments", ["Quantity", "Least", "Largest"],
       Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
     ...tableOf(inUnit("Largest contact force of each pair", "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
       pairs.map((p, i) => [String(p.pair), ...placeCells(places.pairs[i]), places.pairs[i].surface, bound(p)]), 40, sizeOf),
@@ -356,7 +359,7 @@ function showCertificate() {
   if (steps.length === 0) words.push("No step reached its full load, so there is nothing to certify.");
   if (own > 0) words.push(`${counted(own, "state")} came from the reference solution itself, so a comparison with it shows nothing: only equilibrium, penetration and tension are judged there.`);
   fill("certificate", "Is the answer right?", words.join(" "), ...tableOf("Certificates", ["Step", "Certificate", ...Object.values(columns)],
-    steps.map((c, i) => [String(i + 1), markOf(c), ...Object.keys(columns).map((name) => (name === "digits" && c ? String(c.digits) : small(c?.[name])))])));
+    steps.map((c, i) => [stepName(result.steps[i]), markOf(c), ...Object.keys(columns).map((name) => (name === "digits" && c ? String(c.digits) : small(c?.[name])))])));
   byId("certificate").hidden = false;
 }
 
@@ -368,7 +371,11 @@ function showLog() {
 
 function showCuts() {
   for (const note of structure.notes || []) cuts.add(note);
-  const within = increments.length + 1 + result.steps.filter((s) => !endsAt(s, s.increments.length - 1)).length;
+  const drawn = result.steps.filter((s) => s.displacement);
+  if (drawn.length < result.steps.length)
+    cuts.add(`Of ${result.steps.length} combinations ${drawn.length} are drawn: those with the least and largest values, those that did not reach ` +
+      "their load, and others evenly chosen. The others' increments are not listed.");
+  const within = increments.length + 1 + drawn.filter((s) => !endsAt(s, s.increments.length - 1)).length;
   if (frames.length < within) {
     cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
@@ -504,7 +511,7 @@ function load(given, state = null) {
 
 function showRest() {
   fill("ends", "Results at the ends of steps", "", ...endTables());
-  fill("envelope", `Envelope of the ${result.steps.some((s) => s.start === "zero") ? "combinations" : "path"}`, "", ...(result.envelope ? envelopeTables(result.envelope) : []));
+  fill("envelope", startsFromZero() ? "Envelope of the combinations" : "Envelope of the path", "", ...(result.envelope ? envelopeTables(result.envelope) : []));
   drawEnvelope();
   fill("input", "Input", "", element("div", { id: "system" }), ...inputTables());
   showCalls();

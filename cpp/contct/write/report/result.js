@@ -26,6 +26,11 @@ function read(given) {
   increments = result.steps.flatMap((s) => s.increments.map((i) => ({ ...i, step: s.step, number: i.increment })));
 }
 
+// A step by its number, with its name where it has one.
+const stepName = (s) => (s.name ? `${s.step}, ${s.name}` : String(s.step));
+const nameOfStep = (number) => stepName(result.steps.find((s) => s.step === number) ?? { step: number });
+const startsFromZero = () => result.steps.some((s) => s.start === "zero");
+
 // The name of a node, or of a dof where each dof has a name.
 const nameOf = (entry) => entry.node ?? entry.dof;
 
@@ -74,7 +79,7 @@ function framesOf() {
     elements: (structure.EI || []).map(() => ({ moment: [0, 0], shear: [0, 0] })),
   };
   add(begun, { step: 0, number: 0, fraction: 0, s: 0, events: [], load: { words: "none" } });
-  for (const step of result.steps) {
+  for (const step of result.steps.filter((s) => s.displacement)) {
     const end = { step: step.step, fraction: step.fraction, end: true, exact: step.ended_by === "exact", load: step.load };
     step.increments.forEach((i, n) => {
       const how = { step: step.step, number: i.increment, fraction: i.fraction, s: i.s, snap: i.snap, events: i.events, load: i.load };
