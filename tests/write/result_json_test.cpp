@@ -284,6 +284,36 @@ TEST_CASE("a report has every call with its distance from each follower's answer
   CHECK(result["words"]["comparison"] == "all equal");
 }
 
+TEST_CASE("A beam's section has stresses at ends of elements and their extremes, with a proved bound") {
+  const nlohmann::json step = result_of(
+      "[beam]\nx = [0, 2, 4]\nsection = { E = 1e6, I = 0.5, W = 0.25 }\n"
+      "[[support]]\nx = [0, 4]\nfix = \"w\"\n[[step]]\nuniform = -3\n")["steps"][0];
+  CHECK(step["elements"][0]["stress"][1].get<double>() == Approx(3.0 * 16 / 8 / 0.25).epsilon(1e-12));
+  CHECK(step["extremes"]["stress"]["max"]["value"].get<double>() == Approx(24).epsilon(1e-12));
+  CHECK(step["extremes"]["stress"]["max"]["x"].get<double>() == Approx(2));
+  CHECK(step["error"]["stress"].get<double>() >= 4 * step["error"]["moment"].get<double>());
+  CHECK(step["error"]["stress"].get<double>() < 1e-10);
+}
+
+TEST_CASE("A plate's thickness has stresses at corners, and a plate given by D has none") {
+  const nlohmann::json thick = result_of(good_plate)["steps"][0];
+  const nlohmann::json& corner = thick["elements"][1];
+  CHECK(corner["sx"][2].get<double>() == Approx(6 * corner["mx"][2].get<double>()));
+  CHECK(corner["s1"][2].get<double>() >= corner["s2"][2].get<double>());
+  CHECK(thick["extremes"]["von_mises"]["max"]["value"].get<double>() >= corner["von_mises"][2].get<double>());
+  CHECK(thick["error"]["stress"].is_number());
+  const nlohmann::json by_D =
+      result_of(plate_with("E = 10.92\nnu = 0.3\nthickness = 1.0", "D = 1.0\nnu = 0.3"))["steps"][0];
+  CHECK_FALSE(by_D["elements"][1].contains("sx"));
+  CHECK_FALSE(by_D["error"].contains("stress"));
+}
+
+TEST_CASE("The structure of a beam with hinges names their nodes") {
+  const nlohmann::json s =
+      structure_json(parse_problem(good_problem + std::string("[[hinge]]\nnode = 2\n"), "pb.toml"));
+  CHECK(s["hinges"] == std::vector<int>{2});
+}
+
 TEST_CASE("the structure of a beam has its places, stiffnesses, supports and pairs") {
   const nlohmann::json s = structure_json(parse_problem(good_problem, "pb.toml"));
   CHECK(s["kind"] == "beam");

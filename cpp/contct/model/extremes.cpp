@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contct/model/line.hpp"
+#include "contct/model/stress.hpp"
 
 namespace contct {
 namespace {
@@ -58,11 +59,13 @@ class extremes {
   }
 
   /// Quantity `of` along element `e` of a beam. Its ends, by `left_value` and `right_value`, are not computed
-  /// from the polynomials.
+  /// from the polynomials; these are divided by `over`.
   void take_element(const std::vector<element_line>& pieces, int e, poly element_line::*of, double left_value,
-                    double right_value) {
+                    double right_value, double over = 1.0) {
     for (const element_line& line : pieces) {
-      const poly& p = line.*of;
+      poly p = line.*of;
+      if (over != 1.0)
+        for (double& coefficient : p) coefficient /= over;
       const bool first = &line == &pieces.front();
       const bool last = &line == &pieces.back();
       take({first ? left_value : p.front(), line.left, 0.0, first ? e : -1}, line.left);
@@ -108,6 +111,8 @@ std::vector<value_range> ranges(const beam& b, const load& l, std::span<const do
   extremes w("w", start(u[0]));
   extremes moment("moment", start(first.moment.front()));
   extremes shear("shear", start(first.shear.front()));
+  const bool has_stress = !b.sections.empty() && b.sections.front().W > 0.0;
+  extremes stress("stress", start(has_stress ? first.moment.front() / b.sections.front().W : 0.0));
   for (int e = 0; e < b.elements(); ++e) {
     const std::vector<element_line> pieces = lines.pieces(e);
     const auto shears = lines.ends().at(e, 0);
@@ -115,8 +120,13 @@ std::vector<value_range> ranges(const beam& b, const load& l, std::span<const do
     w.take_element(pieces, e, &element_line::w, w_at(u, e), w_at(u, e + 1));
     moment.take_element(pieces, e, &element_line::moment, moments[0], moments[1]);
     shear.take_element(pieces, e, &element_line::shear, shears[0], shears[1]);
+    if (!has_stress) continue;
+    const double W = b.sections[e].W;
+    stress.take_element(pieces, e, &element_line::moment, moments[0] / W, moments[1] / W, W);
   }
-  return {w.range(), moment.range(), shear.range()};
+  std::vector<value_range> all = {w.range(), moment.range(), shear.range()};
+  if (has_stress) all.push_back(stress.range());
+  return all;
 }
 
 std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<const double> u,
@@ -130,12 +140,17 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
   all.push_back(w.range());
   element_results moments = results_in_elements(model{p}, {}, u);
   if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
-  for (std::size_t name = 0; name < moments.names.size(); ++name) {
-    extremes moment(moments.names[name], at(0, moments.at(0, name)[0]));
-    for (int e = 0; e < p.elements(); ++e)
-      for (std::size_t k = 0; k < 4; ++k) moment.take(at(p.corners_of(e)[k], moments.at(e, name)[k]));
-    all.push_back(moment.range());
-  }
+  const auto add = [&](const element_results& of, std::size_t first_name) {
+    for (std::size_t name = first_name; name < of.names.size(); ++name) {
+      extremes found(of.names[name], at(0, of.at(0, name)[0]));
+      for (int e = 0; e < p.elements(); ++e)
+        for (std::size_t k = 0; k < 4; ++k) found.take(at(p.corners_of(e)[k], of.at(e, name)[k]));
+      all.push_back(found.range());
+    }
+  };
+  constexpr std::size_t principal = 3;  // behind sx, sy and txy
+  add(moments, 0);
+  add(stresses_of({p}, moments), principal);
   return all;
 }
 

@@ -208,6 +208,8 @@ std::string unit_words(const problem& p, std::string_view quantity) {
   if (quantity == "mx" || quantity == "my" || quantity == "mxy")
     return on_one_line(" " + force + " " + length + "/" + length);
   if (quantity == "w") return " " + length;
+  if (quantity == "stress" || quantity == "s1" || quantity == "s2" || quantity == "von_mises")
+    return on_one_line(" " + force + "/" + length + "^2");
   return " " + force + (quantity == "moment" ? " " + length : "");
 }
 

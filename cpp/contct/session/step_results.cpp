@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contct/kernel/contct.hpp"
+#include "contct/model/stress.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/session/path_states.hpp"
 
@@ -74,8 +75,9 @@ pair_reading reading_of(const contact_pair& p, double w, bool closed) {
 
 step_results results_of(const problem& p, const load& l, const structure_state& s) {
   const std::vector<double>& u = s.displacement;
-  step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}};
+  step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}, {}};
   if (s.numbers) r.elements.values = s.numbers->element_values;
+  r.stresses = stresses_of(p.geometry, r.elements);
   r.ranges = ranges_of(p.geometry, l, u, deflecting_nodes(p), r.elements.values);
   if (const auto* const b = std::get_if<beam>(&p.geometry.kind); b != nullptr && !l.placed.empty()) {
     const beam_lines lines(*b, l, u, r.elements.values);

@@ -50,6 +50,7 @@ struct pair_reading {
 struct step_results {
   std::vector<value_range> ranges;  ///< see ranges_of
   element_results elements;
+  element_results stresses;         ///< see stresses_of
   std::vector<double> reactions;    ///< [supports]
   std::vector<pair_reading> pairs;  ///< [pairs]
   /// Of a beam's elements in which loads begin, end or stand, or impose a curvature: see beam_lines.

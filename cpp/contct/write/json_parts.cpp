@@ -28,6 +28,7 @@ void put_kind(json& out, const beam& b) {
   out["kind"] = "beam";
   out["nodes"] = list_of(b.x, [node = 0](double x) mutable -> json { return {{"node", ++node}, {"x", x}}; });
   out["EI"] = b.EI;
+  if (!b.hinges.empty()) out["hinges"] = numbered(b.hinges);
 }
 
 void put_kind(json& out, const plate& p) {

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
+#include "contct/model/stress.hpp"
 #include "contct/session/envelope_curves.hpp"
 #include "contct/session/path_states.hpp"
 #include "contct/session/rule_1989.hpp"
@@ -86,12 +88,25 @@ json piece_json(const element_line& line) {
 
 json element_json(const step_results& results, std::size_t e) {
   json entry = {{"element", e + 1}};
-  const element_results& at_ends = results.elements;
-  for (std::size_t i = 0; i < at_ends.names.size(); ++i)
-    entry[std::string(at_ends.names[i])] = at_ends.at(e, i);
+  for (const element_results* const all : {&results.elements, &results.stresses})
+    for (std::size_t i = 0; i < all->names.size(); ++i) entry[std::string(all->names[i])] = all->at(e, i);
   if (const auto pieces = results.pieces.find(e); pieces != results.pieces.end())
     entry["pieces"] = list_of(pieces->second, piece_json);
   return entry;
+}
+
+/// The errors of a state, that of stresses among them where there are any.
+json errors_json(const problem& p, const std::optional<certificate>& c, const step_results& read) {
+  json out = error_json(p, c);
+  if (read.stresses.names.empty()) return out;
+  double largest = 0.0;
+  for (const value_range& r : read.ranges)
+    if (r.name == "stress" || r.name == "von_mises" || r.name == "s1" || r.name == "s2")
+      largest = std::max(largest, std::abs(r.largest().value));
+  const std::optional<double> moment = c && c->proved ? c->error[quantity::moment] : std::nullopt;
+  const auto bound = moment ? stress_error(p.geometry, *moment, largest) : std::nullopt;
+  out["stress"] = bound ? json(*bound) : json(nullptr);
+  return out;
 }
 
 json units_json(const unit_labels& units) {
@@ -261,7 +276,7 @@ class result_writer {
     const std::optional<certificate>& judged = r_.judged.steps()[number];
     members.update({{"rcond", s.rcond},
                     {"digits", judged ? json(digits_of(*judged)) : json(nullptr)},
-                    {"error", error_json(r_.what, judged)},
+                    {"error", errors_json(r_.what, judged, at_end)},
                     {"certificate", certificate_json(judged)}});
     std::vector<json_document::list> all;
     if (whole) all = lists(at_end, s.end);

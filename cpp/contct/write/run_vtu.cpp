@@ -147,7 +147,6 @@ std::string cell_data(const read_state& r, std::size_t elements, const std::vect
     return data_array(name, 1, values);
   };
   const std::vector<contact_pair>& pairs = r.what.pairs;
-  const element_results& read = r.read.elements;
   const std::vector<pair_reading>& now = r.read.pairs;
   std::string arrays =
       column("pair", 0, [](const pair_cell& c) { return static_cast<int>(c.pair) + 1; }) +
@@ -157,15 +156,17 @@ std::string cell_data(const read_state& r, std::size_t elements, const std::vect
       column("face", 0.0, [&](const pair_cell& c) { return now[c.pair].face; }) +
       column("gap", 0.0, [&](const pair_cell& c) { return now[c.pair].gap; }) +
       column("force", 0.0, [&](const pair_cell& c) { return now[c.pair].force; });
-  const auto places = static_cast<std::size_t>(read.places);
-  for (std::size_t name = 0; name < read.names.size(); ++name) {
-    std::vector<double> values;
-    for (std::size_t e = 0; e < elements; ++e) {
-      const auto at = read.at(e, name);
-      values.insert(values.end(), at.begin(), at.end());
+  for (const element_results* const all : {&r.read.elements, &r.read.stresses}) {
+    const auto places = static_cast<std::size_t>(all->places);
+    for (std::size_t name = 0; name < all->names.size(); ++name) {
+      std::vector<double> values;
+      for (std::size_t e = 0; e < elements; ++e) {
+        const auto at = all->at(e, name);
+        values.insert(values.end(), at.begin(), at.end());
+      }
+      values.resize((elements + cells.size()) * places);
+      arrays += data_array(all->names[name], places, values);
     }
-    values.resize((elements + cells.size()) * places);
-    arrays += data_array(read.names[name], places, values);
   }
   return arrays;
 }

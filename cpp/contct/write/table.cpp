@@ -83,6 +83,11 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
   }
   if (const value_range* const m = bending(r.ranges))
     add(m->name, m->largest().value, m->name, place_words(p.geometry, m->largest()));
+  for (const value_range& v : r.ranges) {
+    if (v.name == "stress") add("least stress", v.least.value, v.name, place_words(p.geometry, v.least));
+    if (v.name == "stress") add("most stress", v.most.value, v.name, place_words(p.geometry, v.most));
+    if (v.name == "von_mises") add("von Mises", v.most.value, v.name, place_words(p.geometry, v.most));
+  }
   if (const auto pair = r.hardest_pair())
     add("contact force", r.pairs[*pair].force, "force",
         fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
@@ -112,11 +117,14 @@ std::string detail_tables(const problem& p, const structure_state& s, const step
   line("{:>8}  {:<8} {}", "element", "at its",
        r.elements.places == 2 ? "left and right end" : "four corners");
   for (std::size_t e = 0; e < r.elements.elements(); ++e) {
-    for (std::size_t name = 0; name < r.elements.names.size(); ++name) {
-      std::string row =
-          fmt::format("{:>8}  {:<8}", name == 0 ? std::to_string(e + 1) : "", r.elements.names[name]);
-      for (const double value : r.elements.at(e, name)) row += fmt::format(" {:>14.7g}", value);
-      text += row + '\n';
+    std::string number = std::to_string(e + 1);
+    for (const element_results* const all : {&r.elements, &r.stresses}) {
+      for (std::size_t name = 0; name < all->names.size(); ++name) {
+        const auto at = all->at(e, name);
+        text += fmt::format("{:>8}  {:<9}{:>14.7g}", std::exchange(number, ""), all->names[name], at[0]);
+        for (const double value : at.subspan(1)) text += fmt::format(" {:>14.7g}", value);
+        text += '\n';
+      }
     }
   }
   return text;

@@ -367,6 +367,8 @@ const hasBed = () => places.pairs.some((p) => p.bed);
 function drawBeam(root, f, page, isSketch) {
   const { X, Y, ends, bottom, width } = page;
   root.append(path(placesAlong().map((at) => [X(xAt(at)), Y(deflectionAt(f, xAt(at), at[0]))]), "member"));
+  for (const node of structure.hinges || [])
+    root.append(svg("circle", { cx: X(structure.nodes[node - 1].x), cy: Y(f.u[2 * node - 2]), r: 4, class: "hinge" }));
   drawLineLoad(root, f, page);
   if (!isSketch) scaleUp(root, ticks(...page.heights.map((y) => y / scene.times), Math.min(4, (bottom - 196) / 30)), Y, X(ends[0]), X(ends[1]));
   root.append(line(X(ends[0]), bottom, X(ends[1]), bottom, "zero"));

@@ -100,7 +100,11 @@ const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + 
 function pieceAt(f, e, x) {
   const { moment, shear, pieces } = f.elements[e];
   if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
-  const [w0, t0, w1, t1] = f.u.slice(2 * e, 2 * e + 4);
+  const [w0, t0, w1, ofNode] = f.u.slice(2 * e, 2 * e + 4);
+  // Left of a hinge the slope is not the node's, which is that on its right: it follows from the moments.
+  const h = structure.nodes[e + 1].x - structure.nodes[e].x;
+  const turned = (h * ((moment[0] + moment[1]) / 2 + (h * (shear[0] - shear[1])) / 12)) / structure.EI[e];
+  const t1 = structure.hinges?.includes(e + 2) ? t0 + turned : ofNode;
   return { x: [structure.nodes[e].x, structure.nodes[e + 1].x], w: [w0, w1], theta: [t0, t1], moment, shear, curvature: 0 };
 }
 
