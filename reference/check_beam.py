@@ -39,12 +39,19 @@ def find(line, x):
 
 
 class Beam:
-    """An element of length h: dofs w and w' at its left end, w and w' at its right."""
+    """An element of length h: dofs w and w' at its left end, w and w' at its right.
 
-    def __init__(self, h, EI):
+    Released by a hinge at its right end, it has no moment there; its own w' there is condensed, -turn u and what its loads turn it by.
+    """
+
+    def __init__(self, h, EI, weight=None, released=False):
+        self.weight, self.released = weight, released
         self.h, self.EI, c = positive(h), positive(EI), EI / h**3
         self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, 4 * h * h * c, -6 * h * c, 2 * h * h * c],
                           [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
+        self.turn = [k * h / (4 * EI) for k in self.stiffness[3]]
+        if released:
+            self.stiffness = [[k - a * b * 4 * EI / h for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
 
     def work(self, of):
         """What a load does on the shapes in t = (x - left) / h, and on the deflection of the middle by a unit load between clamped ends.
@@ -52,7 +59,12 @@ class Beam:
         of(shape, from, to) is its work on a polynomial between two places; h^3 t^2 (3 - 4 t) / 48 EI is the deflection at t by a unit load in the middle, up to 1/2.
         """
         shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
-        return [of(shape, F(0), F(1)) for shape in shapes] + [self.h**3 / (48 * self.EI) * (of((0, 0, 3, -4), F(0), F(1, 2)) + of((-1, 6, -9, 4), F(1, 2), F(1)))]
+        forces = [of(shape, F(0), F(1)) for shape in shapes]
+        middle = self.h**3 / (48 * self.EI) * (of((0, 0, 3, -4), F(0), F(1, 2)) + of((-1, 6, -9, 4), F(1, 2), F(1)))
+        if self.released:
+            middle -= self.h * self.h * forces[3] / (32 * self.EI)
+            forces = [f - a * forces[3] for f, a in zip(forces, self.turn)]
+        return forces + [middle]
 
     def load(self, q, left, first=F(0), last=F(1)):
         """Of the polynomial q in x, between two places."""
@@ -76,7 +88,8 @@ class Beam:
 
     def middle(self, u, work):
         """w in the middle, for its displacements and its own loads."""
-        return (u[0] + u[2]) / 2 + self.h * (u[1] - u[3]) / 8 + work[4]
+        right = -dot(self.turn[:3], u[:3]) if self.released else u[3]
+        return (u[0] + u[2]) / 2 + self.h * (u[1] - right) / 8 + work[4]
 
     def values(self, u, work):
         """(kind, value, square of its error per rho) of what is handed out, for its displacements and its own loads."""
@@ -86,12 +99,33 @@ class Beam:
 
 
 def pieces(of):
-    return [only(piece, {"to", "value"}) for piece in listed(of["EI"]) if isinstance(piece, dict)]
+    """Of EI or of sections, those with ends."""
+    section = {"E", "I", "W", "A", "weight"}
+    return [only(piece, {"to", "value"} if "EI" in of else {"to", *section}) for piece in listed(of.get("EI", of.get("section")))
+            if isinstance(piece, dict) and "to" in piece]
+
+
+def stiffness(piece):
+    """EI and the weight per length of a piece; the weight None where it is not known."""
+    if "value" in piece:
+        return real(piece["value"]), None
+    EI = positive(real(piece["E"])) * positive(real(piece["I"]))
+    return EI, positive(real(piece["weight"])) * positive(real(piece["A"])) if "weight" in piece and "A" in piece else None
+
+
+def hinges(t, x):
+    """The nodes of hinges, from 0: between others."""
+    found = []
+    for part in t.get("hinge", []):
+        need(len(only(part, {"node", "nodes", "x"})) == 1, "not one of node, nodes and x")
+        found += [find(x, real(at)) for at in listed(part["x"])] if "x" in part else numbers(listed(part["node"]) if "node" in part else part["nodes"], len(x))
+    need(all(node is not None and 0 < node < len(x) - 1 for node in found) and len(set(found)) == len(found), "a hinge that is at no inner node")
+    return set(found)
 
 
 def named(of, t):
     """Every x that the problem names outside the beam's own x."""
-    tables = [part for key in ("support", "contact", "bed") for part in t.get(key, [])]
+    tables = [part for key in ("support", "contact", "bed", "hinge") for part in t.get(key, [])]
     tables += [part for step in t["step"] for key in ("point", "settlement") for part in step.get(key, [])]
     return [real(x) for part in tables for x in listed(part.get("x", []))] + [real(piece["to"]) for piece in pieces(of)]
 
@@ -106,7 +140,8 @@ def sized(of, t, ends):
 
 def places(of, t):
     """Coordinates of the nodes."""
-    need(of.keys() - {"EI"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
+    need(len(of.keys() & {"EI", "section"}) == 1, "not one of EI and section")
+    need(of.keys() - {"EI", "section"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
     if "element_size" in of:
         return sized(of, t, [real(x) for x in of.get("x", [0, of.get("length")])])
     return [real(x) for x in of["x"]] if "x" in of else [real(of["length"]) * i / of["elements"] for i in range(of["elements"] + 1)]
@@ -116,11 +151,14 @@ def beam(of, t):
     """Names of dofs, lines of coordinates, how much of the length each node has, and the elements with their dofs and left ends."""
     x = places(of, t)
     if pieces(of):
-        ends = [0] + [find(x, real(piece["to"])) for piece in of["EI"]]
-        need(ends[-1] == len(x) - 1, "pieces of EI that do not end where the beam ends")
-        EI = [real(piece["value"]) for piece, a, b in zip(of["EI"], ends, ends[1:]) for _ in range(a, b)]
+        ends = [0] + [find(x, real(piece["to"])) for piece in pieces(of)]
+        need(ends[-1] == len(x) - 1, "pieces that do not end where the beam ends")
+        EI = [stiffness(piece) for piece, a, b in zip(pieces(of), ends, ends[1:]) for _ in range(a, b)]
+    elif "section" in of:
+        EI = [stiffness(only(of["section"], {"E", "I", "W", "A", "weight"}))] * (len(x) - 1)
     else:
-        EI = [real(k) for k in listed(of["EI"])] * (1 if isinstance(of["EI"], list) else len(x) - 1)
+        EI = [(real(k), None) for k in listed(of["EI"])] * (1 if isinstance(of["EI"], list) else len(x) - 1)
     need(len(EI) == len(x) - 1, "EI: not one for each element")
-    elements = [(Beam(b - a, k), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], EI))]
+    at = hinges(t, x)
+    elements = [(Beam(b - a, *k, e + 1 in at), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], EI))]
     return ["w", "theta"], [x], [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements

@@ -5,7 +5,7 @@ from check_beam import beam, find, listed, need, numbers, only, positive, real
 from check_matrix import matrix
 from check_plate import plate
 
-TOP = {"title", "units", "beam", "plate", "matrix", "support", "contact", "bed", "step", "case", "combination", "train"}
+TOP = {"title", "units", "beam", "plate", "matrix", "hinge", "support", "contact", "bed", "step", "case", "combination", "train"}
 
 
 def one_each(values, nodes):
@@ -35,6 +35,7 @@ class Problem:
     def __init__(self, t, folder):
         only(t, TOP)
         need(len(t.keys() & {"beam", "plate", "matrix"}) == 1, "not one structure")
+        need("hinge" not in t or "beam" in t, "a hinge without a beam")
         self.definite, self.of_elements = "matrix" not in t, 0  # is K certainly semidefinite; how many numbers elements have
         if "matrix" in t:
             self.K, t = matrix(t["matrix"], t, folder)
@@ -121,10 +122,14 @@ class Problem:
         if isinstance(step, list):
             return self.combined(step)
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
-        only(step, {"name", "point", "settlement", "move"} | ({"uniform"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
+        only(step, {"name", "point", "settlement", "move"} | ({"uniform", "self_weight"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
 
         def add(e, work):
             own[e] = [a + b for a, b in zip(own[e], work)]
+        if step.get("self_weight", False):
+            need("theta" in self.names and all(e.weight is not None for e, _, _ in self.elements), "self-weight without a section's weight and area")
+            for e, (element, _, left) in enumerate(self.elements):
+                add(e, element.load([-element.weight], left))
         for part in listed(step.get("uniform", [])):
             part = only(part, {"value", "polynomial", "elements", "from", "to"}) if isinstance(part, dict) else {"value": part}
             need(("value" in part) + ("polynomial" in part) == 1, "not one of value and polynomial")

@@ -106,9 +106,13 @@ class Beam:
         table = problem["beam"]
         self.x = grid(table, "x")
         elements = len(self.x) - 1
-        EI = table["EI"]
+        section = table.get("section", {})
+        EI = table["EI"] if "EI" in table else section["E"] * section["I"]
         self.EI = [Fraction(v) for v in EI] if isinstance(EI, list) else [Fraction(EI)] * elements
-        self.loads = [loads_of(step, self.x) for step in problem["step"]]
+        self.W = section.get("W")
+        self.hinges = {self.x.index(Fraction(hinge["x"])) for hinge in problem.get("hinge", [])}
+        own = lambda step: {"uniform": -section["weight"] * section["A"]} if step.get("self_weight") else {}
+        self.loads = [loads_of({**own(step), **step}, self.x) for step in problem["step"]]
 
     def nodes(self):
         return len(self.x)
@@ -137,15 +141,21 @@ class Beam:
             m = [moment] + [c / (i + 1) for i, c in enumerate(v)]
             bend = [c / self.EI[e] + (curvature if i == 0 else 0) for i, c in enumerate(m)]
             line = [w, slope] + [c / ((i + 1) * (i + 2)) for i, c in enumerate(bend)]
-            pieces.append((a, b - a, {"w": line, "moment": m, "shear": v}))
+            stress = {"stress": [c / self.W for c in m]} if self.W else {}
+            pieces.append((a, b - a, {"w": line, "moment": m, "shear": v} | stress))
             w, slope, moment, shear = at(line, b - a), at(derivative(line), b - a), at(m, b - a), at(v, b - a)
         return pieces, w, slope
 
     def pieces(self, u, step, e):
         """The same with the displacements of both ends."""
         h, (w0, slope0, w1, slope1) = self.x[e + 1] - self.x[e], u[2 * e : 2 * e + 4]
-        _, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
+        pieces, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
         missing, turn = w1 - w, slope1 - slope
+        if e + 1 in self.hinges:  # the slope at its right end is its own: without moment there instead
+            _, length, line = pieces[-1]
+            bent = at(line["moment"], length)
+            shear = -3 * self.EI[e] * (missing + bent * h**2 / (2 * self.EI[e])) / h**3
+            return self.chain(step, e, w0, slope0, -bent - shear * h, shear)[0]
         moment, shear = 2 * self.EI[e] * (3 * missing - turn * h) / h**2, 6 * self.EI[e] * (turn * h - 2 * missing) / h**3
         return self.chain(step, e, w0, slope0, moment, shear)[0]
 
