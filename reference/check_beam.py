@@ -126,7 +126,7 @@ def hinges(t, x):
 def named(of, t):
     """Every x that the problem names outside the beam's own x."""
     tables = [part for key in ("support", "contact", "bed", "hinge") for part in t.get(key, [])]
-    tables += [part for step in t["step"] for key in ("point", "settlement") for part in step.get(key, [])]
+    tables += [part for step in t.get("step", []) + t.get("case", []) for key in ("point", "settlement", "move") for part in step.get(key, [])]
     return [real(x) for part in tables for x in listed(part.get("x", []))] + [real(piece["to"]) for piece in pieces(of)]
 
 

@@ -61,10 +61,11 @@ def matrix(of, t, folder):
     def converted(table, key):
         return [as_nodes(dict(part), number, keys[key]) for part in table.get(key, [])]
 
-    steps = []
-    for step in t["step"]:
+    def loads(step):
         only(step, {"name", "load", "point", "settlement", "move"})
         whole = vector(Path(folder) / step["load"], len(K)) if "load" in step else {}
-        loads = [{"node": dof + 1, "w": load} for dof, load in whole.items()]
-        steps.append({"point": converted(step, "point") + loads} | {key: converted(step, key) for key in ("settlement", "move")})
-    return K, {"support": converted(t, "support"), "contact": converted(t, "contact"), "step": steps}
+        points = [{"node": dof + 1, "w": load} for dof, load in whole.items()]
+        return {"name": step.get("name", ""), "point": converted(step, "point") + points} | {key: converted(step, key) for key in ("settlement", "move")}
+
+    steps = {key: [loads(step) for step in t[key]] for key in ("step", "case") if key in t} | {key: t[key] for key in ("combination",) if key in t}
+    return K, {"support": converted(t, "support"), "contact": converted(t, "contact")} | steps

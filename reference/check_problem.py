@@ -109,12 +109,15 @@ class Problem:
 
     def combined(self, terms):
         """The same of several tables, each times a factor."""
+        moved = {}
         f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
         for table, factor in terms:
-            force, moved, work = self.loads(table)
+            force, place, work = self.loads(table)
+            moved = {dof: moved.get(dof, 0) + factor * self.moved.get(dof, 0) for dof in moved | self.moved}
             f = [a + factor * b for a, b in zip(f, force)]
-            settled = {dof: a + factor * moved[dof] for dof, a in settled.items()}
+            settled = {dof: a + factor * place[dof] for dof, a in settled.items()}
             own = [[a + factor * b for a, b in zip(*at)] for at in zip(own, work)]
+        self.move_faces(moved)
         return f, settled, own
 
     def loads(self, step):
@@ -161,7 +164,11 @@ class Problem:
             for dof, value in self.at_dofs(part):
                 need(dof in self.fixed and dof not in settled, "a settlement of a dof that is free, or a second one")
                 settled[dof] = value
-        self.move_faces(step.get("move", []))
+        moved = {}
+        for dof, value in (at for part in step.get("move", []) for at in self.at_dofs(part)):
+            need(dof in {pair[0] for pair in self.unmoved} and dof not in moved, "a move where there is no pair, or a second one")
+            moved[dof] = value
+        self.move_faces(moved)
         return f, dict.fromkeys(self.fixed, F(0)) | settled, own
 
     def inside(self, i, x):
@@ -182,12 +189,9 @@ class Problem:
             return [(e, [at]) for e, at in sides[0]]
         return [(j * (len(self.lines[0]) - 1) + i, [x, y]) for j, y in sides[1] for i, x in sides[0]]
 
-    def move_faces(self, moves):
+    def move_faces(self, moved):
         """Exactly, and as doubles add the face and its move up."""
-        moved = {}
-        for dof, value in (at for part in moves for at in self.at_dofs(part)):
-            need(dof in {pair[0] for pair in self.unmoved} and dof not in moved, "a move where there is no pair, or a second one")
-            moved[dof] = value
+        self.moved = moved
         self.pairs = [(dof, n, face + moved.get(dof, 0), k) for dof, n, face, k in self.unmoved]
         self.told_faces = [float(face) + float(moved.get(dof, 0)) for dof, _, face, _ in self.unmoved]
 

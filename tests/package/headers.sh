@@ -19,7 +19,7 @@ for header in $(sed -n 's/^| `\(contct\/[^`]*\)`.*/\1/p' "$source/reference/libr
   count=$((count + 1))
 done
 [ "$count" -ge 20 ] || { echo "only $count headers were compiled" >&2; exit 1; }
-if find "$prefix" -path '*lab*' | grep . >&2; then
+if find "$prefix" -path '*/lab*' | grep . >&2; then
   echo "the laboratory is installed (above)" >&2
   exit 1
 fi

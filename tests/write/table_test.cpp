@@ -140,7 +140,7 @@ TEST_CASE("the table of pairs has each in every increment, as the states have it
     const structure_state& f = t.states[(i + 1) / 2];
     const std::size_t pair = (i + 1) % 2;
     INFO("row " << i);
-    REQUIRE(r.size() == 10);
+    REQUIRE(r.size() == 11);
     CHECK(r[2] == std::to_string(pair + 1));
     CHECK(r[5] == (f.closed(pair) ? "contact" : "separated"));
     const double w = f.displacement[pair == 0 ? 4 : 2];
