@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t name_width_at_most = 24;
 
-/// The largest moment, or the largest displacement where there is none: its name and place.
-const value_range& largest_of(const std::vector<value_range>& ranges) {
-  const value_range* const moment = bending(ranges);
-  return moment != nullptr ? *moment : ranges.front();
-}
-
 std::string row_of(const run_result& r, const load_path& loads, std::size_t i, std::size_t name_width) {
   const step_record& s = r.record.steps[i];
   const std::optional<certificate>& judged = r.judged.steps()[i];
@@ -29,7 +23,8 @@ std::string row_of(const run_result& r, const load_path& loads, std::size_t i, s
   std::string largest;
   std::string place;
   if (!at_end.ranges.empty()) {
-    const value_range& range = largest_of(at_end.ranges);
+    const value_range* const moment = bending(at_end.ranges);
+    const value_range& range = moment != nullptr ? *moment : at_end.ranges.front();
     largest = fmt::format("{} {:.6g}", range.name, range.largest().value);
     place = place_words(r.what.geometry, range.largest());
   }
