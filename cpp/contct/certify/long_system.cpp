@@ -7,29 +7,6 @@
 namespace contct {
 namespace {
 
-/// Loads that act on the same elements as one load there, of which together nothing may be left.
-load merged(const load& l, int elements) {
-  if (l.distributed.size() < 2) return l;
-  std::vector<std::vector<const distributed_load*>> on(elements);
-  for (const distributed_load& d : l.distributed)
-    for_each_loaded_element(d, elements, [&](int e) { on[e].push_back(&d); });
-  load together = l;
-  together.distributed.clear();
-  for (int e = 0; e < elements; ++e) {
-    if (on[e].empty()) continue;
-    if (e == 0 || on[e] != on[e - 1]) {
-      distributed_load& sum = together.distributed.emplace_back();
-      for (const distributed_load* d : on[e]) {
-        sum.polynomial.resize(std::max(sum.polynomial.size(), d->polynomial.size()));
-        if (d->parts.empty()) sum.parts.push_back({d->polynomial});
-        sum.parts.insert(sum.parts.end(), d->parts.begin(), d->parts.end());
-      }
-    }
-    together.distributed.back().elements.push_back(e);
-  }
-  return together;
-}
-
 /// Shears and moments at the ends of a beam's elements. Their energies: a beam's moment is linear.
 std::vector<element_value> values_of(const beam_elements<double_double>& beam, const load& l,
                                      std::span<const double_double> u) {
@@ -219,14 +196,13 @@ long_system long_system_of(const problem& p) {
     t.root.push_back(std::sqrt(t.stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
     t.deflects.push_back(dof % dofs_per_node(p.geometry) == 0 ? 1 : 0);
   }
-  const auto acting = [&p](int step) { return merged(p.steps[step - 1], elements(p.geometry)); };
-  t.loads = [acting, loads_of = t.loads_of](int step) { return long_loads{loads_of(acting(step)), step}; };
+  t.loads = [&p, loads_of = t.loads_of](int step) { return long_loads{loads_of(p.steps[step - 1]), step}; };
   std::visit(
       [&](const auto& kind) {
         t.least_product = least_product_of(kind);
-        t.element_values = [acting, elements = elements_of<double_double>(kind)](
+        t.element_values = [&p, elements = elements_of<double_double>(kind)](
                                int step, std::span<const double_double> u) {
-          return values_of(elements, acting(step), u);
+          return values_of(elements, p.steps[step - 1], u);
         };
       },
       p.geometry.kind);

@@ -46,11 +46,10 @@ class beam_elements {
                           : formulas::beam_stiffness(EI(e), h_[e]);
   }
 
-  /// Call visit(element, work) for every load on every element; where some need not follow the mesh, for all
-  /// the loads on an element together.
+  /// Call visit(element, work) for every load on every element, or for all those on an element together.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
-    if (!l.placed.empty()) {
+    if (are_summed_exactly<Number>(l)) {
       for_each_exact_work<Number>(beam_, l, [&](int e, const std::array<Number, 4>& force) {
         element_work<Number, 4> work{dofs_of(e), force, {}};
         for (std::size_t i = 0; i < 4; ++i) work.size[i] = size_of(force[i]);
@@ -182,7 +181,7 @@ class plate_elements {
 
   /// On every element: all the distributed loads together.
   [[nodiscard]] std::vector<summed_pressure<Number>> pressures(const load& l) const {
-    if (!l.placed.empty()) return exact_pressures<Number>(plate_, l);
+    if (are_summed_exactly<Number>(l)) return exact_pressures<Number>(plate_, l);
     std::vector<summed_pressure<Number>> sums(count());
     for (const distributed_load& d : l.distributed) {
       const std::vector<Number> q = coefficients_of<Number>(d);

@@ -6,12 +6,20 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "contct/model/problem.hpp"
 #include "contct/number/double_double.hpp"
 
 namespace contct {
+
+/// Are all loads on an element summed before they are rounded? In doubles only where the sums are needed
+/// anyway; in longer numbers wherever nothing may be left of several.
+template <class Number>
+[[nodiscard]] bool are_summed_exactly(const load& l) {
+  return !l.placed.empty() || (!std::is_same_v<Number, double> && l.distributed.size() > 1);
+}
 
 /// Call visit(element, force) for every element of a beam that something acts on, with the work of all loads
 /// together on its shape functions, each number rounded once.
