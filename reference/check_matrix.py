@@ -42,6 +42,8 @@ def as_nodes(part, number, keys):
     only(part, {"dof", "dofs", *keys})
     need(("dof" in part) + ("dofs" in part) == 1, "not one of dof and dofs")
     part = dict(part, nodes=[number[label.encode()] for label in listed(part.pop("dofs", part.pop("dof", None)))])
+    if "other" in part:
+        part["other"] = [number[label.encode()] - 1 for label in listed(part["other"])]
     if "fix" in part:
         need(part["fix"] is True and "spring" not in part, "fix is not true, or beside a spring")
         part["fix"] = "w"
@@ -56,7 +58,7 @@ def matrix(of, t, folder):
     labels = (Path(folder) / of["dofs"]).read_bytes().split() if "dofs" in of else [b"%d" % (i + 1) for i in range(len(K))]
     number = {label: i + 1 for i, label in enumerate(labels)}
     need(len(labels) == len(number) == len(K), f"{of.get('dofs')}: not one label for each row")
-    keys = {"support": ["fix", "spring"], "contact": ["surface", "face", "stiffness", "state"], "point": ["value"], "settlement": ["value"], "move": ["value"]}
+    keys = {"support": ["fix", "spring"], "contact": ["surface", "face", "stiffness", "state", "other"], "point": ["value"], "settlement": ["value"], "move": ["value"]}
 
     def converted(table, key):
         return [as_nodes(dict(part), number, keys[key]) for part in table.get(key, [])]

@@ -55,9 +55,9 @@ class Problem:
         for s in t.get("support", []):
             self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs = []  # (dof, n, face, stiffness); `loads` puts the faces where a step moves them
+        self.pairs, self.others = [], []  # (dof, n, face, stiffness); the dof with the face, or None. `loads` moves the faces
         for c in t.get("contact", []):
-            nodes = self.nodes(c, {"surface", "face", "stiffness", "state"})
+            nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
         for c in t.get("bed", []):
             nodes = self.nodes(c, {"surface", "face", "modulus", "state"}, "all")
@@ -83,9 +83,16 @@ class Problem:
             faces = [sum(a * self.lines[0][node]**power for power, a in enumerate(powers)) for node in nodes]
         else:
             faces = one_each(c["face"], nodes)
-        for node, x, k in zip(nodes, faces, stiffness, strict=True):
+        others = (c["other"] if len(c["other"]) > 1 else c["other"] * len(nodes)) if "other" in c else [None] * len(nodes)
+        for node, x, k, other in zip(nodes, faces, stiffness, others, strict=True):
+            need(other is None or (other != node and not {node, other} & self.fixed), "a pair of a dof with itself, or with a fixed one")
             if self.dof(node, "w") not in without:
                 self.pairs.append((self.dof(node, "w"), {"above": 1, "below": -1}[surface], x, positive(k)))
+                self.others.append(other)
+
+    def seen(self, i, u):
+        """What pair i sees of displacements u."""
+        return u[self.pairs[i][0]] - (0 if self.others[i] is None else u[self.others[i]])
 
     def polynomial(self, coefficients):
         need(len(self.lines) == 1 and coefficients, "a polynomial that is not along a beam")
@@ -166,7 +173,7 @@ class Problem:
                 settled[dof] = value
         moved = {}
         for dof, value in (at for part in step.get("move", []) for at in self.at_dofs(part)):
-            need(dof in {pair[0] for pair in self.unmoved} and dof not in moved, "a move where there is no pair, or a second one")
+            need(dof in {pair[0] for pair in self.unmoved} - set(self.others) and dof not in moved, "a move where there is no pair, or a second one")
             moved[dof] = value
         self.move_faces(moved)
         return f, dict.fromkeys(self.fixed, F(0)) | settled, own

@@ -9,6 +9,7 @@ import sys
 import tomllib
 from fractions import Fraction as F
 from os.path import dirname
+from types import SimpleNamespace
 
 from check_definite import reach_of, semidefinite, up
 from check_format import check_format, parsed
@@ -20,36 +21,52 @@ MILLIONTH = F(1, 10**6) * (1 + F(1, 2**40))  # the program compares doubles
 def bounded(p, f, settled, s):
     """The state, what K needs beyond the loads, the pairs' depths, and squares: of rho, and of each dof's error per rho."""
     u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s.get("u", [(0, 0)] * p.n))]
-    deep = [n * (u[dof] - face) for dof, n, face, _ in p.pairs]
+    deep = [n * (p.seen(i, u) - face) for i, (_, n, face, _) in enumerate(p.pairs)]
     needed = [dot(row.values(), [u[j] for j in row]) - f[i] for i, row in enumerate(p.K)]
-    for (dof, n, _, k), d in zip(p.pairs, deep):
+    for (dof, n, _, k), other, d in zip(p.pairs, p.others, deep):
         needed[dof] += n * k * max(d, 0)
+        if other is not None:
+            needed[other] -= n * k * max(d, 0)
     if "L" not in s:  # nothing acts, and u = 0 is an equilibrium
         need(not any(f) and not any(u) and all(n * face >= 0 for _, n, face, _ in p.pairs), "something acts, and there is no L")
         return u, needed, deep, F(0), [F(0)] * p.n
     closed, springs = [i - 1 for i in s["closed"]], [F(0)] * p.n
+    A = SimpleNamespace(n=p.n, fixed=p.fixed, K=[dict(row) for row in p.K])  # with what springs between two dofs have beside the diagonal
     for i in closed:
-        springs[p.pairs[i][0]] += p.pairs[i][3]
-    reach, rho2 = reach_of(p, s, springs), F(0)
+        dof, other, k = p.pairs[i][0], p.others[i], p.pairs[i][3]
+        springs[dof] += k
+        if other is not None:
+            springs[other] += k
+            A.K[dof][other] = A.K[other][dof] = A.K[dof].get(other, 0) - k
+    reach, rho2 = reach_of(A, s, springs), F(0)
     p.definite = p.definite or not closed
     r = [F(0) if dof in p.fixed else -x for dof, x in enumerate(needed)]
     z = [F(0) if dof in p.fixed else F(hi) + F(lo) for dof, (hi, lo) in enumerate(s["z"] or [(0, 0)] * p.n)]
-    for dof, row in enumerate(p.K):
+    for dof, row in enumerate(A.K):
         if dof not in p.fixed:
             e = r[dof] - dot(row.values(), [z[j] for j in row]) - springs[dof] * z[dof]
             rho2 += up(r[dof] * z[dof] + z[dof] * e + reach[dof] * e * e)
-    for dof, k, d in ((p.pairs[i][0], p.pairs[i][3], deep[i]) for i in closed):
-        need(dof not in p.fixed and d > 0 and d * d > min(reach[dof], 1 / k) * rho2, "a pair is taken as closed that may be open")
+    for i, dof, k, d in ((i, p.pairs[i][0], p.pairs[i][3], deep[i]) for i in closed):
+        need(dof not in p.fixed and d > 0 and d * d > min(reach_of_pair(p, s, reach, i), 1 / k) * rho2, "a pair is taken as closed that may be open")
     return u, needed, deep, rho2, reach
 
 
-def claims_of(p, own, u, needed, deep, rho2, reach):
+def reach_of_pair(p, s, reach, i):
+    """(s_i + s_j)^2 / mu of a pair between two dofs."""
+    dof, other = p.pairs[i][0], p.others[i]
+    if dof in p.fixed:
+        return 0
+    return reach[dof] * (1 if other is None or "L" not in s else 1 + F(2)**(s["scale"][other] - s["scale"][dof]))**2
+
+
+def claims_of(p, s, own, u, needed, deep, rho2, reach):
     """(kind, value in the state u, square of its error per rho) of each number of the file, in its order."""
     per, held = len(p.names), {dof: (needed[dof], p.K[dof][dof]) for dof in p.fixed}
     spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # squares per rho: of displacements, then of forces
     claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
-    for (dof, _, _, k), d in zip(p.pairs, deep):
-        claims.append(("force", k * max(d, 0), 0 if d < 0 and d * d > spread[dof] * rho2 else min(k, k * k * spread[dof])))
+    for i, ((_, _, _, k), d) in enumerate(zip(p.pairs, deep)):
+        square = reach_of_pair(p, s, reach, i)
+        claims.append(("force", k * max(d, 0), 0 if d < 0 and d * d > square * rho2 else min(k, k * k * square)))
     for dof, k in p.supports:  # a dof that is fixed twice gives its reaction to the first
         true, square = held.pop(dof, (0, 0)) if k is None else (-k * u[dof], min(k, k * k * spread[dof]))
         claims.append(("moment" if dof % per else "reaction", true, square))
@@ -79,9 +96,9 @@ def sizes_of(p, f, settled, told, largest):
 def check_pairs(p, s, deep, rho2, reach, told):
     """The gap of each pair is within its bound; gives the pairs that certainly have the other state."""
     error, wrong = F(s["error"]["gap"]), []
-    for i, ((dof, n, _, _), face, d, state) in enumerate(zip(p.pairs, p.told_faces, deep, s["state"])):
-        square = 0 if dof in p.fixed else reach[dof] * rho2
-        gap = F(0) if state == "contact" else F(n * (face - s["displacement"][dof]))
+    for i, ((_, n, _, _), face, d, state) in enumerate(zip(p.pairs, p.told_faces, deep, s["state"])):
+        square = reach_of_pair(p, s, reach, i) * rho2
+        gap = F(0) if state == "contact" else F(n * (face - p.seen(i, s["displacement"])))
         least, most = -d - (gap - error), gap + error + d  # how far -d may be from either
         need(gap <= error or least >= 0 and least * least >= square, f"the bound on gap does not hold for pair {i + 1}")
         need(most >= 0 and most * most >= square, f"the bound on gap does not hold for pair {i + 1}")
@@ -100,7 +117,7 @@ def check(p, step, s, largest):
     u, needed, deep, rho2, reach = bounded(p, f, settled, s)
     p.definite = p.definite or semidefinite(p)
     need(p.definite, "the stiffness is not shown to be positive semidefinite")
-    claims = claims_of(p, own, u, needed, deep, rho2, reach)[0 if "L" in s else p.n:]
+    claims = claims_of(p, s, own, u, needed, deep, rho2, reach)[0 if "L" in s else p.n:]
     error, told = {kind: F(bound) for kind, bound in s["error"].items() if bound is not None}, {}
     for number, ((kind, true, square), x) in enumerate(zip(claims, s.get("displacement", []) + s["force"] + s["reactions"] + s["elements"], strict=True)):
         room = error[kind] - abs(F(x) - true)

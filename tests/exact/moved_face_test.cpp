@@ -1,4 +1,4 @@
-// Moved faces in rational numbers.
+// Moved faces, and pairs between two dofs, in rational numbers.
 #include <cmath>
 #include <string>
 
@@ -58,5 +58,28 @@ TEST_CASE("States with moved faces are as exact as their bounds say") {
       const rational off = binary_value(r.numbers[step].pair_forces[0]) - truly.steps[step].force[0];
       CHECK(std::abs(contct::rounded(off)) <= c.error[quantity::force].value());
     }
+  }
+}
+
+TEST_CASE("Cantilevers that meet press on each other as the fraction says, by either rule") {
+  assembled a;
+  a.stiffness = {4,
+                 {{0, 0, 15000},
+                  {1, 0, -15000},
+                  {1, 1, 20000},
+                  {2, 0, 0},
+                  {2, 2, 240000},
+                  {3, 2, -120000},
+                  {3, 3, 80000}}};
+  problem what;
+  what.geometry.kind = a;
+  what.pairs = {{0, face_below, -0.002, 1e5, false, 2}};
+  what.steps = {{{{0, 0, -15}}, {}}};
+  const exact_problem p = exact_problem_of(what);
+  for (const exact_path& path : {follow_1989_path(p), follow_corrected_path(p)}) {
+    REQUIRE(path.steps.size() == 1);
+    CHECK(path.steps[0].increments[0].fraction == rational(1, 2));
+    CHECK(path.steps[0].force[0] == rational(75, 11));  // 0.002 / (1 / 3750 + 1 / 60000 + 1 / 100000)
+    CHECK(path.steps[0].displacement[2] == rational(-75, 11 * 60000));
   }
 }

@@ -250,6 +250,8 @@ inline std::vector<bad_input> bad_units_and_steps() {
        "step[1].move[1].theta", "unknown", "node, nodes, x, w"},
       {"a move without a distance", step_with("move = [ { node = 3 } ]\n"), "13:10", "step[1].move[1].w",
        "missing", "number"},
+      {"a pair between two nodes of a beam", with("face = -0.004\n", "face = -0.004\nother = 2\n"), "11:9",
+       "contact[1].other", "this key with a beam or a plate", "structures with a gap between them are one"},
       {"a settlement of a pair", step_with("settlement = [ { node = 3, w = 1 } ]\n"), "13:32",
        "step[1].settlement[1].w", "node 3, whose w no support holds", "move, written like settlement"},
       {"a decimal comma", with("-0.004", "-0,004"), "10:", "", "not TOML", "a decimal point, 4.0 for 4,0"},

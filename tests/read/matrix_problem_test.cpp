@@ -346,6 +346,20 @@ TEST_CASE(
        "at least one of load, point"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "load = \"f.mtx\""), "f.mtx:2", "2 rows",
        "3, as the matrix has"},
+      {small_with("face = -0.5\n", "face = -0.5\nother = \"c\"\n"), "p.toml:11:9: contact[1].other",
+       "dof c, which the pair itself is at", "another dof"},
+      {small_with("face = -0.5\n", "face = -0.5\nother = \"bb\"\n"), "p.toml:11:9: contact[1].other",
+       "\"bb\"", "a label of"},
+      {small_with("face = -0.5\n", "face = -0.5\nother = [\"a\", \"b\"]\n"), "p.toml:11:9: contact[1].other",
+       "2 labels", "one, or 1, one for each pair"},
+      {small_with("spring = 2.0\n[[contact]]\n", "fix = true\n[[contact]]\nother = \"a\"\n"),
+       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "leave out other"},
+      {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "move = [ { dof = \"a\", value = 1 } ]"),
+       "p.toml:13:10: step[1].move[1]", "no pair at dof a", "[[contact]]"},
+      {small_with("face = -0.5\n", "face = -0.5\nother = \"b\"\n") +
+           "move = [ { dof = \"b\", value = 1 } ]\n",
+       "p.toml:15:10: step[1].move[1]", "dof b, which is the other dof of a pair",
+       "exchange its dof and other"},
       {small_with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"),
        "p.toml:12:1: step[1]", "sum or moment is not finite", "double"},
   };
@@ -361,6 +375,17 @@ TEST_CASE(
   CHECK_THAT(
       message_of_structure(here.write("c.toml", "[calculix]\njob = \"none\"\n[[step]]\nload = \"f.mtx\"\n")),
       Catch::Matchers::Contains("none.dof: cannot be read"));
+}
+
+TEST_CASE("a label that no dof has is refused with the one that is nearest to it") {
+  const scratch_folder here;
+  (void)here.write("K.mtx", small_matrix);
+  (void)here.write("K.dof", "185.1\n185.2\n212.3\n");
+  const std::string message = message_of_structure(
+      here.write("p.toml",
+                 "[matrix]\nstiffness = \"K.mtx\"\ndofs = \"K.dof\"\n[[contact]]\ndof = \"185.1\"\n"
+                 "other = \"212.33\"\nsurface = \"below\"\nface = 0\nstiffness = 1\n[[step]]\n"));
+  CHECK_THAT(message, Catch::Matchers::Contains("found \"212.33\" (did you mean \"212.3\"?)"));
 }
 
 TEST_CASE("a matrix that is no stiffness is refused where it is factored, with its file and what was found") {

@@ -58,7 +58,8 @@ TEST_CASE("a matrix's dofs: a label, or several, each once") {
   CHECK(nodes_in(m, "dof = \"top\"") == std::vector<int>{2});
   CHECK(nodes_in(m, "dofs = [\"top\", \"1.1\"]") == std::vector<int>{2, 0});
   CHECK_THAT(refusal(m, "dofs = [\"top\", \"top\"]"), Contains("dofs[2]: found dof top, a second time"));
-  CHECK_THAT(refusal(m, "dof = \"1.3\""), Contains("dof: found \"1.3\"; allowed: a label of"));
+  CHECK_THAT(refusal(m, "dof = \"1.3\""),
+             Contains("dof: found \"1.3\" (did you mean \"1.1\"?); allowed: a label of"));
   CHECK_THAT(refusal(m, "dof = \"1\""), Contains("such as \"1.1\""));
 }
 

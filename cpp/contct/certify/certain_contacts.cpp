@@ -89,7 +89,7 @@ std::vector<int> certain_contacts::holding(std::span<const double_double> u, std
   std::ranges::stable_sort(nearest, {}, [&](int i) { return -system_.depth(i, u).hi; });
   for (const int i : nearest) {
     const int before = rank.rank();
-    rank.hold(structure_.dof_of_pair(i));
+    structure_.hold(rank, i);
     if (rank.rank() > before) closed.push_back(i);
   }
   std::ranges::sort(closed);
@@ -146,7 +146,8 @@ bool certain_contacts::find(std::span<const double_double> u, const long_residua
 
 double certain_contacts::reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const {
   const int dof = system_.pairs[pair].dof;
-  const double moved = system_.fixed[dof] != 0 || rho == 0.0 ? 0.0 : reach(dof) * rho * (1 + summation_slack);
+  const double moved =
+      system_.fixed[dof] != 0 || rho == 0.0 ? 0.0 : reach(system_.pairs[pair]) * rho * (1 + summation_slack);
   return moved + system_.doubt(pair, u);
 }
 
@@ -159,8 +160,7 @@ bool certain_contacts::erase_doubtful(std::span<const double_double> u, double r
                                       std::vector<int>& closed) const {
   return std::erase_if(closed, [&](int i) {
            const long_pair& p = system_.pairs[i];
-           const double moved =
-               std::min(reach(p.dof), (1 + summation_slack) / std::sqrt(p.stiffness.hi)) * rho;
+           const double moved = std::min(reach(p), (1 + summation_slack) / std::sqrt(p.stiffness.hi)) * rho;
            return !(system_.depth(i, u).hi * (1 - summation_slack) - system_.doubt(i, u) > moved);
          }) > 0;
 }
@@ -182,7 +182,7 @@ bool certain_contacts::stands_free(int step, std::span<const double_double> u, c
   if (structure_.is_held(held) || structure_.driven_motion(held, {}, work)) return false;
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     rigid_rank with_it = held;
-    with_it.hold(structure_.dof_of_pair(i));
+    structure_.hold(with_it, i);
     if (with_it.rank() > held.rank() && !is_certainly_open(i, u, b.rho)) return false;
   }
   return true;

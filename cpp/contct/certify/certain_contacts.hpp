@@ -43,6 +43,10 @@ class certain_contacts {
 
   /// How far a dof can be moved in a state at a distance of 1.
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
+  /// How far what a pair sees can be moved so.
+  [[nodiscard]] double reach(const long_pair& p) const {
+    return p.other < 0 ? reach(p.dof) : reach(p.dof) + reach(p.other);
+  }
   /// How far the depth of a pair in any state within rho of u can be from that under u.
   [[nodiscard]] double reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const;
   /// Not in contact, in any state within rho of u.

@@ -124,8 +124,8 @@ void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
   const std::vector<double> v = from_faces(s.step, s.displacement);
   for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {
-    const std::size_t dof = structure_.dof_of_pair(static_cast<int>(i));
-    const double force = force_of(structure_.pairs[i], v[dof], s.isep[i] == in_contact);
+    const double force =
+        force_of(structure_.pairs[i], structure_.seen_by_pair(i, v), s.isep[i] == in_contact);
     largest = std::max(largest, std::abs(force));
     if (-force > c.pull) {
       c.pulling = static_cast<int>(i);
@@ -138,7 +138,7 @@ void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
 std::string certifier::status_words(std::size_t pair, const step_state& s) const {
   const contact_pair& p = structure_.pairs[pair];
   const std::vector<double> v = from_faces(s.step, s.displacement);
-  const double off = p.surface * (p.face - v[structure_.dof_of_pair(pair)]);
+  const double off = p.surface * (p.face - structure_.seen_by_pair(pair, v));
   char text[120];
   (void)std::snprintf(text, sizeof text, "pair %zu is given as %s, but it is %s its face by %.2g", pair + 1,
                       s.isep[pair] == in_contact ? "in contact" : "separated",
@@ -252,14 +252,20 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
   for (std::size_t i = 0; i < structure_.pairs.size(); ++i) {
     const contact_pair& p = structure_.pairs[i];
     const std::size_t dof = structure_.dof_of_pair(static_cast<int>(i));
-    const double pressing = p.surface * (v[dof] - p.face);
+    const double seen = structure_.seen_by_pair(i, v);
+    const double pressing = p.surface * (seen - p.face);
     if (s.isep[i] == separated) {
       deepest = std::max(deepest, pressing);
     } else {
       farthest = std::max(farthest, -pressing);
       if (structure_.fixed[dof] != 0) continue;  // the support takes its force
-      left[row(dof)] -= static_cast<long double>(p.stiffness) * (static_cast<long double>(v[dof]) - p.face);
+      const long double spring =
+          static_cast<long double>(p.stiffness) * (static_cast<long double>(seen) - p.face);
+      left[row(dof)] -= spring;
       stiffness[dof] += p.stiffness;
+      if (p.other < 0) continue;
+      left[row(structure_.other_of_pair(i))] += spring;
+      stiffness[structure_.other_of_pair(i)] += p.stiffness;
     }
   }
   double unbalanced = 0.0;

@@ -52,7 +52,7 @@ reported_state reported_state_at(const problem& p, const step_state& s) {
                     results_in_elements(p.geometry, now, s.displacement).values}};
   const std::vector<contact_pair> pairs = pairs_under(p, now);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double w = s.displacement[std::size_t{1} * pairs[i].node * dofs_per_node(p.geometry)];
+    const double w = pairs[i].seen_in(s.displacement, dofs_per_node(p.geometry));
     h.numbers.pair_forces.push_back(force_of(pairs[i], w, s.isep[i] == in_contact));
   }
   return h;
@@ -109,7 +109,7 @@ long_vector error_prover::residual_of_set(const long_residual& r, std::span<cons
     const bool is_closed = std::ranges::binary_search(closed, static_cast<int>(i));
     if (system_.fixed[p.dof] != 0 || is_closed == (deep.hi > 0.0)) continue;
     const double_double spring = p.stiffness * deep * p.surface;
-    force[p.dof] += is_closed ? -spring : spring;
+    p.add_to(force, is_closed ? -spring : spring);
   }
   return force;
 }
@@ -265,7 +265,7 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
     const double root = std::sqrt(p.stiffness.hi) * (1 + summation_slack);
     const bool held = system_.fixed[p.dof] != 0;
     const bool open = contacts_.is_certainly_open(i, state_.u, b.rho);
-    const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * contacts_.reach(p.dof)) * b.rho;
+    const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * contacts_.reach(p)) * b.rho;
     const double noise = open ? 0.0 : p.stiffness.hi * system_.doubt(i, state_.u);
     take(b, quantity::force, told.numbers.pair_forces[i], force, noise, moved);
   }
@@ -277,7 +277,8 @@ void error_prover::bound_pairs(const reported_state& told, error_bounds& b) cons
   const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[told.step - 1]);
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     const bool is_closed = told.isep[i] == in_contact;
-    const double told_gap = gap_of(pairs[i], told.displacement[system_.pairs[i].dof], is_closed);
+    const double seen = pairs[i].seen_in(told.displacement, dofs_per_node(problem_.geometry));
+    const double told_gap = gap_of(pairs[i], seen, is_closed);
     const double_double gap = -system_.depth(i, state_.u);
     const double reach = contacts_.reach_of_pair(i, state_.u, b.rho);
     const bool is_wrong =

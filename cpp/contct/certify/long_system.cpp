@@ -127,7 +127,7 @@ void long_system::move_faces(const long_loads& l) {
 }
 
 double long_system::doubt(std::size_t pair, std::span<const double_double> u) const {
-  const double size = std::abs(u[pairs[pair].dof].hi) + face_size[pair];
+  const double size = size_of_depth(pair, u);
   return size == 0.0 ? 0.0 : 2 * long_rounding * size + 0x1p-1000;  // of underflow
 }
 
@@ -168,9 +168,12 @@ long_residual long_system::residual(std::span<const double_double> u, const long
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const long_pair& p = pairs[i];
     const double_double deep = depth(i, u);
-    const double size = std::abs(u[p.dof].hi) + face_size[i];
-    if (deep.hi > -long_rounding * size) r.slack[p.dof] += p.stiffness.hi * size;
-    if (!(deep.hi <= 0.0)) r.needed[p.dof] += p.stiffness * deep * p.surface;  // what is no number is told
+    const double size = size_of_depth(i, u);
+    if (deep.hi > -long_rounding * size) {
+      r.slack[p.dof] += p.stiffness.hi * size;
+      if (p.other >= 0) r.slack[p.other] += p.stiffness.hi * size;
+    }
+    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // what is no number is told
   }
   put_forces(r);
   return r;

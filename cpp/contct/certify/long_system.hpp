@@ -76,9 +76,14 @@ struct long_system : equations<double_double> {
 
   /// How deep a pair is beyond its face under `u`, and how far rounding can put that off.
   [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const {
-    return (u[pairs[pair].dof] - pairs[pair].face) * pairs[pair].surface;
+    return (pairs[pair].seen_in(u) - pairs[pair].face) * pairs[pair].surface;
   }
   [[nodiscard]] double doubt(std::size_t pair, std::span<const double_double> u) const;
+  /// The magnitudes that it is summed from.
+  [[nodiscard]] double size_of_depth(std::size_t pair, std::span<const double_double> u) const {
+    const long_pair& p = pairs[pair];
+    return std::abs(u[p.dof].hi) + (p.other < 0 ? 0.0 : std::abs(u[p.other].hi)) + face_size[pair];
+  }
 
   /// The load less K u and what pairs beyond their faces press with, whatever their statuses.
   [[nodiscard]] long_residual residual(std::span<const double_double> u, const long_loads& l) const;

@@ -41,7 +41,8 @@ class reference_solver::search {
         set_(s.pairs.size()),
         factor_(quickest_factor(s) == factored_by::cholmod ? stiffness_ : s.stiffness) {
     for (std::size_t i = 0; i < s.pairs.size(); ++i)
-      pair_rows_.push_back(s.row_of(s.dof_of_pair(static_cast<int>(i))));
+      pair_rows_.push_back({s.row_of(s.dof_of_pair(i)), s.pairs[i].stiffness,
+                            s.pairs[i].other < 0 ? -1 : s.row_of(s.other_of_pair(i))});
     start_undeformed();
     for (int row = 0; row < s.dofs(); ++row) scale_.push_back(std::sqrt(s.stiffness.diagonal(row)));
   }
@@ -109,7 +110,7 @@ class reference_solver::search {
     pair_set set = set_;
     for (std::size_t i = 0; i < set.size(); ++i) {
       const contact_pair& p = structure_.pairs[i];
-      const long double pressing = p.surface * (u[pair_rows_[i]] - p.face);
+      const long double pressing = p.surface * (pair_rows_[i].stretch(u) - p.face);
       if (!(std::abs(pressing) <= tie)) set[i] = pressing > 0.0L ? 1 : 0;
     }
     return set;
@@ -126,7 +127,8 @@ class reference_solver::search {
     pair_set firm(set_.size());
     for (std::size_t i = 0; i < firm.size(); ++i) {
       const contact_pair& p = structure_.pairs[i];
-      firm[i] = p.stiffness * p.surface * (u_[pair_rows_[i]] - p.face) > rounding * largest_load_ ? 1 : 0;
+      firm[i] =
+          p.stiffness * p.surface * (pair_rows_[i].stretch(u_) - p.face) > rounding * largest_load_ ? 1 : 0;
     }
     return structure_.is_held(held_by(firm));
   }
@@ -134,7 +136,7 @@ class reference_solver::search {
   /// Does no open pair stand in the way of this rigid motion?
   [[nodiscard]] bool nothing_stops(const numbers& motion) const {
     for (std::size_t i = 0; i < pair_rows_.size(); ++i)
-      if (set_[i] == 0 && structure_.pairs[i].surface * motion[pair_rows_[i]] > 0.0L) return false;
+      if (set_[i] == 0 && structure_.pairs[i].surface * pair_rows_[i].stretch(motion) > 0.0L) return false;
     return true;
   }
 
@@ -143,7 +145,7 @@ class reference_solver::search {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
     for (std::size_t i = 0; i < set_.size(); ++i)
-      if (set_[i] != 0) p[pair_rows_[i]] = 0.0L;  // what is left there is rounding
+      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // what is left there is rounding
   }
 
   /// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
@@ -161,12 +163,7 @@ class reference_solver::search {
   bool factor() {
     std::vector<spring_at> springs = springs_of(structure_, set_);
     for (const holding_spring& h : holding_) springs.push_back({static_cast<int>(h.row), h.stiffness});
-    const auto same = [](const spring_at& a, const spring_at& b) {
-      return a.row == b.row && a.stiffness == b.stiffness;
-    };
-    if (in_factor_ &&
-        std::equal(springs.begin(), springs.end(), in_factor_->begin(), in_factor_->end(), same))
-      return true;
+    if (in_factor_ && springs == *in_factor_) return true;
     ++factorisations_;
     in_factor_.reset();
     if (factor_.factor(springs)) in_factor_ = std::move(springs);
@@ -179,8 +176,10 @@ class reference_solver::search {
     for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
     for (std::size_t i = 0; i < set_.size(); ++i) {
       const contact_pair& p = structure_.pairs[i];
-      const std::size_t row = pair_rows_[i];
-      if (set_[i] != 0) r[row] -= p.stiffness * (u[row] - p.face);
+      if (set_[i] == 0) continue;
+      const long double spring = p.stiffness * (pair_rows_[i].stretch(u) - p.face);
+      r[pair_rows_[i].row] -= spring;
+      if (pair_rows_[i].other >= 0) r[pair_rows_[i].other] += spring;
     }
     for (const holding_spring& h : holding_) r[h.row] -= h.stiffness * (u[h.row] - h.rest);
     for (int dof = 0; dof < structure_.dofs(); ++dof)
@@ -207,8 +206,8 @@ class reference_solver::search {
         correction = std::max(correction, static_cast<long double>(scale_[i] * std::abs(step[i])));
         size = std::max(size, scale_[i] * std::abs(u[i]));
       }
-      for (const std::size_t row : pair_rows_)
-        largest_step = std::max(largest_step, static_cast<long double>(std::abs(step[row])));
+      for (const spring_at& at : pair_rows_)
+        largest_step = std::max(largest_step, static_cast<long double>(std::abs(at.stretch(step))));
       if (!std::isfinite(correction)) return -1.0L;
       if (pass > 0 && correction <= good_enough * size && pressed_at(u, 4 * largest_step) != set_)
         return largest_step;
@@ -234,8 +233,8 @@ class reference_solver::search {
     std::vector<bend> bends;
     for (std::size_t i = 0; i < pair_rows_.size(); ++i) {
       const contact_pair& c = structure_.pairs[i];
-      const long double w = u_[pair_rows_[i]];
-      const long double dw = p[pair_rows_[i]];
+      const long double w = pair_rows_[i].stretch(u_);
+      const long double dw = pair_rows_[i].stretch(p);
       const bool pressed = c.surface * (w - c.face) > 0;
       if (pressed) {
         slope += c.stiffness * dw * (w - c.face);
@@ -305,7 +304,7 @@ class reference_solver::search {
   const linear_structure& structure_;
   const std::optional<stiffness_matrix> sparse_;
   const stiffness_matrix& stiffness_;
-  std::vector<std::size_t> pair_rows_;   // [pairs]
+  std::vector<spring_at> pair_rows_;     // [pairs]
   numbers load_;                         // [rows]
   std::vector<double> given_;            // the same, as it was given [dofs]
   rigid_work work_;                      // of the load on each rigid motion

@@ -45,6 +45,8 @@ void scaled_stiffness::each_entry(double shift, const Put& put) const {
     for (const auto& [column, of_true] : system_.stiffness[dof]) {
       if (system_.fixed[column] != 0 || row_of_[column] > row) continue;
       double_double entry = column == dof ? of_true + springs_[dof] : of_true;
+      if (const auto between = beside_.find({dof, column}); between != beside_.end())
+        entry += between->second;
       entry = entry * (scale_[dof] * scale_[column]);
       put(row, row_of_[column], column == dof ? entry - shift : entry);
     }
@@ -74,7 +76,15 @@ sparse_columns scaled_stiffness::columns(double shift) const {
 bool scaled_stiffness::factor(std::span<const int> pairs) {
   proof_.reset();
   springs_.assign(system_.dofs(), 0.0);
-  for (const int i : pairs) springs_[system_.pairs[i].dof] += system_.pairs[i].stiffness;
+  beside_.clear();
+  for (const int i : pairs) {
+    const long_pair& p = system_.pairs[i];
+    springs_[p.dof] += p.stiffness;
+    if (p.other < 0) continue;
+    springs_[p.other] += p.stiffness;
+    beside_[{p.dof, p.other}] -= p.stiffness;
+    beside_[{p.other, p.dof}] -= p.stiffness;
+  }
   scale_.assign(system_.dofs(), 1.0);
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
     if (system_.fixed[dof] != 0) continue;
@@ -135,6 +145,10 @@ void scaled_stiffness::solve(std::span<double> b) const {
 long_vector scaled_stiffness::times(std::span<const double_double> x, std::span<double> sizes) const {
   long_vector y(x.size());
   for (std::size_t dof = 0; dof < x.size(); ++dof) y[dof] = springs_[dof] * x[dof];
+  for (const auto& [at, spring] : beside_) {
+    y[at.first] += spring * x[at.second];
+    if (!sizes.empty()) sizes[at.first] += std::abs(spring.hi * x[at.second].hi);
+  }
   system_.add_product(x, y, sizes);
   return y;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,7 +78,9 @@ class scaled_stiffness {
   const long_system& system_;
   std::vector<int> row_of_, dof_at_;
   std::optional<int> subdiagonals_;
-  long_vector springs_;        // [dofs] of the pairs taken in
+  long_vector springs_;  // [dofs] of the pairs taken in
+  /// What those between two dofs have beside the diagonal, by both.
+  std::map<std::pair<int, int>, double_double> beside_;
   std::vector<double> scale_;  // S [dofs]
   band_matrix factor_;
   std::unique_ptr<sparse_factor> sparse_;  // in place of it

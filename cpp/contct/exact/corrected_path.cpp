@@ -215,7 +215,9 @@ class corrected_path {
     }
     line_start_ = at_.at_start_of_step();
     line_rate_ = std::move(response_[1]);
-    for (const exact_pair& c : at_.problem.pairs) put_on_line(c.dof);
+    for (const exact_pair& c : at_.problem.pairs)
+      for (const int dof : {c.dof, c.other})
+        if (dof >= 0) put_on_line(dof);
   }
 
   void put_on_line(std::size_t dof) { at_.u[dof] = line_start_[dof] + at_.fraction * line_rate_[dof]; }

@@ -27,8 +27,8 @@ rational_vector residual(const exact_problem& p, const exact_step& s, const rati
     for (const auto& [column, k] : p.stiffness[dof]) needed[dof] += k * u[column];
   }
   for (const exact_pair& c : p.pairs) {
-    const rational off = u[c.dof] - c.face - s.moved[c.dof];
-    if (c.surface * off > 0) needed[c.dof] += c.stiffness * off;
+    const rational off = c.seen_in(u) - c.face - s.moved[c.dof];
+    if (c.surface * off > 0) c.add_to(needed, rational(c.stiffness * off));
   }
   return needed;
 }

@@ -68,7 +68,7 @@ void digit_counter::step_ended(const step_state& s) {
   const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[step]);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const contact_pair& c = pairs[i];
-    const double w = s.displacement[c.node * error_.size()];
+    const double w = c.seen_in(s.displacement, error_.size());
     const double force =
         s.numbers != nullptr ? s.numbers->pair_forces[i] : force_of(c, w, s.isep[i] == in_contact);
     force_error_ = std::max(force_error_, error_of(force, exactly.force[i], largest_force_));

@@ -210,14 +210,23 @@ lifted_solver::lifted_solver(const rational_rows& k, std::span<const char> fixed
 
 void lifted_solver::factor(const std::vector<added_spring>& springs) {
   std::fill(spring_.begin(), spring_.end(), rational(0));
-  for (const added_spring& s : springs) spring_[s.dof] += s.stiffness;
+  beside_.clear();
+  for (const added_spring& s : springs) {
+    spring_[s.dof] += s.stiffness;
+    if (s.other < 0) continue;
+    spring_[s.other] += s.stiffness;
+    beside_[{s.dof, s.other}] -= s.stiffness;
+    beside_[{s.other, s.dof}] -= s.stiffness;
+  }
   for (const std::uint64_t prime : primes)
     if (factor_modulo(prime) && find_free_motions()) return;
   throw std::runtime_error("the stiffness matrix is indefinite: no structure has it");
 }
 
 rational lifted_solver::entry(std::size_t row, int column, const rational& k) const {
-  return static_cast<int>(row) == column ? rational(k + spring_[row]) : k;
+  if (static_cast<int>(row) == column) return k + spring_[row];
+  const auto between = beside_.find({static_cast<int>(row), column});
+  return between == beside_.end() ? k : rational(k + between->second);
 }
 
 /// False where the matrix modulo this prime is not what it is.

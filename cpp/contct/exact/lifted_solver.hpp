@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,10 +18,12 @@ using rational_vector = std::vector<rational>;
 /// All entries of a symmetric matrix, row by row.
 using rational_rows = sparse_rows<rational>;
 
-/// What is added to the diagonal at a dof.
+/// What is added to the diagonal at a dof; or stands between two dofs, where the matrix has an entry, if only
+/// 0.
 struct added_spring {
   int dof;
   rational stiffness;
+  int other = -1;
 };
 
 /// Factors K + springs, positive semidefinite, on the dofs that are not fixed, and solves with it.
@@ -90,15 +93,16 @@ class lifted_solver {
   std::span<const char> fixed_;
   std::span<const int> place_;
   std::size_t longest_;
-  std::vector<int> dof_at_;             // the inverse of place_
-  std::size_t band_ = 0;                // subdiagonals
-  rational_vector spring_;              // on the diagonal [dofs]
-  field field_;                         // of the last factorisation
-  std::vector<std::uint64_t> factor_;   // L and D of L D L' modulo the prime, as a band
-  std::vector<std::uint64_t> inverse_;  // of D; 0 where the pivot is none
-  std::vector<char> free_;              // dofs without a pivot
-  std::vector<whole_row> whole_;        // [dofs]; empty without a pivot
-  std::vector<std::uint64_t> unscale_;  // 1 / scale of each
+  std::vector<int> dof_at_;                         // the inverse of place_
+  std::size_t band_ = 0;                            // subdiagonals
+  rational_vector spring_;                          // on the diagonal [dofs]
+  std::map<std::pair<int, int>, rational> beside_;  // of springs between two dofs, by both
+  field field_;                                     // of the last factorisation
+  std::vector<std::uint64_t> factor_;               // L and D of L D L' modulo the prime, as a band
+  std::vector<std::uint64_t> inverse_;              // of D; 0 where the pivot is none
+  std::vector<char> free_;                          // dofs without a pivot
+  std::vector<whole_row> whole_;                    // [dofs]; empty without a pivot
+  std::vector<std::uint64_t> unscale_;              // 1 / scale of each
   std::vector<rational_vector> free_motions_;
 };
 

@@ -54,7 +54,7 @@ rational path_1989::ask(const rational_vector& d_star) {
   std::vector<listing_pair> pairs;
   for (std::size_t i = 0; i < at_.closed.size(); ++i) {
     const exact_pair& c = at_.problem.pairs[i];
-    pairs.push_back({c.face, at_.u[c.dof], d_star[c.dof], at_.closed[i] != 0, c.surface});
+    pairs.push_back({c.face, c.seen_in(at_.u), c.seen_in(d_star), at_.closed[i] != 0, c.surface});
   }
   listing_answer answer = answer_exactly(pairs);
   for (const int pair : answer.toggled) {

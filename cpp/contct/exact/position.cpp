@@ -24,20 +24,16 @@ void position::begin_step(std::size_t number) {
     settlement_[dof] -= before_.settlement[dof];
     moved[dof] -= before_.moved[dof];
   }
-  increment_ = less_settled(std::move(increment_), shift_of(settlement_, moved));
-  settlement_ = settled_from_faces(std::move(settlement_), moved);
+  increment_ = less_settled(std::move(increment_), shift_of(settlement_, moved, false));
+  settlement_ = shift_of(std::move(settlement_), moved, true);
 }
 
-rational_vector position::shift_of(const rational_vector& settled, const rational_vector& moved) const {
-  rational_vector all = settled;
-  for (std::size_t dof = 0; dof < all.size(); ++dof)
-    if (problem.fixed[dof] == 0) all[dof] = moved[dof];
-  return all;
-}
-
-rational_vector position::settled_from_faces(rational_vector settled, const rational_vector& moved) const {
-  for (std::size_t dof = 0; dof < settled.size(); ++dof)
-    if (problem.fixed[dof] != 0) settled[dof] -= moved[dof];
+rational_vector position::shift_of(rational_vector settled, const rational_vector& moved,
+                                   bool from_faces) const {
+  for (std::size_t dof = 0; dof < settled.size(); ++dof) {
+    if (problem.fixed[dof] == 0) settled[dof] = from_faces ? rational(0) : moved[dof];
+    if (problem.fixed[dof] != 0 && from_faces) settled[dof] -= moved[dof];
+  }
   return settled;
 }
 
@@ -61,7 +57,8 @@ rational_vector position::less_settled(rational_vector b, const rational_vector&
 void position::factor() {
   std::vector<added_spring> springs;
   for (std::size_t i = 0; i < closed.size(); ++i)
-    if (closed[i] != 0) springs.push_back({problem.pairs[i].dof, problem.pairs[i].stiffness});
+    if (closed[i] != 0)
+      springs.push_back({problem.pairs[i].dof, problem.pairs[i].stiffness, problem.pairs[i].other});
   solver_.factor(springs);
 }
 
@@ -76,10 +73,10 @@ rational_vector position::at_start_of_step() const {
   rational_vector b = before_.force;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    if (closed[i] != 0) b[c.dof] += c.stiffness * c.face;
+    if (closed[i] != 0) c.add_to(b, rational(c.stiffness * c.face));
   }
-  return moved(less_settled(std::move(b), shift_of(before_.settlement, before_.moved)),
-               settled_from_faces(before_.settlement, before_.moved));
+  return moved(less_settled(std::move(b), shift_of(before_.settlement, before_.moved, false)),
+               shift_of(before_.settlement, before_.moved, true));
 }
 
 std::vector<event> position::events_since(const std::vector<char>& before) const {
@@ -116,7 +113,7 @@ exact_step_end position::end(path_status status, std::vector<exact_increment> in
     const exact_pair& c = problem.pairs[i];
     e.gap.push_back(closed[i] != 0 ? rational(0) : gap(i));
     e.force.push_back(closed[i] != 0 ? rational(-c.stiffness * gap(i)) : rational(0));
-    if (pairs_react) at_dofs[c.dof] -= c.surface * e.force.back();
+    if (pairs_react) c.add_to(at_dofs, rational(-c.surface * e.force.back()));
   }
   e.reactions = reactions(e.displacement, at_dofs);
   return e;

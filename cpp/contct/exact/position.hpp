@@ -33,12 +33,12 @@ class position {
 
   [[nodiscard]] rational gap(std::size_t pair) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * (c.face - u[c.dof]);
+    return c.surface * (c.face - c.seen_in(u));
   }
   /// n times what `v` does at a pair: positive towards its face.
   [[nodiscard]] rational approach(std::size_t pair, const rational_vector& v) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * v[c.dof];
+    return c.surface * c.seen_in(v);
   }
 
   /// The events that lead from `before` to the statuses now, in order of pairs.
@@ -62,10 +62,10 @@ class position {
   [[nodiscard]] rational moved_face(std::size_t dof) const {
     return before_.moved[dof] + fraction * (problem.steps[step].moved[dof] - before_.moved[dof]);
   }
-  /// What K moves to nothing: settlements at fixed dofs, moves of faces at others.
-  [[nodiscard]] rational_vector shift_of(const rational_vector& settled, const rational_vector& moved) const;
-  [[nodiscard]] rational_vector settled_from_faces(rational_vector settled,
-                                                   const rational_vector& moved) const;
+  /// The moves that become loads: settlements at fixed dofs, moves of faces at others. `from_faces`: what
+  /// fixed dofs then do, counted from the faces.
+  [[nodiscard]] rational_vector shift_of(rational_vector settled, const rational_vector& moved,
+                                         bool from_faces) const;
   /// b less what K makes of dofs that are moved to `settled`.
   [[nodiscard]] rational_vector less_settled(rational_vector b, const rational_vector& settled) const;
 

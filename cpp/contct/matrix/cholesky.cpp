@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
@@ -95,6 +96,26 @@ stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
   if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
+sparse_columns& sparse_factor::matrix() {
+  throw std::logic_error("this factor's matrix cannot be changed");
+}
+
+/// Springs between two rows are in the matrix for this factor only.
+bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
+  std::vector<std::pair<double*, double>> own;
+  for (const spring_at& s : springs) {
+    if (s.other < 0) continue;
+    double& beside = sparse_->matrix().at(std::max(s.row, s.other), std::min(s.row, s.other));
+    own.emplace_back(&beside, beside);
+    beside -= s.stiffness;
+  }
+  const bool done = sparse_->factor(k_.diagonal_with(springs));
+  for (std::size_t i = own.size(); i-- > 0;) *own[i].first = own[i].second;
+  return done;
+}
+
+/// Its norm is that without the entries beside the diagonal of springs between two rows: at most twice as
+/// large with them.
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
   const std::vector<double> diagonal = k_.diagonal_with(springs);
   if (!k_.is_band()) {

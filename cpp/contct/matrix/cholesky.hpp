@@ -53,7 +53,7 @@ class stiffness_factor {
 
   /// False when a pivot is not positive. Rounding can give a mechanism a factor, too.
   [[nodiscard]] bool factor(std::span<const spring_at> springs) {
-    if (sparse_) return sparse_->factor(k_.diagonal_with(springs));
+    if (sparse_) return factor_columns(springs);
     assemble(springs);
     return contct::factor(band_);
   }
@@ -79,8 +79,14 @@ class stiffness_factor {
   /// Overwrites the last factor.
   void assemble(std::span<const spring_at> springs) {
     band_ = k_.band();
-    for (const spring_at& s : springs) band_.at(s.row, s.row) += s.stiffness;
+    for (const spring_at& s : springs) {
+      band_.at(s.row, s.row) += s.stiffness;
+      if (s.other < 0) continue;
+      band_.at(s.other, s.other) += s.stiffness;
+      band_.add(s.row, s.other, -s.stiffness);
+    }
   }
+  [[nodiscard]] bool factor_columns(std::span<const spring_at> springs);
 
   const stiffness_matrix& k_;
   band_matrix band_;

@@ -135,6 +135,8 @@ class cholmod final : public sparse_factor {
     return done && work_.status == CHOLMOD_OK && factor_->minor == factor_->n;
   }
 
+  [[nodiscard]] sparse_columns& matrix() override { return a_; }
+
   void solve(std::span<double> b) override {
     const std::size_t n = factor_->n;
     constexpr std::size_t together = std::tuple_size_v<row_of_block>;

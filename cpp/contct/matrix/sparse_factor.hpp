@@ -32,6 +32,10 @@ class sparse_factor {
   /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
   [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
+  /// A, to change entries beside the diagonal of the next factor. Throws std::logic_error where others hold
+  /// it.
+  [[nodiscard]] virtual sparse_columns& matrix();
+
   /// Solve A x = b in place, for one right-hand side or several, one after the other. Throws std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
 

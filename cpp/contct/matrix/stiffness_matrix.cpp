@@ -123,6 +123,15 @@ sparse_columns columns_of(const sparse_matrix& a) {
   return k;
 }
 
+double& sparse_columns::at(int row, int column) {
+  const auto first = rows.begin() + starts[column];
+  const auto last = rows.begin() + starts[column + 1];
+  const auto place = std::lower_bound(first, last, row);
+  if (place == last || *place != row)
+    throw std::out_of_range("no place (" + std::to_string(row) + ", " + std::to_string(column) + ")");
+  return values[place - rows.begin()];
+}
+
 sparse_columns columns_of(const band_matrix& a) {
   sparse_columns k;
   for (int column = 0; column < a.order(); ++column) {
@@ -140,7 +149,10 @@ sparse_columns columns_of(const band_matrix& a) {
 std::vector<double> stiffness_matrix::diagonal_with(std::span<const spring_at> springs) const {
   std::vector<double> all(order());
   for (std::size_t row = 0; row < all.size(); ++row) all[row] = diagonal(row);
-  for (const spring_at& s : springs) all[s.row] += s.stiffness;
+  for (const spring_at& s : springs) {
+    all[s.row] += s.stiffness;
+    if (s.other >= 0) all[s.other] += s.stiffness;
+  }
   return all;
 }
 

@@ -120,6 +120,8 @@ struct sparse_columns {
   [[nodiscard]] int order() const { return static_cast<int>(starts.size()) - 1; }
   [[nodiscard]] double& diagonal(std::size_t row) { return values[starts[row]]; }
   [[nodiscard]] double diagonal(std::size_t row) const { return values[starts[row]]; }
+  /// An entry below the diagonal that has a place, which may be 0. Throws std::out_of_range for any other.
+  [[nodiscard]] double& at(int row, int column);
 };
 
 /// Throws std::length_error when there are more entries than an int counts.
@@ -128,10 +130,18 @@ struct sparse_columns {
 /// The same of a band; zeros in it are left out.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
-/// A spring at one row: its stiffness is added to the diagonal.
+/// A spring at one row: its stiffness is added to the diagonal. Or between two rows: then -stiffness is added
+/// beside it too, where the matrix must have a place.
 struct spring_at {
   int row;
   double stiffness;
+  int other = -1;
+
+  bool operator==(const spring_at&) const = default;
+  template <class Vector>
+  [[nodiscard]] auto stretch(const Vector& x) const {
+    return other < 0 ? x[row] : x[row] - x[other];
+  }
 };
 
 /// K: a band, or, where a band would take too much memory, sparse columns.

@@ -21,6 +21,19 @@ struct pair_in {
   int surface = 0;  ///< n: face_above (+1) or face_below (-1)
   Number face{}, stiffness{};
   bool closed = false;  ///< in contact at the start
+  int other = -1;       ///< the dof with the face; -1: it stands still
+
+  /// What the pair sees of displacements [dofs].
+  template <class Vector>
+  [[nodiscard]] Number seen_in(const Vector& u) const {
+    return other < 0 ? u[dof] : Number(u[dof] - u[other]);
+  }
+  /// Add what the pair does at its dof, and the opposite at the other one.
+  template <class Vector, class Value>
+  void add_to(Vector& f, const Value& force) const {
+    f[dof] += force;
+    if (other >= 0) f[other] -= force;
+  }
 };
 
 /// A permanent support.
@@ -89,7 +102,8 @@ template <class Number, class Elements>
 void add_pairs(const problem& p, const Elements& elements, equations<Number>& e) {
   for (const contact_pair& c : p.pairs)
     e.pairs.push_back({c.node * dofs_per_node(p.geometry), c.surface, number_of<Number>(c.face),
-                       number_of<Number>(c.stiffness), c.closed});
+                       number_of<Number>(c.stiffness), c.closed,
+                       c.other < 0 ? -1 : c.other * dofs_per_node(p.geometry)});
   if (p.beds.empty()) return;
   const std::vector<Number> shares = elements.shares();
   for (const bed& b : p.beds) {

@@ -102,7 +102,10 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   // A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all count as
   // such.
   s.lengths.assign(a.dofs(), s.pairs.empty() ? 1 : 0);
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) s.lengths[s.dof_of_pair(i)] = 1;
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    s.lengths[s.dof_of_pair(i)] = 1;
+    if (const int other = s.other_of_pair(i); other >= 0) s.lengths[other] = 1;
+  }
   return s;
 }
 

@@ -216,7 +216,7 @@ void refuse_count(const numbers& values, int in_doubt, std::optional<int> known)
 
 }  // namespace
 
-void rigid_rank::hold(int dof) {
+void rigid_rank::hold(int dof, int other) {
   if (truth_ != nullptr) {
     if (rank_ == truth_->motions() || !truth_->is_independent(dofs(), dof)) return;
     dofs_.push_back(dof);
@@ -226,8 +226,13 @@ void rigid_rank::hold(int dof) {
   if (rank_ == most_rigid_motions) return;
   // Only its direction counts; a slope's row, 1 over a length, may be of any size.
   rigid_row direction = rows_[dof];
+  double size = 0.0;  // of what the difference is rounded beside
+  if (other >= 0) {
+    size = std::max(largest_of(direction), largest_of(rows_[other]));
+    for (std::size_t i = 0; i < direction.size(); ++i) direction[i] -= rows_[other][i];
+  }
   const double largest = largest_of(direction);
-  if (!(largest > 0.0)) return;
+  if (!(largest > independent_ * size)) return;
   for (double& entry : direction) entry /= largest;
   rigid_row rest = free_part(direction);
   const double left = std::sqrt(along(rest, rest));

@@ -49,8 +49,8 @@ class rigid_rank {
   /// By rows that `truth` knows exactly.
   explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
 
-  /// Count a dof as held.
-  void hold(int dof);
+  /// Count a dof as held; or, of rows of a matrix, its distance to another one, if that is not negative.
+  void hold(int dof, int other = -1);
 
   [[nodiscard]] int rank() const { return rank_; }
 

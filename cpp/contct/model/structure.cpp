@@ -84,7 +84,7 @@ std::vector<int> linear_structure::pairs_that_hold(rigid_rank& rank) const {
   std::vector<int> holding;
   for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i) {
     const int before = rank.rank();
-    rank.hold(dof_of_pair(i));
+    hold(rank, i);
     if (rank.rank() > before) holding.push_back(static_cast<int>(i));
   }
   return holding;
@@ -106,7 +106,9 @@ std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& hel
     }
   }
   rigid_rank by_rows(rigid_rows, std::max(1e-12, rigid_rounding));
-  for (const int dof : held.dofs()) by_rows.hold(dof);
+  if (!truth) by_rows = held;
+  for (const int dof : held.dofs())
+    if (truth) by_rows.hold(dof);
   rigid_row motion = by_rows.free_part(sum);
   const double driven = largest_of(motion);
   if (!(driven > std::max(rounding_of_work, rigid_rounding) * largest_of(size))) return std::nullopt;

@@ -136,13 +136,23 @@ struct support {
   bool settles = false;  ///< a fixed one: steps may prescribe its displacement
 };
 
-/// A candidate contact pair: a one-sided spring between a node and a face.
+/// A candidate contact pair: a one-sided spring between a node and a face; or between two nodes, with the
+/// face on the other one: it then sees the difference of their deflections.
 struct contact_pair {
   int node;          ///< from 0
   int surface;       ///< n: face_above (+1) or face_below (-1)
   double face;       ///< c: the position of the face
   double stiffness;  ///< k of its spring, positive
   bool closed;       ///< in contact at the start
+  int other = -1;    ///< the node with the face, from 0; -1: the face stands still. No support fixes either
+
+  /// w of the node, less that of the other one. Of rows of numbers too.
+  template <class Vector>
+  [[nodiscard]] auto seen_in(const Vector& u, std::size_t dofs_per_node, std::size_t deflection = 0) const {
+    auto w = u[node * dofs_per_node + deflection];
+    if (other >= 0) w -= u[other * dofs_per_node + deflection];
+    return w;
+  }
 };
 
 /// n (c - w): the distance of an open pair from its face at deflection w; 0 for a closed one.
@@ -211,7 +221,7 @@ struct linear_structure {
   [[nodiscard]] rigid_rank held_by(Closed closed) const {
     rigid_rank rank = held_by_supports();
     for (std::size_t i = 0; i < pairs.size() && !is_held(rank); ++i)
-      if (closed(i)) rank.hold(dof_of_pair(i));
+      if (closed(i)) hold(rank, i);
     return rank;
   }
   /// Are these all of its rigid motions?
@@ -231,6 +241,17 @@ struct linear_structure {
   [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
   /// The dof, from 0, at which pair `i` (from 0) acts.
   [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
+  /// The dof that has its face; -1 where that stands still.
+  [[nodiscard]] int other_of_pair(std::size_t i) const {
+    return pairs[i].other < 0 ? -1 : pairs[i].other * dofs_per_node + deflection;
+  }
+  /// What pair `i` sees of displacements [dofs].
+  template <class Vector>
+  [[nodiscard]] auto seen_by_pair(std::size_t i, const Vector& u) const {
+    return pairs[i].seen_in(u, dofs_per_node, deflection);
+  }
+  /// Count pair `i` as in contact.
+  void hold(rigid_rank& rank, std::size_t i) const { rank.hold(dof_of_pair(i), other_of_pair(i)); }
 };
 
 /// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into

@@ -70,7 +70,9 @@ class cycle_detector {
 
 /// R*, D, d*, and all that belongs to the pairs. Pairs and dofs count from 0, but for ID.
 /// Displacements, D and d* among them, are counted from moving faces (count_from_faces): a row of DD and
-/// DTEST at which faces move is that of the pairs there. What leaves the path is the displacement itself.
+/// DTEST at which faces move is that of the pairs there, and a pair between two dofs has a row of its own
+/// behind those of the structure, with the difference of the two. What leaves the path is the displacement
+/// itself.
 struct path_state {
   /// `as_listed`: the kernel is called with D and d* over the dofs of the whole structure, and finds its
   /// pairs there by ID, INDOF and NDOFPN, as the listing was; and springs gather their forces increment by
@@ -89,15 +91,18 @@ struct path_state {
         pair_force(structure.pairs.size()),
         observers_(o),
         as_listed_(as_listed) {
+    int own_rows = 0;
     for (const contact_pair& p : structure.pairs) {
       c.push_back(p.face);
-      id.push_back(as_listed ? p.node + 1 : static_cast<int>(id.size()) + 1);
+      const bool has_own_row = !as_listed || p.other >= 0;  // behind those of the structure
+      const int before = as_listed ? structure.dofs() : 0;
+      id.push_back(has_own_row ? before + ++own_rows : p.node + 1);
       surface.push_back(p.surface);
       status.push_back(p.closed ? in_contact : separated);
     }
     for (std::size_t i = 0; i < pairs(); ++i) at_dof.push_back(structure.dof_of_pair(i));
     if (as_listed) {
-      dd_.resize(structure.dofs());
+      dd_.resize(structure.dofs() + own_rows);
       dtest_.resize(dd_.size());
     }
     sprung = status;
@@ -184,8 +189,10 @@ struct path_state {
     call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
-        dd_[at_dof[i]] = d[i];
-        dtest_[at_dof[i]] = d_test[i];
+        const bool has_own_row = structure.pairs[i].other >= 0;  // a matrix: one dof a node
+        const std::size_t row = has_own_row ? id[i] - std::size_t{1} : at_dof[i];
+        dd_[row] = d[i];
+        dtest_[row] = d_test[i];
       }
       arguments.dd = dd_;
       arguments.dtest = dtest_;
@@ -243,7 +250,7 @@ struct path_state {
   /// At the end of the step the displacement where the pairs act is `u` [dofs], and their statuses are `isep`
   /// [pairs].
   void put_at(std::span<const double> u, std::span<const int> isep) {
-    for (std::size_t i = 0; i < pairs(); ++i) d[i] = u[at_dof[i]] - moved(at_dof[i], 0.0);
+    for (std::size_t i = 0; i < pairs(); ++i) d[i] = structure.seen_by_pair(i, u) - moved(at_dof[i], 0.0);
     status.assign(isep.begin(), isep.end());
     find_events();
     switch_springs();
@@ -285,7 +292,8 @@ struct path_state {
   /// The structure moved by `s_min` of this rigid-body motion, and pairs that it closed are at their faces.
   void move_shape(double s_min, std::span<const double> motion) {
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
-    for (const event& e : events) shape[at_dof[e.pair]] = c[e.pair];
+    for (const event& e : events)
+      if (structure.pairs[e.pair].other < 0) shape[at_dof[e.pair]] = c[e.pair];
   }
 
   /// Tell the observers.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "contct/solve/factored_stiffness.hpp"
+
 namespace contct {
 
 response path_policy::respond() {
@@ -36,6 +38,12 @@ bool path_policy::reaches_full_load(double s_min) const {
 
 namespace {
 
+/// a - b, or 0 where that is their rounding: two dofs of one body move alike.
+double difference(double a, double b, double rounding) {
+  const double largest = std::max(std::abs(a), std::abs(b));
+  return std::abs(a - b) <= std::max(1e-10, rounding) * largest ? 0.0 : a - b;
+}
+
 /// A structure that nothing holds moves rigidly, at constant load, to the next face. Write to d* a rigid
 /// motion that the residual load drives and that supports and closed pairs leave free: the limit, up to its
 /// size, of the response of the structure on a ground that gets ever softer. It is long enough to reach every
@@ -49,6 +57,8 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
     now.d_star[i] = 0.0;
     if (now.status[i] == in_contact) continue;
     now.d_star[i] = motion->at(static_cast<int>(now.at_dof[i]));
+    if (const int other = now.structure.other_of_pair(i); other >= 0)
+      now.d_star[i] = difference(now.d_star[i], motion->at(other), now.structure.rigid_rounding);
     if (now.d_star[i] != 0.0) longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / now.d_star[i]);
   }
   const double longest = longest_way > 0.0 ? 2.0 * longest_way : 1.0;
@@ -123,7 +133,7 @@ class corrected_policy final : public path_policy {
     if (!springs) return false;
     std::vector<double> load = now_.applied_load();
     for (const int pair : springs->pairs)  // no force where the pair is
-      load[now_.at_dof[pair]] += now_.structure.pairs[pair].stiffness * now_.d[pair];
+      add_at_pair(now_.structure, pair, now_.structure.pairs[pair].stiffness * now_.d[pair], load);
     now_.engine.recover(load, now_.spring_forces(), u);
     return true;
   }
@@ -190,7 +200,9 @@ class corrected_policy final : public path_policy {
     d_test_ = now_.d_star;
     for (const int pair : kept_in_contact_)  // and for every other that acts there
       for (std::size_t i = 0; i < d_test_.size(); ++i)
-        if (now_.at_dof[i] == now_.at_dof[pair]) d_test_[i] = 0.0;
+        if (now_.at_dof[i] == now_.at_dof[pair] &&
+            now_.structure.pairs[i].other == now_.structure.pairs[pair].other)
+          d_test_[i] = 0.0;
     return d_test_;
   }
 

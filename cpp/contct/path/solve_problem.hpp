@@ -78,7 +78,7 @@ inline path_end follow(const problem& p, const linear_structure& s, std::string_
   const std::vector<contact_pair> pairs = pairs_under(p, l);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const contact_pair& at = pairs[i];
-    const double force = at.surface * force_of(at, u[at.node * stride], isep[i] == in_contact);
+    const double force = at.surface * force_of(at, at.seen_in(u, stride), isep[i] == in_contact);
     if (held_by[at.node] >= 0 && force != 0.0) all[held_by[at.node]] += force;
   }
   return all;

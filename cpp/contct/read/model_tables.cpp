@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "contct/matrix/sparse_factor.hpp"
@@ -339,6 +340,18 @@ assembled read_calculix(const toml_value& t, const named_files& files, std::vect
 }
 
 }  // namespace
+
+void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pairs, assembled& a) {
+  std::set<std::pair<int, int>> missing;  // row and column
+  for (const contact_pair& c : pairs)
+    if (c.other >= 0) missing.emplace(std::max(c.node, c.other), std::min(c.node, c.other));
+  if (missing.empty()) return;
+  for (const matrix_entry& e : a.stiffness.entries) missing.erase({e.row, e.column});
+  for (const auto& [row, column] : missing) a.stiffness.entries.push_back({row, column, 0.0});
+  if (!a.stiffness.last_digits.empty())
+    a.stiffness.last_digits.resize(a.stiffness.entries.size(), sparse_matrix::exact_entry);
+  finish(top.has("matrix") ? top["matrix"].table() : top["calculix"].table(), a);
+}
 
 model read_model(const toml_value& top, const named_files& files, std::vector<std::string>& warnings) {
   const char* const allowed = "exactly one of [beam], [plate], [matrix] and [calculix]";

@@ -72,7 +72,8 @@ int node_reader::dof_at(const toml_value& named) const {
   if (const auto at = dofs_.find(label); at != dofs_.end()) return at->second;
   // "01" and "+1" are no labels: a dof has one name.
   const int number = label.starts_with('0') ? 0 : number_in<int>(label).value_or(0);
-  if (!dofs_.empty() || number < 1 || number > matrix_->dofs()) named.refuse(labels_allowed());
+  if (!dofs_.empty() || number < 1 || number > matrix_->dofs())
+    named.refuse(in_quotes(label) + did_you_mean(label, matrix_->labels), labels_allowed());
   return number - 1;
 }
 
@@ -96,6 +97,15 @@ std::vector<int> node_reader::read(const toml_value& t) const {
     if (!seen.insert(list.back()).second)
       entry.refuse(place_words(structure_, list.back()) + ", a second time", "each of them once");
   }
+  return list;
+}
+
+std::vector<int> node_reader::labelled(const toml_value& named, std::size_t count) const {
+  std::vector<int> list;
+  for (const toml_value& entry : named.each(list_words("dofs"))) list.push_back(dof_at(entry));
+  if (list.size() != 1 && list.size() != count)
+    named.refuse(fmt::format("{} labels", list.size()), fmt::format("one, or {}, one for each pair", count));
+  list.resize(count, list.front());
   return list;
 }
 

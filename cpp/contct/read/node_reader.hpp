@@ -30,6 +30,9 @@ class node_reader {
   [[nodiscard]] const model& structure() const { return structure_; }
   [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
 
+  /// The dofs of a matrix that a value names by labels, from 0: one for all of `count`, or one for each.
+  [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;
+
   /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 

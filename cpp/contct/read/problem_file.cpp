@@ -60,6 +60,8 @@ class problem_reader {
     for (const toml_value& t : top_["hinge"].optional_tables()) read_hinge(t);
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
+    if (auto* a = std::get_if<assembled>(&problem_.geometry.kind))
+      make_room_for_pairs(top_, problem_.pairs, *a);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
     problem_.steps = read_steps(top_, *nodes_, problem_.supports, problem_.pairs, files_, problem_.warnings);
     problem_.files = files_.all();
@@ -174,9 +176,32 @@ class problem_reader {
     return {node, f.surface, face, 0.0, f.closed.value_or(face == 0)};
   }
 
+  /// The dofs with the faces of a table's pairs; -1 where these stand still.
+  [[nodiscard]] std::vector<int> read_others(const toml_value& t, const std::vector<int>& at) const {
+    if (!t.has("other")) return std::vector<int>(at.size(), -1);
+    const toml_value other = t["other"];
+    if (!nodes_->on_matrix())
+      other.refuse(
+          "this key with a beam or a plate",
+          "a face, which move in a [[step]] moves; structures with a gap between them are one [matrix]");
+    std::vector<int> others = nodes_->labelled(other, at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (others[i] == at[i])
+        other.refuse(place_words(problem_.geometry, at[i]) + ", which the pair itself is at", "another dof");
+      for (const int dof : {at[i], others[i]})
+        if (fixed_[dof] != 0)
+          other.refuse(place_words(problem_.geometry, dof) + ", which a support fixes, in a pair of two dofs",
+                       "dofs that no support fixes; leave out other, and where the support settles use move");
+    }
+    return others;
+  }
+
   void read_contact(const toml_value& t) {
-    t.allow_only(nodes_->keys_with({"surface", "face", "stiffness", "state"}));
+    std::vector<std::string_view> keys = {"surface", "face", "stiffness", "state"};
+    if (nodes_->on_matrix() || t.has("other")) keys.emplace_back("other");
+    t.allow_only(nodes_->keys_with(keys));
     const std::vector<int> at = nodes_->read(t);
+    const std::vector<int> others = read_others(t, at);
     const facing common = read_facing(t, 0);
     const toml_value face = t["face"];
     const toml_value stiffness = t["stiffness"];
@@ -184,6 +209,7 @@ class problem_reader {
     const std::vector<double> springs = stiffness.reals_for(positive_real, at.size(), "pair");
     for (std::size_t i = 0; i < at.size(); ++i) {
       problem_.pairs.push_back(pair_at(t, common, at[i], faces[faces.size() == 1 ? 0 : i], i));
+      problem_.pairs.back().other = others[i];
       problem_.pairs.back().stiffness = springs[springs.size() == 1 ? 0 : i];
       problem_.keys.push_back({face.name_of(i), stiffness.name_of(i)});
       if (fixed_in_w(at[i]))

@@ -23,7 +23,10 @@ class step_reader {
               const std::vector<contact_pair>& pairs, const named_files& files,
               std::vector<std::string>& warnings)
       : nodes_(nodes), files_(files), warnings_(warnings), held_(dofs(nodes.structure()), hold::none) {
-    for (const contact_pair& c : pairs) paired_.insert(c.node);
+    for (const contact_pair& c : pairs) {
+      paired_.insert(c.node);
+      if (c.other >= 0) others_.insert(c.other);
+    }
     for (const support& s : supports) {
       hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
       here = std::max(here, s.fixed ? hold::fixed : hold::spring);
@@ -300,12 +303,14 @@ class step_reader {
       const double value = m[name].real(any_real);
       for (const int node : at) {
         const std::string place = place_words(nodes_.structure(), node);
+        if (others_.contains(node))
+          m.refuse(place + ", which is the other dof of a pair",
+                   "the dof of that pair; or exchange its dof and other");
         if (!paired_.contains(node))
           m.refuse("no pair at " + place, "places at which a [[contact]] or a [[bed]] has a pair");
         if (!moved.insert(node).second)
           m[name].refuse(place + ", a second time in this step",
-                         "each place once: a move is the whole distance from where the face stands in the "
-                         "file");
+                         "each place once: a move is the whole distance");
         l.moves.push_back({node, 0, value});
       }
     }
@@ -316,6 +321,7 @@ class step_reader {
   std::vector<std::string>& warnings_;
   std::vector<hold> held_;  // [dofs] by supports
   std::set<int> paired_;    // nodes with pairs
+  std::set<int> others_;    // nodes with faces of pairs
 };
 
 }  // namespace

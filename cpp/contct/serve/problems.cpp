@@ -200,7 +200,7 @@ std::vector<int> statuses_at(const problem& p, const load& l, const linear_struc
   const std::vector<contact_pair> pairs = pairs_under(p, l);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const contact_pair& at = pairs[i];
-    const double w = displacement[static_cast<std::size_t>(at.node) * s.dofs_per_node];
+    const double w = at.seen_in(displacement, s.dofs_per_node);
     if (at.surface * (w - at.face) >= 0) isep[i] = in_contact;
   }
   return isep;

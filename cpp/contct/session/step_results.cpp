@@ -30,7 +30,9 @@ std::vector<int> deflecting_nodes(const problem& p) {
   if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
     for (std::size_t dof = 0; dof < is_length.size(); ++dof)
       is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
-    for (const contact_pair& pair : p.pairs) is_length[pair.node] = 1;
+    for (const contact_pair& pair : p.pairs)
+      for (const int node : {pair.node, pair.other})
+        if (node >= 0) is_length[node] = 1;
   }
   std::vector<int> list;
   for (int node = 0; node < nodes(p.geometry); ++node)
@@ -86,7 +88,7 @@ step_results results_of(const problem& p, const load& l, const structure_state& 
   }
   r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
   for (const contact_pair& c : pairs_under(p, l))
-    r.pairs.push_back(reading_of(c, deflection_of(p, u, c.node), s.closed(r.pairs.size())));
+    r.pairs.push_back(reading_of(c, c.seen_in(u, dofs_per_node(p.geometry)), s.closed(r.pairs.size())));
   const std::vector<double>& known = s.numbers ? s.numbers->pair_forces : s.pair_forces;
   for (std::size_t i = 0; i < known.size(); ++i) r.pairs[i].force = known[i];
   return r;

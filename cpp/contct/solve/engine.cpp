@@ -72,6 +72,10 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   refuse_unknown_engine(name);
   if (name == "condensed") return make_condensed_engine(s);
   if (name == "updated") return make_updated_engine(s, quickest_factor(s));
+  if (name == "petsc" && has_pairs_of_two(s))
+    throw std::invalid_argument(
+        "engine \"petsc\": found a pair between two dofs; allowed: pairs with a face that stands still. "
+        "--engine updated takes all");
   if (name == "petsc") return make_updated_engine(s, factored_by::ranks);
   return std::make_unique<refactor_engine>(s);
 }

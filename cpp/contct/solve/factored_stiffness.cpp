@@ -12,7 +12,12 @@ std::vector<double> residual(const stiffness_matrix& k, std::span<const spring_a
                              std::span<const double> b, std::span<const double> x) {
   std::vector<long double> r(b.begin(), b.end());
   k.subtract_product(x, r);
-  for (const auto& [row, stiffness] : springs) r[row] -= static_cast<long double>(stiffness) * x[row];
+  for (const spring_at& s : springs) {
+    const long double other = s.other < 0 ? 0.0L : x[s.other];
+    const long double force = static_cast<long double>(s.stiffness) * (x[s.row] - other);
+    r[s.row] -= force;
+    if (s.other >= 0) r[s.other] += force;
+  }
   return {r.begin(), r.end()};
 }
 
@@ -64,18 +69,25 @@ factored_stiffness::factored_stiffness(const linear_structure& s, factored_by ho
       entries_(entries_for(s, how)),
       products_(entries_ ? *entries_ : s.stiffness),
       factor_(factor_of(how == factored_by::storage ? s.stiffness : products_, how)) {
-  for (std::size_t i = 0; i < s.pairs.size(); ++i) rows_of_pairs_.push_back(s.row_of(s.dof_of_pair(i)));
+  for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+    const int other = s.other_of_pair(i);
+    rows_of_pairs_.push_back({s.row_of(s.dof_of_pair(i)), 1.0, other < 0 ? -1 : s.row_of(other)});
+  }
 }
 
 std::vector<std::vector<double>> factored_stiffness::columns_at_pairs(std::span<const int> pairs) {
   const std::size_t n = structure_.dofs();
   std::vector<double> x(n * pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (structure_.fixed[structure_.dof_of_pair(pairs[i])] == 0) x[i * n + rows_of_pairs_[pairs[i]]] = 1.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const spring_at& at = rows_of_pairs_[pairs[i]];
+    if (structure_.fixed[structure_.dof_of_pair(pairs[i])] == 0) x[i * n + at.row] = 1.0;
+    if (at.other >= 0) x[i * n + at.other] -= 1.0;
+  }
   factor_.solve(x);
   std::vector<std::vector<double>> columns(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    for (const int row : rows_of_pairs_) columns[i].push_back(x[i * n + row]);
+    for (const spring_at& at : rows_of_pairs_)
+      columns[i].push_back(at.stretch(std::span(x).subspan(i * n, n)));
   return columns;
 }
 

@@ -2,6 +2,7 @@
 // vectors by dofs, by rows and by pairs.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,7 +18,9 @@ namespace contct {
   std::vector<spring_at> list;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const int dof = s.dof_of_pair(i);
-    if (closed[i] != 0 && s.fixed[dof] == 0) list.push_back({s.row_of(dof), s.pairs[i].stiffness});
+    const int other = s.other_of_pair(i);
+    if (closed[i] != 0 && s.fixed[dof] == 0)
+      list.push_back({s.row_of(dof), s.pairs[i].stiffness, other < 0 ? -1 : s.row_of(other)});
   }
   return list;
 }
@@ -34,10 +37,16 @@ inline void to_dofs(const linear_structure& s, std::span<const double> x, std::s
   for (std::size_t dof = 0; dof < u.size(); ++dof) u[dof] = x[s.row_of(dof)];
 }
 
-/// Displacements [dofs] where the pairs act, to `at_pairs` [pairs].
+/// What the pairs see of displacements [dofs], to `at_pairs` [pairs].
 inline void gather_at_pairs(const linear_structure& s, std::span<const double> u,
                             std::span<double> at_pairs) {
-  for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] = u[s.dof_of_pair(i)];
+  for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] = s.seen_by_pair(i, u);
+}
+
+/// Add a force of pair `i` where it acts, and the opposite where its face is, to `load` [dofs].
+inline void add_at_pair(const linear_structure& s, std::size_t i, double force, std::span<double> load) {
+  load[s.dof_of_pair(i)] += force;
+  if (const int other = s.other_of_pair(i); other >= 0) load[other] -= force;
 }
 
 /// A load [dofs] with the pairs' forces [pairs] added where they act; a support takes those at a fixed dof.
@@ -46,7 +55,7 @@ inline void gather_at_pairs(const linear_structure& s, std::span<const double> u
                                                           std::span<const double> pair_forces) {
   std::vector<double> all(load.begin(), load.end());
   for (std::size_t i = 0; i < pair_forces.size(); ++i)
-    if (const int dof = s.dof_of_pair(i); s.fixed[dof] == 0) all[dof] += pair_forces[i];
+    if (const int dof = s.dof_of_pair(i); s.fixed[dof] == 0) add_at_pair(s, i, pair_forces[i], all);
   return all;
 }
 
@@ -70,10 +79,16 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
 /// own order; or the ranks of the MPI job that this process has joined.
 enum class factored_by { storage, cholmod, ranks };
 
+/// Springs between two rows of a band have places in the band alone.
+[[nodiscard]] inline bool has_pairs_of_two(const linear_structure& s) {
+  return std::any_of(s.pairs.begin(), s.pairs.end(), [](const contact_pair& p) { return p.other >= 0; });
+}
+
 /// What factors K of `s` in the least time: CHOLMOD a wide band, where it is built in.
 [[nodiscard]] inline factored_by quickest_factor(const linear_structure& s) {
   constexpr int wide = 128;  // subdiagonals from which CHOLMOD's order is quicker than the band
-  return sparse_factor::available() && s.stiffness.is_band() && s.stiffness.band().subdiagonals() >= wide
+  return sparse_factor::available() && !has_pairs_of_two(s) && s.stiffness.is_band() &&
+                 s.stiffness.band().subdiagonals() >= wide
              ? factored_by::cholmod
              : factored_by::storage;
 }
@@ -102,8 +117,8 @@ class factored_stiffness {
     to_dofs(structure_, b, x);
   }
 
-  /// Columns of the inverse at the pairs: K x = e for the dofs of some pairs, solved for together [those
-  /// asked for][pairs]. Zeros where the dof is fixed.
+  /// Columns of the inverse at the pairs: K x = e for the dofs of some pairs, less e for those of their
+  /// faces, solved for together [those asked for][pairs]. Zeros where the dof is fixed.
   [[nodiscard]] std::vector<std::vector<double>> columns_at_pairs(std::span<const int> pairs);
 
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the
@@ -125,7 +140,7 @@ class factored_stiffness {
   const linear_structure& structure_;
   std::optional<stiffness_matrix> entries_;  // see entries_for
   const stiffness_matrix& products_;         // K as its products take least
-  std::vector<int> rows_of_pairs_;           // [pairs]
+  std::vector<spring_at> rows_of_pairs_;     // [pairs]
   std::vector<spring_at> springs_;           // those in the factor
   stiffness_factor factor_;
 };

@@ -204,12 +204,12 @@ class updated_engine final : public spring_engine {
     ++counts_.checks;
     std::copy(increment.begin(), increment.end(), work_.begin());
     for (const inverse_columns::toggle& t : columns_.toggles())
-      work_[structure_.dof_of_pair(t.pair)] -= t.sigma_k * response_[t.pair];
+      add_at_pair(structure_, t.pair, -t.sigma_k * response_[t.pair], work_);
     stiffness_.solve(work_);
     ++counts_.solves;
     drift found;
     for (std::size_t i = 0; i < response_.size(); ++i) {
-      const double again = work_[structure_.dof_of_pair(i)];
+      const double again = structure_.seen_by_pair(i, work_);
       found.include(again, again - response_[i]);
     }
     return drift_.accepts(found);

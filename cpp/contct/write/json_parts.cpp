@@ -199,9 +199,10 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
   return out;
 }
 
-void put_place(json& entry, const model& m, int node) {
+void put_place(json& entry, const model& m, int node, int other) {
   if (const auto* a = std::get_if<assembled>(&m.kind)) {
     entry["dof"] = a->label_of(node);
+    if (other >= 0) entry["other"] = a->label_of(other);
   } else {
     entry["node"] = node + 1;
   }
@@ -210,14 +211,14 @@ void put_place(json& entry, const model& m, int node) {
 json event_json(const problem& p, const event& e) {
   const contact_pair& at = p.pairs[e.pair];
   json entry = {{"pair", e.pair + 1}};
-  put_place(entry, p.geometry, at.node);
+  put_place(entry, p.geometry, at.node, at.other);
   entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
   return entry;
 }
 
 json pair_state_json(const problem& p, std::size_t i, int isep, const json& gap, const json& force) {
   json entry = {{"pair", i + 1}};
-  put_place(entry, p.geometry, p.pairs[i].node);
+  put_place(entry, p.geometry, p.pairs[i].node, p.pairs[i].other);
   entry.update({{"surface", surface_name(p.pairs[i].surface)},
                 {"state", state_name(isep)},
                 {"gap", gap},
@@ -248,7 +249,7 @@ json structure_json(const problem& p) {
   });
   out["pairs"] = list_of(p.pairs, [&p, i = 0](const contact_pair& at) mutable {
     json entry = {{"pair", ++i}};
-    put_place(entry, p.geometry, at.node);
+    put_place(entry, p.geometry, at.node, at.other);
     entry.update({{"surface", surface_name(at.surface)},
                   {"face", at.face},
                   {"stiffness", at.stiffness},

@@ -90,7 +90,7 @@ class json_document {
                                                    const nlohmann::ordered_json& value);
 
 /// Add a node (from 0) to `entry`: "node": 3, or "dof": "185.3" where each dof is a node of its own.
-void put_place(nlohmann::ordered_json& entry, const model& m, int node);
+void put_place(nlohmann::ordered_json& entry, const model& m, int node, int other = -1);
 
 /// The proof of a run's bounds, for whoever checks it without this program (--proof): format
 /// "contct-proof-2", of reference/proof-format.md. `judged` has kept its proofs of `p`.

@@ -59,10 +59,10 @@ std::vector<pair_reading> readings_at(const problem& p, const load& l, const pat
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const contact_pair& at = now[i];
     // D is counted from moving faces.
-    all.push_back(
-        m.is_end ? reading_of(at, deflection_of(p, m.step->end.displacement, at.node), m.step->end.closed(i))
-                 : reading_of(at, m.increment->d[i] + (at.face - p.pairs[i].face),
-                              m.increment->isep[i] == in_contact));
+    all.push_back(m.is_end ? reading_of(at, at.seen_in(m.step->end.displacement, dofs_per_node(p.geometry)),
+                                        m.step->end.closed(i))
+                           : reading_of(at, m.increment->d[i] + (at.face - p.pairs[i].face),
+                                        m.increment->isep[i] == in_contact));
     if (m.is_end && m.step->end.numbers) all.back().force = m.step->end.numbers->pair_forces[i];
   }
   return all;

@@ -52,10 +52,11 @@ struct read_state {
   step_results read = results_of(what, load_path(what).at(state.step, state.fraction), state);
 };
 
-/// A pair that has a cell, from 0, and where it is.
+/// A pair that has a cell, from 0, and where it is; and the node of its other dof, -1 where there is none.
 struct pair_cell {
   std::size_t pair;
   placed_dof at;
+  int other = -1;
 };
 
 /// All pairs, but for those of a matrix whose dof has no place.
@@ -65,7 +66,8 @@ std::vector<pair_cell> pair_cells(const problem& p) {
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const int node = p.pairs[i].node;
     const placed_dof at = a == nullptr ? placed_dof{node, 3} : a->places.dofs[node];
-    if (at.node >= 0) list.push_back({i, at});
+    const int other = p.pairs[i].other;
+    if (at.node >= 0) list.push_back({i, at, a == nullptr || other < 0 ? -1 : a->places.dofs[other].node});
   }
   return list;
 }
@@ -217,7 +219,8 @@ std::string vtu_of_state(const problem& p, const structure_state& s) {
   const std::vector<pair_cell> pairs = pair_cells(p);
   std::vector<std::vector<int>> cells = elements_of(p.geometry);
   const std::size_t elements = cells.size();
-  for (const pair_cell& c : pairs) cells.push_back({c.at.node});
+  for (const pair_cell& c : pairs)
+    cells.push_back(c.other < 0 ? std::vector{c.at.node} : std::vector{c.at.node, c.other});
   const std::vector<double> points = points_of(p);
   const point_arrays of_points = point_data(r);
   return file_of("UnstructuredGrid",

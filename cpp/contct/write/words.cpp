@@ -61,7 +61,8 @@ std::string event_names(std::span<const event> events) {
 
 std::string pair_words(const problem& p, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
-  return fmt::format("pair {} ({}, {})", pair + 1, place_words(p.geometry, at.node),
+  const std::string other = at.other < 0 ? "" : " against " + place_words(p.geometry, at.other);
+  return fmt::format("pair {} ({}{}, {})", pair + 1, place_words(p.geometry, at.node), other,
                      surface_name(at.surface));
 }
 

@@ -209,6 +209,7 @@ function drawPairs(root, pairs, on) {
   const marks = [];
   for (const p of leastLoadedFirst(pairs)) {
     const [[x, y], t] = [on.spot(p), on.along(p)];
+    if (p.otherAt >= 0 && p.otherAt !== p.at) root.append(line(...on.spot({ ...p, at: p.otherAt, u: p.otherU }), x, y, "thin"));
     if (t !== null) drawFace(root, p, [x, y], t, on, pairs.length <= 60);
     else if (pairs.length <= 60) on.say(x + 13, y - 8, String(p.pair), "axis-word");
     const mark = pairMark(p.look, x, y, on.r, p.closed);

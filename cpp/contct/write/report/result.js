@@ -49,9 +49,11 @@ function placesOf() {
     const { x = null, y = null } = structure.nodes[dofs[u].at] || {};
     return { ...entry, ...dofs[u], u, x, y };
   };
+  // The dof of a matrix that has the face of a pair; and where that is.
+  const otherOf = ({ other }) => (other === undefined ? { otherU: -1, otherAt: -1 } : { otherU: numbers.get(other), otherAt: dofs[numbers.get(other)].at });
   return {
     dofs, locate,
-    pairs: structure.pairs.map((p) => ({ ...locate(p, "w"), side: p.surface === "above" ? 1 : -1 })),
+    pairs: structure.pairs.map((p) => ({ ...locate(p, "w"), ...otherOf(p), side: p.surface === "above" ? 1 : -1 })),
     supports: structure.supports.map((s, number) => ({ ...locate(s, s.dof), number })),
   };
 }
@@ -67,7 +69,8 @@ function framesOf() {
     u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
     pairs: places.pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
-      const face = state.pairs[i].face ?? p.face;  // a step may have moved it
+      const other = p.otherU < 0 ? 0 : state.displacement[p.otherU];
+      const face = (state.pairs[i].face ?? p.face) + other;  // where it is now: a step may have moved it
       const look = Math.abs(face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
       return { ...p, face, w, closed, look, gap: state.pairs[i].gap, force: state.pairs[i].force };
     }),
