@@ -19,7 +19,7 @@ from fractions import Fraction
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from exact_structures import Beam, Plate, decimal
+from exact_structures import Beam, Matrix, Plate, decimal
 
 DIGITS = 40
 
@@ -57,7 +57,7 @@ class ExactPath:
     def __init__(self, program, file):
         with open(file, "rb") as f:
             problem = tomllib.load(f, parse_float=decimal)
-        self.structure = Beam(problem) if "beam" in problem else Plate(problem)
+        self.structure = Beam(problem) if "beam" in problem else Plate(problem) if "plate" in problem else Matrix()
         self.program, self.file = program, file
         self.steps = None
 
