@@ -104,7 +104,7 @@ def _optional_module(name: str) -> Any:
 _numpy = _optional_module("numpy")
 
 
-_ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy"}  # keys whose lists are NumPy arrays
+_ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy", "x", "y"}  # keys whose lists are NumPy arrays
 _RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion", "work"}  # keys of exact paths
 
 
@@ -196,6 +196,11 @@ def _text_of(key: str, what: str) -> Any:
     return property(text, doc=f"{what}. The first use runs the problem again.")
 
 
+def _coordinates(result: Result, key: str) -> Any:
+    along = [float(getattr(node, key)) for node in result.nodes]
+    return _numpy.array(along) if _numpy else along
+
+
 class Result(Answer):
     """What `run` and `certify` find: reference/result-file.md has every key."""
     title: str
@@ -226,6 +231,9 @@ class Result(Answer):
     log = _text_of("log", "Unit 26 of the leading kernel (`--log`)")
     trace = _text_of("trace", "Every call of the leading kernel (`--trace`), for `replay`")
     proof = _text_of("proof", "The proof of the error bounds as JSON (`--proof`)")
+
+    x = property(lambda self: _coordinates(self, "x"), doc="Where each node is, in the order of `nodes`: an array.")
+    y = property(lambda self: _coordinates(self, "y"), doc="The same across a plate.")
 
     @property
     def _verdict(self) -> str:
@@ -624,7 +632,7 @@ def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional
 
 def check(problem: Problem, *, folder: Folder = None, allow_outside: bool = False) -> Answer:
     """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind` ("beam", "plate" or "matrix"), counts,
-    names of the steps, `units`. Raises InputError if the problem is refused."""
+    names of the steps, `units`, and of a beam or a plate `x` (and `y`) of every node. Raises InputError if the problem is refused."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Answer(_ask(_library.contct_check, source, {}))
 

@@ -73,6 +73,18 @@ def test_arrays_are_numpys_where_it_is_there_and_lists_otherwise(beam):
     assert step.extremes.w.min.value == min(step.w)  # here "w" is an object
 
 
+def test_nodes_have_x_and_a_step_its_balance(beam):
+    result = contct.run(beam)
+    assert list(result.x) == [0.0, 1.0, 2.0] == list(contct.check(beam).x)
+    if contct._numpy:
+        assert isinstance(result.x, contct._numpy.ndarray)
+    balance = result.steps[1].balance
+    assert balance.loads == -60.0
+    assert abs(balance.reactions + balance.contact - 60.0) < 1e-12
+    with pytest.raises(AttributeError):
+        result.y
+
+
 def test_results_can_be_pickled(beam):
     found = contct.run(beam)
     again = pickle.loads(pickle.dumps(found))

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <vector>
 
 #include "catch.hpp"
@@ -62,6 +64,62 @@ TEST_CASE("Forces, reactions and loads of a step's end balance, and its moments 
   CHECK(m.name == "moment");
   CHECK(m.most.value == Approx(edge * edge / 2 / 10.0).epsilon(1e-9));  // where the shear is zero: x = R / q
   CHECK(m.most.x == Approx(edge / 10.0).epsilon(1e-6));
+}
+
+TEST_CASE("Loads, reactions and contact forces of every reference problem add up to nothing but rounding") {
+  int compared = 0;
+  for (const auto& file : std::filesystem::directory_iterator(CONTCT_REFERENCE "/problems")) {
+    if (file.path().extension() != ".toml") continue;
+    const a_run run(read_problem(file.path().string()), "corrected");
+    for (const step_record& s : run.result.record.steps) {
+      const load& acting = run.what.steps[s.end.step - 1];
+      const step_results read = results_of(run.what, acting, s.end);
+      const auto sums = balance_of(run.what, acting, read);
+      REQUIRE(sums);
+      double size = std::abs(sums->loads);
+      for (const double r : read.reactions) size += std::abs(r);
+      for (const pair_reading& pair : read.pairs) size += std::abs(pair.force);
+      INFO(file.path().filename().string() << ", step " << s.end.step);
+      CHECK(std::abs(sums->loads + sums->reactions + sums->contact) <= 1e-12 * size);
+      ++compared;
+    }
+  }
+  CHECK(compared >= 60);
+}
+
+TEST_CASE("The contact force of a face above counts downwards in the balance") {
+  const a_run run(loaded_and_freed, "corrected");  // its second step presses the beam upwards
+  const load& acting = run.what.steps[1];
+  const auto sums =
+      balance_of(run.what, acting, results_of(run.what, acting, run.result.record.steps[1].end));
+  REQUIRE(sums);
+  CHECK(sums->loads == 60.0);
+  CHECK(sums->contact < 0.0);
+  CHECK(sums->reactions == Approx(-60.0 - sums->contact).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "A half-lifted footing has the bearing pressure of a rigid body on the springs that are in contact") {
+  const a_run run(read_problem(CONTCT_REFERENCE "/problems/pb11a-strip-footing-n20.toml"), "corrected");
+  const structure_state& end = run.result.record.steps[0].end;
+  const std::vector<bed_reading> beds = beds_in(run.what, results_of(run.what, run.what.steps[0], end), end);
+  REQUIRE(beds.size() == 1);
+  // p = a + b x at the nodes 0 to 0.6, each with its share: the sum is 1, its moment about x = 0 is 0.2.
+  double s0 = 0.0;
+  double s1 = 0.0;
+  double s2 = 0.0;
+  for (int i = 0; i <= 12; ++i) {
+    const double x = 0.05 * i;
+    const double share = i == 0 ? 0.025 : 0.05;
+    s0 += share;
+    s1 += share * x;
+    s2 += share * x * x;
+  }
+  CHECK(beds[0].pressure.most.value == Approx((s2 - 0.2 * s1) / (s0 * s2 - s1 * s1)).epsilon(1e-3));
+  CHECK(beds[0].pressure.most.value == Approx(10.0 / 3).epsilon(7e-3));  // SEAINT: 2 P / (Y B), Y = 0.6
+  CHECK(beds[0].pressure.most.x == 0.0);
+  CHECK(beds[0].pressure.least.value == 0.0);
+  CHECK(beds[0].contact == Approx(0.625).epsilon(1e-12));
 }
 
 TEST_CASE("A beam that sags through a face between two pairs is told, a flatter one is not") {

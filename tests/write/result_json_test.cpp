@@ -389,3 +389,28 @@ TEST_CASE(
   CHECK(drawn <= 126);
   CHECK(most == Approx(100 * 0.207414).epsilon(2e-4));  // largest moment of two spans under a moving load
 }
+
+TEST_CASE("nodes and ends of elements have the coordinates of the file") {
+  const auto result =
+      json_of(a_run("[beam]\nlength = 0.7\nelement_size = 0.1\nEI = 1\n[[support]]\nx = [0, 0.7]\nfix = "
+                    "\"w\"\n[[step]]\nuniform = -1\n")
+                  .result);
+  const std::vector<double> x = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
+  REQUIRE(result["nodes"].size() == x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    CHECK(result["nodes"][i]["node"] == i + 1);
+    CHECK(result["nodes"][i]["x"].get<double>() == x[i]);
+  }
+  CHECK(result["steps"][0]["elements"][3]["x"] == nlohmann::json({0.3, 0.4}));
+}
+
+TEST_CASE(
+    "a plate's nodes and the corners of its elements have x and y, a matrix has the places that are known") {
+  const auto result = json_of(a_run(std::string(good_plate)).result);  // 3 by 2 nodes on a square of side 1
+  CHECK(result["nodes"][4] == nlohmann::json({{"node", 5}, {"x", 0.5}, {"y", 1.0}}));
+  const auto& second = result["steps"][0]["elements"][1];
+  CHECK(second["x"] == nlohmann::json({0.5, 1.0, 1.0, 0.5}));
+  CHECK(second["y"] == nlohmann::json({0.0, 0.0, 1.0, 1.0}));
+  CHECK(json_of(a_run(portal_frame(), "cpp").result)["nodes"][0].contains("z"));
+  CHECK_FALSE(json_of(a_run(frame_without_coordinates(), "cpp").result).contains("nodes"));
+}

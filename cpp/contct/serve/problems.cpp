@@ -142,6 +142,12 @@ void check(const char* text, const char* options, served_answer& a) {
               {"units", nullptr}};
   for (const load& step : p.steps) out["steps"].push_back(step.name);
   if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
+  for (int node = 0; node < nodes(p.geometry) && !std::holds_alternative<assembled>(p.geometry.kind);
+       ++node) {
+    const place at = place_of_node(p.geometry, node);
+    out["x"].push_back(at.x);
+    if (std::holds_alternative<plate>(p.geometry.kind)) out["y"].push_back(at.y);
+  }
   if (r.flag("places")) put_places(out, p, text, r.file());
   a.result = json_text(out);
 }

@@ -63,7 +63,8 @@ CONTCT_SERVE_EXPORT char* contct_about(void);
 CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
 
 /* contct check: read a problem, solve nothing. "result": { "title", "kind": "beam" | "plate" | "matrix",
- *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" } }.
+ *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" },
+ *   "x", "y": of every node of a plate; a beam has "x" alone }.
  *   "places"  false; true: the result has where what is written too: "numbers": [{ "key": "contact[1].face",
  *             "value", "whole", "line", "column", "length" }], with "pair_list" and "node_list" */
 CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options);

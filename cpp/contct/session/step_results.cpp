@@ -94,6 +94,34 @@ step_results results_of(const problem& p, const load& l, const structure_state& 
   return r;
 }
 
+std::optional<force_balance> balance_of(const problem& p, const load& l, const step_results& r) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return {};
+  force_balance sums{resultant_of(p.geometry, l).force, 0.0, 0.0};
+  for (std::size_t i = 0; i < r.reactions.size(); ++i)
+    if (p.supports[i].dof == 0) sums.reactions += r.reactions[i];
+  for (std::size_t i = 0; i < r.pairs.size(); ++i) sums.contact -= p.pairs[i].surface * r.pairs[i].force;
+  return sums;
+}
+
+std::vector<bed_reading> beds_in(const problem& p, const step_results& r, const structure_state& s) {
+  std::vector<bed_reading> all;
+  for (const bed& b : p.beds) {
+    bed_reading of_bed;
+    for (std::size_t i = 0; i < b.share.size(); ++i) {
+      const std::size_t pair = b.first_pair + i;
+      const int node = p.pairs[pair].node;
+      const place at = place_of_node(p.geometry, node);
+      const placed_value here{r.pairs[pair].force / b.share[i], at.x, at.y, node};
+      if (i == 0) of_bed.pressure = {"pressure", here, here};
+      if (here.value < of_bed.pressure.least.value) of_bed.pressure.least = here;
+      if (here.value > of_bed.pressure.most.value) of_bed.pressure.most = here;
+      if (s.closed(pair)) of_bed.contact += b.share[i];
+    }
+    all.push_back(of_bed);
+  }
+  return all;
+}
+
 std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs) {
   std::vector<double> at(nodes(p.geometry));
   for (const bed& b : p.beds) {

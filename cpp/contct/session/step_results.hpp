@@ -65,6 +65,22 @@ struct step_results {
 /// Of a state under load `l`.
 [[nodiscard]] step_results results_of(const problem& p, const load& l, const structure_state& s);
 
+/// The sums of the upward forces on a structure: in equilibrium they add up to 0, but for rounding.
+struct force_balance {
+  double loads, reactions, contact;
+};
+/// None of a matrix, which does not say what is up.
+[[nodiscard]] std::optional<force_balance> balance_of(const problem& p, const load& l, const step_results& r);
+
+/// What a bed does to the structure.
+struct bed_reading {
+  value_range pressure;  ///< force over tributary share, at the bed's nodes
+  double contact = 0.0;  ///< the shares of its pairs that are in contact: a length or an area
+};
+/// Of each bed in state `s`, from which `r` was read.
+[[nodiscard]] std::vector<bed_reading> beds_in(const problem& p, const step_results& r,
+                                               const structure_state& s);
+
 /// What beds press on the structure by, at each node: force over tributary share [nodes].
 [[nodiscard]] std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs);
 

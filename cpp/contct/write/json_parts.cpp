@@ -26,16 +26,12 @@ json number_of(int from_0) {
 
 void put_kind(json& out, const beam& b) {
   out["kind"] = "beam";
-  out["nodes"] = list_of(b.x, [node = 0](double x) mutable -> json { return {{"node", ++node}, {"x", x}}; });
   out["EI"] = b.EI;
   if (!b.hinges.empty()) out["hinges"] = numbered(b.hinges);
 }
 
 void put_kind(json& out, const plate& p) {
   out["kind"] = "plate";
-  json& all = out["nodes"] = json::array();
-  for (int node = 0; node < p.nodes(); ++node)
-    all.push_back({{"node", node + 1}, {"x", p.x[node % p.columns()]}, {"y", p.y[node / p.columns()]}});
   out.update({{"columns", p.columns()}, {"D", p.D}, {"nu", p.nu}});
   if (p.E != 0) out.update({{"E", p.E}, {"thickness", p.thickness}});
 }
@@ -45,9 +41,6 @@ void put_kind(json& out, const assembled& a) {
   out["kind"] = "matrix";
   out["matrix"] = a.name;
   const placed_nodes& places = a.places;
-  out["nodes"] = list_of(places.nodes, [](const placed_node& n) -> json {
-    return {{"node", n.name}, {"x", n.at[0]}, {"y", n.at[1]}, {"z", n.at[2]}};
-  });
   json& all = out["dofs"] = json::array();
   for (int dof = 0; dof < a.dofs(); ++dof) {
     json& entry = all.emplace_back(json{{"dof", a.label_of(dof)}});
@@ -239,9 +232,28 @@ json support_json(const model& m, const support& at) {
   return entry;
 }
 
+std::size_t placed_nodes_of(const model& m) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? a->places.nodes.size() : nodes(m);
+}
+
+json node_json(const model& m, std::size_t node) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) {
+    const placed_node& n = a->places.nodes[node];
+    return {{"node", n.name}, {"x", n.at[0]}, {"y", n.at[1]}, {"z", n.at[2]}};
+  }
+  const place at = place_of_node(m, static_cast<int>(node));
+  json entry = {{"node", node + 1}, {"x", at.x}};
+  if (std::holds_alternative<plate>(m.kind)) entry["y"] = at.y;
+  return entry;
+}
+
 json structure_json(const problem& p) {
   json out = json::object();
   std::visit([&out](const auto& kind) { put_kind(out, kind); }, p.geometry.kind);
+  json& all = out["nodes"] = json::array();
+  for (std::size_t node = 0; node < placed_nodes_of(p.geometry); ++node)
+    all.push_back(node_json(p.geometry, node));
   out["supports"] = list_of(p.supports, [&p](const support& s) {
     json entry = support_json(p.geometry, s);
     entry["spring"] = s.fixed ? json(nullptr) : json(s.spring);

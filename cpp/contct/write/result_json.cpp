@@ -33,11 +33,18 @@ json value_json(const model& m, const placed_value& at) {
   return entry;
 }
 
+json range_json(const model& m, const value_range& r) {
+  return {{"min", value_json(m, r.least)}, {"max", value_json(m, r.most)}};
+}
+
 json extremes_json(const model& m, const std::vector<value_range>& ranges) {
   json out = json::object();
-  for (const value_range& r : ranges)
-    out[std::string(r.name)] = {{"min", value_json(m, r.least)}, {"max", value_json(m, r.most)}};
+  for (const value_range& r : ranges) out[std::string(r.name)] = range_json(m, r);
   return out;
+}
+
+json balance_json(const force_balance& sums) {
+  return {{"loads", sums.loads}, {"reactions", sums.reactions}, {"contact", sums.contact}};
 }
 
 /// `entry` and the increment that had it.
@@ -86,8 +93,24 @@ json piece_json(const element_line& line) {
           {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
 }
 
-json element_json(const step_results& results, std::size_t e) {
+/// The nodes of a beam's or a plate's element, in the order in which its values are.
+std::vector<int> nodes_of_element(const model& m, int e) {
+  const auto* const on_plate = std::get_if<plate>(&m.kind);
+  if (on_plate == nullptr) return {e, e + 1};
+  const auto corners = on_plate->corners_of(e);
+  return {corners.begin(), corners.end()};
+}
+
+/// `m` is null where the places are told elsewhere.
+json element_json(const model* m, const step_results& results, std::size_t e) {
   json entry = {{"element", e + 1}};
+  if (m != nullptr) {
+    for (const int node : nodes_of_element(*m, static_cast<int>(e))) {
+      const place at = place_of_node(*m, node);
+      entry["x"].push_back(at.x);
+      if (std::holds_alternative<plate>(m->kind)) entry["y"].push_back(at.y);
+    }
+  }
   for (const element_results* const all : {&results.elements, &results.stresses})
     for (std::size_t i = 0; i < all->names.size(); ++i) entry[std::string(all->names[i])] = all->at(e, i);
   if (const auto pieces = results.pieces.find(e); pieces != results.pieces.end())
@@ -195,10 +218,12 @@ class result_writer {
 
   void write() {
     for (std::size_t step = 0; step < r_.record.steps.size(); ++step) add_step(step);
-    document_.finish(foot(),
-                     {{"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
-                      {"calls", r_.record_of_calls().calls.size(),
-                       [this](auto i) { return call(r_.record_of_calls().calls[i]); }}});
+    const model& m = r_.what.geometry;
+    document_.finish(
+        foot(), {{"nodes", placed_nodes_of(m), [&m](auto i) { return node_json(m, i); }},
+                 {"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
+                 {"calls", r_.record_of_calls().calls.size(),
+                  [this](auto i) { return call(r_.record_of_calls().calls[i]); }}});
   }
 
  private:
@@ -235,9 +260,9 @@ class result_writer {
     return results_of(r_.what, loads_.at(s.step, s.fraction), s);
   }
 
-  /// `read` and `s` must outlive these lists.
-  [[nodiscard]] std::vector<json_document::list> lists(const step_results& read,
-                                                       const structure_state& s) const {
+  /// `read` and `s` must outlive these lists. The ends of steps alone have the places of elements.
+  [[nodiscard]] std::vector<json_document::list> lists(const step_results& read, const structure_state& s,
+                                                       bool is_end = false) const {
     const problem& p = r_.what;
     return {{"pairs", p.pairs.size(),
              [&](auto i) {
@@ -247,13 +272,15 @@ class result_writer {
                return entry;
              }},
             {"reactions", p.supports.size(), [&](auto i) { return reaction_json(p, i, read.reactions[i]); }},
-            {"elements", read.elements.elements(), [&](auto i) { return element_json(read, i); }}};
+            {"elements", read.elements.elements(),
+             [&, m = is_end ? &p.geometry : nullptr](auto i) { return element_json(m, read, i); }}};
   }
 
   void add_step(std::size_t number) {
     const step_record& s = r_.record.steps[number];
     const model& m = r_.what.geometry;
-    const step_results at_end = read(s.end);
+    const load acting = loads_.at(s.end.step, s.end.fraction);
+    const step_results at_end = results_of(r_.what, acting, s.end);
     std::vector<double> w(nodes(m));
     for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(r_.what, s.end.displacement, node);
     json members = {
@@ -269,7 +296,12 @@ class result_writer {
                       {"elements", nullptr}});
     else
       members["increments"] = json::array();
-    members.update({{"extremes", extremes_json(m, at_end.ranges)}, {"extremes_at", ranges_are_at(m)}});
+    members.update({{"extremes", extremes_json(m, at_end.ranges)},
+                    {"extremes_at", ranges_are_at(m)},
+                    {"beds", list_of(beds_in(r_.what, at_end, s.end), [&m, i = 0](const bed_reading& b) mutable -> json {
+                       return {{"bed", ++i}, {"pressure", range_json(m, b.pressure)}, {"contact", b.contact}};
+                     })}});
+    if (const auto sums = balance_of(r_.what, acting, at_end)) members["balance"] = balance_json(*sums);
     if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction, true);
     if (s.from_fallback) members["ended_by"] = "oracle";
     if (s.from_exact_path) members["ended_by"] = "exact";
@@ -279,7 +311,7 @@ class result_writer {
                     {"error", errors_json(r_.what, judged, at_end)},
                     {"certificate", certificate_json(judged)}});
     std::vector<json_document::list> all;
-    if (whole) all = lists(at_end, s.end);
+    if (whole) all = lists(at_end, s.end, true);
     if (whole)
       all.push_back(
           {"increments", s.increments.size(), [&](auto i) { return increment_of(s.increments[i]); }});
@@ -328,6 +360,7 @@ class result_writer {
                 {"fraction", e.fraction},
                 {"pairs", numbered(e.pairs)}};
       });
+    if (placed_nodes_of(r_.what.geometry) > 0) members["nodes"] = nullptr;
     if (!r_.free_runs.empty()) members["free_run"] = nullptr;
     const lockstep_on_path* const calls = r_.compared_calls();
     members["lockstep"] = calls != nullptr ? lockstep_json(*calls) : json(nullptr);

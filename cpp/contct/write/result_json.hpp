@@ -73,6 +73,10 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 
+/// How many nodes have a known place, and such a node, from 0: its number (or name) and coordinates.
+[[nodiscard]] std::size_t placed_nodes_of(const model& m);
+[[nodiscard]] nlohmann::ordered_json node_json(const model& m, std::size_t node);
+
 /// The structure as a run has it, in the order of its numbers: places of nodes, stiffnesses, supports, pairs.
 [[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
 
