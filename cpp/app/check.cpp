@@ -1,5 +1,7 @@
 // contct check: a problem read without solving it, and what it is.
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "app/problem_runs.hpp"
 #include "contct/text/strings.hpp"
@@ -61,12 +63,28 @@ std::string load_words(const load& l) {
   return words.empty() ? "no load" : joined(words, ", ");
 }
 
+/// "node 1 at 0, node 5 at 2": where rising coordinates begin, end, and change their distance.
+std::string coordinate_words(std::span<const double> x, std::string_view what) {
+  const double rounding = 1e-9 * (x.back() - x.front());
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (i == 0 || i + 1 == x.size() || std::abs(x[i + 1] - 2 * x[i] + x[i - 1]) > rounding)
+      words.push_back(fmt::format("{} {} at {:.6g}", what, i + 1, x[i]));
+  return joined(words, ", ") + (words.size() < x.size() ? "; equal distances between" : "");
+}
+
 /// What it is, a fact a line.
 std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   std::vector<std::pair<std::string, std::string>> facts;
   if (!p.title.empty()) facts.emplace_back("title", on_one_line(p.title));
   facts.emplace_back("structure", structure_words(p));
   facts.emplace_back("mesh", mesh_words(p));
+  if (const auto* b = std::get_if<beam>(&p.geometry.kind))
+    facts.emplace_back("x", coordinate_words(b->x, "node"));
+  if (const auto* flat = std::get_if<plate>(&p.geometry.kind)) {
+    facts.emplace_back("x", coordinate_words(flat->x, "column"));
+    facts.emplace_back("y", coordinate_words(flat->y, "row"));
+  }
   facts.emplace_back("supports", support_words(p));
   facts.emplace_back("pairs", pair_words(p));
   for (std::size_t i = 0; i < p.beds.size(); ++i)

@@ -182,7 +182,9 @@ void declare_pictures(CLI::App* c, run_options& o) {
            "structure given by its matrix is drawn if coordinates are known; otherwise it is a table");
   add_file(c, "--csv", o.csv,
            "Write a table with a row for each increment to this file (- is standard output), and beside "
-           "F.csv a file F.pairs.csv with a row for each pair and increment. Columns: step, increment, "
+           "F.csv a file F.pairs.csv with a row for each pair and increment, and a file F.states.csv with "
+           "w, slope, moment, shear and bearing pressure along the beam at the end of each step, or of the "
+           "nodes of a plate. Columns of the first two: step, increment, "
            "kind, s, share, force, events, closed, open, at_face, smin, kernels; and step, increment, "
            "pair, node, surface, state, look, w, gap, force, face");
   add_file(c, "--vtu", o.vtu,
@@ -212,8 +214,8 @@ void declare_run(option_parser& p, CLI::App* c) {
               "Print every event, and after each step all pairs, reactions, and moments and shears at the "
               "ends of elements");
   c->add_flag("--envelope", o.envelope,
-              "Add to the result of --json the least and largest values over all increments; this takes one "
-              "more solve for each increment");
+              "Add to the result of --json the least and largest values over all increments, and to --csv "
+              "F.envelope.csv, these along a beam; this takes one more solve for each increment");
   c->add_option(
        "--node", o.watched,
        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "

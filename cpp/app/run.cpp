@@ -23,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* csv_pairs = "--csv (its pairs)";
+constexpr const char* csv_states = "--csv (its states)";
+constexpr const char* csv_envelope = "--csv (its envelope)";
 constexpr const char* vtu_collection = "--vtu (its collection)";
 constexpr const char* vtu_increments = "--vtu (its increments)";
 
@@ -32,10 +34,10 @@ std::string beside(const std::string& file, const std::string& end) {
   return (path.parent_path() / (path.stem().string() + end)).string();
 }
 
-/// "out.pairs.csv" beside "out.csv"; none beside standard output.
-std::string pairs_table(const std::string& csv) {
+/// "out.pairs.csv" beside "out.csv", for ".pairs"; none beside standard output.
+std::string table_beside(const std::string& csv, const std::string& name) {
   if (csv.empty() || csv == "-") return "";
-  return beside(csv, ".pairs" + fs::path(csv).extension().string());
+  return beside(csv, name + fs::path(csv).extension().string());
 }
 
 /// Every file of --vtu. Throws std::invalid_argument for a name that cannot be a grid's.
@@ -50,8 +52,14 @@ void add_grid_files(const std::string& vtu, std::vector<output_option>& all) {
 
 /// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
 std::vector<output_option> outputs_of(const run_options& o) {
-  std::vector<output_option> all = {{"--json", o.json},  {"--log", o.log}, {"--trace", o.trace},
-                                    {"--html", o.html},  {"--csv", o.csv}, {csv_pairs, pairs_table(o.csv)},
+  std::vector<output_option> all = {{"--json", o.json},
+                                    {"--log", o.log},
+                                    {"--trace", o.trace},
+                                    {"--html", o.html},
+                                    {"--csv", o.csv},
+                                    {csv_pairs, table_beside(o.csv, ".pairs")},
+                                    {csv_states, table_beside(o.csv, ".states")},
+                                    {csv_envelope, o.envelope ? table_beside(o.csv, ".envelope") : ""},
                                     {"--proof", o.proof}};
   if (!o.vtu.empty()) add_grid_files(o.vtu, all);
   return with_reports(std::move(all), o.report);
@@ -113,27 +121,6 @@ struct run_setup {
   linear_structure structure = {};
 };
 
-/// In the states in which steps end, by the reference solution.
-int node_that_deflects_most(const run_setup& setup) {
-  const load_history loads = loads_of(setup.what, setup.structure);
-  const std::vector<int> nodes = deflecting_nodes(setup.what);
-  reference_solver finds(setup.structure);
-  double most = 0.0;
-  int at = 0;
-  for (int step = 1; step <= std::ssize(setup.what.steps); ++step) {
-    std::vector<double> load(setup.structure.dofs());
-    loads(step, load);
-    const reference_answer answer = finds.solve(load, loads.work(step));
-    if (answer.how != reference_answer::outcome::found) continue;
-    for (const int node : nodes) {
-      const double size = std::abs(deflection_of(setup.what, answer.displacement, node));
-      if (size > most) at = node;
-      most = std::max(most, size);
-    }
-  }
-  return at;
-}
-
 run_setup set_up(const run_options& o) {
   run_setup setup{o};
   refuse_bad_options(o);
@@ -152,11 +139,7 @@ run_request request_of(const run_setup& setup) {
   r.pictures = !o.vtu.empty();
   r.max_increments = o.max_increments;
   r.date = setup.date;
-  if (!o.watched.empty()) {
-    r.watched = node_named(setup.what.geometry, o.watched);
-  } else if (!o.csv.empty()) {
-    r.watched = node_that_deflects_most(setup);
-  }
+  if (!o.watched.empty()) r.watched = node_named(setup.what.geometry, o.watched);
   return r;
 }
 
@@ -198,7 +181,7 @@ void go(shown_run& o) {
   path_progress progress(setup.what.steps.size(), setup.options.report.quiet);
   const output_files& f = o.files;
   o.run.go({f["--json"], result_parts::ends, f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"],
-            f[csv_pairs]},
+            f[csv_pairs], f[csv_states], f[csv_envelope]},
            {&progress});
   progress.line.erase();
   if (!setup.prints) return;

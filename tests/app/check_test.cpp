@@ -34,6 +34,8 @@ TEST_CASE(
         "title      Over two stops\n"
         "structure  beam from x = 0 to 10 m\n"
         "mesh       22 nodes, 21 elements\n"
+        "x          node 1 at 0, node 5 at 2, node 8 at 3.1, node 12 at 5, node 22 at 10;\n"
+        "           equal distances between\n"
         "supports   2 dofs fixed, 1 spring\n"
         "pairs      22, 1 in contact before any load\n"
         "bed 1      modulus 4, below, pairs 3 to 22\n"
@@ -49,7 +51,9 @@ TEST_CASE("plates and matrices are described too, and a step without any load") 
   dir.write("plate.toml", good_plate);
   const finished plate = contct_program(dir.path(), {"check", "plate.toml"});
   CHECK_THAT(plate.out,
-             StartsWith("structure  plate from x = 0 to 1, y = 0 to 1\nmesh       6 nodes, 2 elements\n") &&
+             StartsWith("structure  plate from x = 0 to 1, y = 0 to 1\nmesh       6 nodes, 2 elements\n"
+                        "x          column 1 at 0, column 3 at 1; equal distances between\n"
+                        "y          row 1 at 0, row 2 at 1\n") &&
                  Contains("units      none given\n"));
   dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n");
   dir.write("zero.mtx", "%%MatrixMarket matrix array real general\n2 1\n0\n0\n");

@@ -60,7 +60,9 @@ TEST_CASE("a run writes its page, tables and grids, and nothing beside them") {
   CHECK(f.exit == 0);
   CHECK_THAT(f.out, Contains("equal to the bit"));
   CHECK(dir.files() == words{"o.000.vtu", "o.001.vtu", "o.002.vtu", "o.csv", "o.html", "o.pairs.csv", "o.pvd",
-                             "o.vtu", "pb.toml"});
+                             "o.states.csv", "o.vtu", "pb.toml"});
+  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--quiet", "--csv", "e.csv", "--envelope"}).exit == 0);
+  CHECK_THAT(dir.read("e.envelope.csv"), Contains("x,w_min,w_min_step,w_max,w_max_step,moment_min"));
 }
 
 TEST_CASE(
@@ -98,6 +100,7 @@ TEST_CASE(
   for (const words& two : {words{"--html", "out", "--csv", "out"},
                            {"--html", "pb.toml"},
                            {"--csv", "out.csv", "--json", "out.pairs.csv"},
+                           {"--csv", "out.csv", "--json", "out.states.csv"},
                            {"--vtu", "out.vtu", "--html", "out.pvd"},
                            {"--vtu", "out.vtu", "--csv", "./out.000.vtu"},
                            {"--vtu", "out.vtu", "--log", "out.119.vtu"},

@@ -39,8 +39,10 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
   CHECK_THAT(f.out, Contains("   end  1 of 1 in contact; 10+ digits; certified\n"
                              "        w             -0.00483721       node 3, x = 2\n"
                              "        moment        -36.2791          node 1, x = 0\n"
+                             "        shear         18.1395           node 1, x = 0\n"
                              "        contact force 41.8605           pair 1, node 3 below\n"
-                             "        reaction      18.1395           node 1\n"));
+                             "        reaction      18.1395           node 1\n"
+                             "        sums          loads -60, reactions 18.1395, contact 41.8605\n"));
   CHECK_THAT(f.out,
              Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
@@ -95,6 +97,15 @@ TEST_CASE("without --kernels the trace and unit 26 are those of the 1989 rule al
     return trace.substr(trace.find("\ncall ")) + dir.read("l");
   };
   CHECK(calls({}) == calls({"--kernels", "fortran"}));
+}
+
+TEST_CASE("a bed's step has the pressure and the length in contact") {
+  const finished f = contct_program(
+      "/", {"run", CONTCT_ROOT "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels", "corrected"});
+  CHECK_THAT(f.out,
+             Contains("        sums          loads -1, reactions 0, contact 1\n"
+                      "        bed 1         pressure 0 to 3.3121, largest at node 1, x = 0; 0.625 in\n"
+                      "        contact\n"));
 }
 
 TEST_CASE("the table fits its terminal, from 40 columns to 160") {

@@ -58,3 +58,16 @@ TEST_CASE("points have the reactions of supports and a bed's pressure") {
              Contains(fmt::format("Name=\"pressure\" NumberOfComponents=\"1\" format=\"ascii\">\n0 0 {}\n",
                                   results_of(r.what, r.what.steps[0], s).pairs[0].force / 0.5)));
 }
+
+TEST_CASE("of the states at which a step's load has only begun, one is drawn") {
+  // Each end of a beam that lies on springs lets go by itself, before any load.
+  const a_run r(
+      "[beam]\nlength = 10.0\nelements = 40\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\n"
+      "face = 0\nstiffness = 1e3\n[[step]]\npoint = [ { node = 21, w = -1.0 } ]\n");
+  const auto begun = [](const auto& states) {
+    return std::ranges::count_if(states,
+                                 [](const auto& s) { return s.number > 0 && s.fraction <= first_load; });
+  };
+  CHECK(begun(r.result.record.steps[0].increments) > 3);
+  CHECK(begun(pictures_of(r.result)) == 1);
+}

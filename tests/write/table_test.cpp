@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "catch.hpp"
+#include "contct/session/step_results.hpp"
 #include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
 #include "read/bad_plates.hpp"
@@ -210,11 +211,11 @@ TEST_CASE("The largest of each quantity has its unit, and moves to the left wher
 
 TEST_CASE("The detailed tables have every pair, reaction and end of an element, within 80 columns") {
   const std::string text = table_of(a_run(good_problem).result, {80, false}, true).text;
-  CHECK_THAT(text, Contains("       1          3  below    contact                 0       41.86047"));
-  CHECK_THAT(text, Contains("               node  dof                       reaction\n"));
+  CHECK_THAT(text, Contains("       1          3  below    contact                 0       41.86047 2\n"));
+  CHECK_THAT(text, Contains("               node  dof                       reaction x\n"));
   CHECK_THAT(text, Contains("w                         18.13953"));
   CHECK_THAT(text, Contains("theta                     36.27907"));
-  CHECK_THAT(text, Contains("       2  shear") && Contains("          moment"));
+  CHECK_THAT(text, Contains("       2  x                     1              2\n          shear"));
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
     CHECK(end - at <= 80);
 }
@@ -247,4 +248,39 @@ TEST_CASE("a row of --csv ends with the name of its step") {
             1, out, nullptr);
   CHECK(rows_of(text).at(0).back() == "name");
   CHECK(rows_of(text).at(1).back() == "dead, live");
+}
+
+TEST_CASE("of more than six steps the extremes stand in a table for each quantity, a step a row") {
+  std::string text = propped_cantilever;
+  for (int step = 2; step <= 7; ++step) text += "[[step]]\nuniform = -" + std::to_string(8 * step) + "\n";
+  const std::string shown = rows_for(text).text;
+  CHECK_THAT(shown, !Contains("sums"));
+  // 9 q L^2 / 128 and q L^2 / 8, q = 56
+  CHECK_THAT(shown,
+             Contains("\nmoment           least  at                             largest  at\n") &&
+                 Contains("step 7             -28  node 1, x = 0                    15.75  x = 1.25\n"));
+}
+
+TEST_CASE("a matrix has units where it is known what a dof is: a length, or a rotation") {
+  const a_run r(portal_frame() + "[units]\nlength = \"m\"\nforce = \"N\"\n", "cpp");
+  const std::string shown = table_of(r.result, {100, false}, false).text;
+  CHECK_THAT(shown, Contains("-0.00123118 m     dof 6.y") &&
+                        Contains("11558.9 N         pair 1, dof 6.y below\n") &&
+                        Contains("4220.57 N         dof 1.y\n"));
+  problem p = parse_problem(frame_without_coordinates(), "frame.toml", reach::anywhere);
+  p.units = {"m", "N"};
+  CHECK(unit_words(p, "force", 0).empty());
+  CHECK(unit_words(p, "w", p.pairs[0].node) == " m");
+  problem placed = parse_problem(portal_frame(), "frame.toml", reach::anywhere);
+  placed.units = {"m", "N"};
+  CHECK(unit_words(placed, "force", 2) == " N m");  // 1.r
+  CHECK(unit_words(placed, "w", 2).empty());
+}
+
+TEST_CASE("sums have units, and are 0 where they are nothing but rounding") {
+  // The reactions of the second step, 0.45 kN and less, cancel.
+  const a_run r(read_problem(CONTCT_REFERENCE "/problems/pp06-plate-over-settling-line.toml"), "corrected");
+  const std::string shown = table_of(r.result, {100, false}, false).text;
+  CHECK_THAT(shown, Contains("sums          loads 0 kN, reactions -4.16988 kN, contact 4.16988 kN\n") &&
+                        Contains("sums          loads 0 kN, reactions 0 kN, contact 0 kN\n"));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "contct/model/line.hpp"
@@ -176,6 +177,15 @@ std::vector<double> bernstein_of(std::span<const double> p) {
   for (std::size_t round = 0; round < degree; ++round)
     for (std::size_t j = degree; j > round; --j) b[j] += b[j - 1];
   return b;
+}
+
+std::vector<double> extreme_places(const element_line& line) {
+  constexpr double rounding = 1e-9;  // of an extreme at an end
+  std::set<double> places;
+  for (const poly* p : {&line.w, &line.moment, &line.shear})
+    for (const double t : zeros_of(derivative(*p)))
+      if (t > rounding && t < 1.0 - rounding) places.insert(t);
+  return {places.begin(), places.end()};
 }
 
 value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,

@@ -54,6 +54,9 @@ class beam_lines {
 /// largest of them.
 [[nodiscard]] std::vector<double> bernstein_of(std::span<const double> polynomial);
 
+/// Where w, the moment or the shear is extreme inside an element: t, rising.
+[[nodiscard]] std::vector<double> extreme_places(const element_line& line);
+
 /// A value, and where it is: its place along the structure, and its node (from 0) where it is at one.
 struct placed_value {
   double value = 0.0;

@@ -131,6 +131,16 @@ resultant sum_of_loads(const assembled& /*a*/, const load& l) {
   return {contct::rounded(sum), {}};
 }
 
+/// Of a matrix.
+std::string unit_at(const assembled& a, const problem& p, std::string_view quantity, int dof) {
+  const placed_dof at = dof >= 0 && a.places.known() ? a.places.dofs[dof] : placed_dof{};
+  const bool has_pair = std::any_of(p.pairs.begin(), p.pairs.end(),
+                                    [dof](const contact_pair& c) { return c.node == dof || (dof >= 0 && c.other == dof); });
+  if (at.is_length() || has_pair) return on_one_line(" " + (quantity == "w" ? p.units.length : p.units.force));
+  const bool turns = at.direction != 0;
+  return turns && quantity == "force" ? on_one_line(" " + p.units.force + " " + p.units.length) : "";
+}
+
 }  // namespace
 
 /// Nodes are numbered along the shorter side: the numbers of neighbours then lie closest to each other.
@@ -203,16 +213,20 @@ element_results results_in_elements(const model& m, const load& l, std::span<con
       m.kind);
 }
 
-std::string unit_words(const problem& p, std::string_view quantity) {
+std::string unit_words(const problem& p, std::string_view quantity, int dof) {
   const auto& [length, force] = p.units;
-  if (length.empty() || std::holds_alternative<assembled>(p.geometry.kind)) return "";
-  const bool is_slope = quantity == "theta" || quantity == "wx" || quantity == "wy";
-  if (is_slope) return "";
-  if (quantity == "mx" || quantity == "my" || quantity == "mxy")
-    return on_one_line(" " + force + " " + length + "/" + length);
+  if (length.empty()) return "";
+  if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) return unit_at(*a, p, quantity, dof);
+  const bool flat = std::holds_alternative<plate>(p.geometry.kind);
+  const auto is_one_of = [quantity](std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), quantity) != names.end();
+  };
+  if (is_one_of({"theta", "wx", "wy"})) return "";
+  if (is_one_of({"stress", "s1", "s2", "von_mises"})) return on_one_line(" " + force + "/" + length + "^2");
+  if (quantity == "pressure") return on_one_line(" " + force + "/" + length + (flat ? "^2" : ""));
+  if (quantity == "contact") return on_one_line(" " + length + (flat ? "^2" : ""));
+  if (is_one_of({"mx", "my", "mxy"})) return on_one_line(" " + force + " " + length + "/" + length);
   if (quantity == "w") return " " + length;
-  if (quantity == "stress" || quantity == "s1" || quantity == "s2" || quantity == "von_mises")
-    return on_one_line(" " + force + "/" + length + "^2");
   return " " + force + (quantity == "moment" ? " " + length : "");
 }
 

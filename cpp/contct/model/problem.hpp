@@ -303,9 +303,10 @@ struct problem {
   std::vector<pair_keys> keys;
 };
 
-/// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", ..; empty where
-/// the problem names no units.
-[[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity);
+/// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", "pressure",
+/// "contact" (of a bed), ..; empty where the problem names no units. With a matrix that of "w" and "force" at
+/// `dof`, from 0, if it is known what the dof is: it has a pair, or its place is known.
+[[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity, int dof = -1);
 /// Are its steps combinations, each from the unloaded structure?
 [[nodiscard]] inline bool starts_from_zero(const problem& p) {
   return !p.steps.empty() && p.steps.front().from_zero;

@@ -119,12 +119,6 @@ void put_places(json& out, const problem& p, const char* text, const std::string
       pair.update({{"face_key", p.keys[i].face}, {"stiffness_key", p.keys[i].stiffness}});
     pairs.push_back(std::move(pair));
   }
-  if (std::holds_alternative<assembled>(p.geometry.kind)) return;
-  json& spots = out["node_list"] = json::array();
-  for (int node = 0; node < nodes(p.geometry); ++node) {
-    const place at = place_of_node(p.geometry, node);
-    spots.push_back({at.x, at.y});
-  }
 }
 
 void check(const char* text, const char* options, served_answer& a) {

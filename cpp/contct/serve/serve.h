@@ -66,7 +66,7 @@ CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
  *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" },
  *   "x", "y": of every node of a plate; a beam has "x" alone }.
  *   "places"  false; true: the result has where what is written too: "numbers": [{ "key": "contact[1].face",
- *             "value", "whole", "line", "column", "length" }], with "pair_list" and "node_list" */
+ *             "value", "whole", "line", "column", "length" }], with "pair_list" */
 CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options);
 
 /* contct exact: the path in rational arithmetic. "result" is what contct exact --json writes.

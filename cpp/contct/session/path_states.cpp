@@ -34,6 +34,17 @@ std::vector<path_moment> thinned(std::vector<path_moment> all, std::size_t most)
   return all;
 }
 
+std::vector<path_moment> without_first_moves(std::vector<path_moment> all) {
+  const auto begins = [](const path_moment& m) {
+    return m.increment != nullptr && m.increment->fraction <= first_load;
+  };
+  std::vector<path_moment> kept;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i + 1 == all.size() || all[i + 1].step != all[i].step || !begins(all[i]) || !begins(all[i + 1]))
+      kept.push_back(all[i]);
+  return kept;
+}
+
 path_states::path_states(const run_result& r)
     : run_(r),
       structure_(r.structure),
@@ -102,7 +113,7 @@ std::vector<structure_state> pictures_of(const run_result& r, std::size_t most, 
   most = std::max(fewest, std::min(most, most_numbers / std::max<std::size_t>(start.displacement.size(), 1)));
   std::vector<structure_state> all = {std::move(start)};
   path_states states(r);
-  for (const path_moment& m : thinned(moments_of(r), most - 1))
+  for (const path_moment& m : thinned(without_first_moves(moments_of(r)), most - 1))
     if (structure_state s = states.at(m); !s.displacement.empty()) all.push_back(std::move(s));
   return all;
 }

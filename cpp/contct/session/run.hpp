@@ -24,7 +24,7 @@ struct run_request {
   bool envelope = false;
   bool pictures = false;   ///< states are kept, also where no output here needs them
   int max_increments = 0;  ///< in a step; 0: the default limit
-  int watched = 0;         ///< the node of the table, from 0
+  int watched = -1;        ///< the node of the table, from 0; -1: the one that deflects most
   std::string date = {};   ///< of the page; may be empty
 };
 
@@ -40,7 +40,8 @@ struct run_outputs {
   output_file* result = nullptr;
   result_parts parts = result_parts::ends;  ///< of the result
   output_file *log = nullptr, *trace = nullptr, *proof = nullptr, *page = nullptr;
-  output_file *table = nullptr, *pairs = nullptr;  ///< of write_csv
+  output_file *table = nullptr, *pairs = nullptr;      ///< of write_csv
+  output_file *states = nullptr, *envelope = nullptr;  ///< of write_states_csv and write_envelope_csv
 };
 
 class run {

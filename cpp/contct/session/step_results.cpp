@@ -52,6 +52,13 @@ place place_of_node(const model& m, int node) {
   return {p->x[node % p->columns()], p->y[node / p->columns()]};
 }
 
+std::vector<int> nodes_of_element(const model& m, int element) {
+  const auto* const on_plate = std::get_if<plate>(&m.kind);
+  if (on_plate == nullptr) return {element, element + 1};
+  const auto corners = on_plate->corners_of(element);
+  return {corners.begin(), corners.end()};
+}
+
 std::optional<std::size_t> step_results::hardest_pair() const {
   std::optional<std::size_t> hardest;
   for (std::size_t i = 0; i < pairs.size(); ++i)

@@ -33,6 +33,9 @@ struct place {
 };
 [[nodiscard]] place place_of_node(const model& m, int node);
 
+/// The nodes of a beam's or a plate's element, in the order in which element_results have its values.
+[[nodiscard]] std::vector<int> nodes_of_element(const model& m, int element);
+
 /// What a picture tells apart: at its face are pairs whose gap the listing takes for zero (under EPSGAP),
 /// whatever their status: stationary ones, which carry no force worth the name.
 enum class pair_state { open, closed, at_face };

@@ -53,14 +53,6 @@ void put_kind(json& out, const assembled& a) {
   out["notes"] = places.notes;
 }
 
-/// What a pair has of a bed: a tributary length or area; 0 where it is of none.
-std::vector<double> tributary_shares(const problem& p) {
-  std::vector<double> of_pair(p.pairs.size());
-  for (const bed& b : p.beds)
-    for (std::size_t i = 0; i < b.share.size(); ++i) of_pair[b.first_pair + i] = b.share[i];
-  return of_pair;
-}
-
 }  // namespace
 
 json_document::json_document(output_file& out, const json& members, std::string_view name) : out_(out) {
@@ -268,9 +260,8 @@ json structure_json(const problem& p) {
                   {"state", state_name(at.closed ? in_contact : separated)}});
     return entry;
   });
-  const std::vector<double> shares = tributary_shares(p);
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    if (shares[i] > 0.0) out["pairs"][i]["bed"] = shares[i];
+  for (const bed& b : p.beds)
+    for (std::size_t i = 0; i < b.share.size(); ++i) out["pairs"][b.first_pair + i]["bed"] = b.share[i];
   return out;
 }
 

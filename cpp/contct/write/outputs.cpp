@@ -63,6 +63,8 @@ void write_outputs(const run& r) {
   for (output_file* const file : {to.log, to.trace})
     if (file != nullptr) file->finish();
   if (to.table != nullptr) write_csv(r.result, r.wanted.watched, *to.table, to.pairs);
+  if (to.states != nullptr) write_states_csv(r.result, *to.states);
+  if (to.envelope != nullptr) write_envelope_csv(r.result, *to.envelope);
   const auto write_all = [](output_file& file, const std::string& text) {
     file.write(text);
     file.finish();

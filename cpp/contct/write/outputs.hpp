@@ -43,12 +43,23 @@ namespace contct {
 /// load; "end": the step ended without an increment, "rescue": in a state from elsewhere), s, share (of the
 /// step's load), force (sum of the loads), events ("make 1, break 3"), closed, open and at_face (how many
 /// pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not compared),
-/// node (the watched one, from 0: a number or a label) and w, its deflection.
+/// node (the watched one, from 0, or -1 for the one that deflects most at the ends of steps: a number or a
+/// label) and w, its deflection.
 ///
 /// The second, where `pairs` is not null, has a row for each pair in each of these: step, increment, pair,
 /// node, surface, state ("contact", "separated"; a dof's label stands for the node where each dof is one),
 /// look ("closed", "open", "at its face"), w, gap, force.
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs);
+
+/// Writes the states at the ends of steps, likewise. Beams: a row for each end of each element and for each
+/// place inside where w, the moment or the shear is extreme: step, name, element, node (empty inside), x, w,
+/// slope, moment, shear and, at nodes, pressure (of the bed; empty without one). Plates: a row for each node:
+/// step, name, node, x, y, w, wx, wy, pressure. A matrix: step, name, dof, value.
+void write_states_csv(const run_result& r, output_file& out);
+
+/// Writes the least and the largest w, moment and shear along a beam over the states of the envelope, with
+/// their steps: x, w_min, w_min_step, w_max, w_max_step, .. Nothing but headings for others.
+void write_envelope_csv(const run_result& r, output_file& out);
 
 /// Complete and name them.
 void write_outputs(const run& r);

@@ -43,10 +43,6 @@ json extremes_json(const model& m, const std::vector<value_range>& ranges) {
   return out;
 }
 
-json balance_json(const force_balance& sums) {
-  return {{"loads", sums.loads}, {"reactions", sums.reactions}, {"contact", sums.contact}};
-}
-
 /// `entry` and the increment that had it.
 template <class Value>
 json timed(json entry, const envelope::reached<Value>& at) {
@@ -91,14 +87,6 @@ json piece_json(const element_line& line) {
   const auto ends = [](const std::vector<double>& p) -> json { return {p.front(), polynomial_at(p, 1.0)}; };
   return {{"x", {line.left, line.right}}, {"w", ends(line.w)},         {"theta", ends(line.slope)},
           {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
-}
-
-/// The nodes of a beam's or a plate's element, in the order in which its values are.
-std::vector<int> nodes_of_element(const model& m, int e) {
-  const auto* const on_plate = std::get_if<plate>(&m.kind);
-  if (on_plate == nullptr) return {e, e + 1};
-  const auto corners = on_plate->corners_of(e);
-  return {corners.begin(), corners.end()};
 }
 
 /// `m` is null where the places are told elsewhere.
@@ -301,7 +289,8 @@ class result_writer {
                     {"beds", list_of(beds_in(r_.what, at_end, s.end), [&m, i = 0](const bed_reading& b) mutable -> json {
                        return {{"bed", ++i}, {"pressure", range_json(m, b.pressure)}, {"contact", b.contact}};
                      })}});
-    if (const auto sums = balance_of(r_.what, acting, at_end)) members["balance"] = balance_json(*sums);
+    if (const auto sums = balance_of(r_.what, acting, at_end)) members["balance"] = {
+          {"loads", sums->loads}, {"reactions", sums->reactions}, {"contact", sums->contact}};
     if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction, true);
     if (s.from_fallback) members["ended_by"] = "oracle";
     if (s.from_exact_path) members["ended_by"] = "exact";

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include "contct/session/path_states.hpp"
 #include "contct/session/step_results.hpp"
@@ -68,12 +68,27 @@ std::vector<pair_reading> readings_at(const problem& p, const load& l, const pat
   return all;
 }
 
+/// At the ends of steps.
+int node_that_deflects_most(const run_result& r) {
+  double most = 0.0;
+  int at = 0;
+  for (const step_record& s : r.record.steps) {
+    for (const int node : deflecting_nodes(r.what)) {
+      const double size = std::abs(deflection_of(r.what, s.end.displacement, node));
+      if (size > most) at = node;
+      most = std::max(most, size);
+    }
+  }
+  return at;
+}
+
 }  // namespace
 
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs) {
   const problem& p = r.what;
   const load_path loads(p);
   path_states states(r);
+  if (watched < 0) watched = node_that_deflects_most(r);
   increments.write(
       "step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w,name\r\n");
   if (pairs != nullptr) pairs->write("step,increment,pair,node,surface,state,look,w,gap,force,face\r\n");

@@ -19,13 +19,7 @@ std::vector<std::vector<int>> elements_of(const model& m) {
   std::vector<std::vector<int>> list;
   if (const auto* a = std::get_if<assembled>(&m.kind))
     for (const mesh_edge& e : a->places.edges) list.push_back({e.from, e.to});
-  const auto* const on_plate = std::get_if<plate>(&m.kind);
-  for (int e = 0; e < elements(m); ++e) {
-    list.push_back({e, e + 1});
-    if (on_plate == nullptr) continue;
-    const auto corners = on_plate->corners_of(e);
-    list.back().assign(corners.begin(), corners.end());
-  }
+  for (int e = 0; e < elements(m); ++e) list.push_back(nodes_of_element(m, e));
   return list;
 }
 

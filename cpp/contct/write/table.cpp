@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "contct/session/path_states.hpp"
 #include "contct/session/rule_1989.hpp"
 #include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
@@ -34,8 +35,8 @@ constexpr int load_width_at_most = 24;
 constexpr int load_width_at_least = 12;
 constexpr int events_width_at_least = 22;
 constexpr std::size_t most_events_shown = 12;
-/// At no larger share of its load, a step has only begun: structures that rest on their faces let go at once.
-constexpr double first_load = 1e-12;
+/// Of more steps the extremes are in tables of their own below the steps.
+constexpr std::size_t few_steps = 6;
 
 /// "node 3 below", of a pair from 0.
 std::string face_words(const problem& p, std::size_t pair) {
@@ -60,40 +61,82 @@ int widest_event(const problem& p) {
 /// 0.
 using sizes_so_far = std::map<std::string, double, std::less<>>;
 
+/// `value`, or 0 where it is nothing but the rounding of larger ones of its name.
+double without_rounding(std::string_view name, double value, sizes_so_far& sizes) {
+  double& size = sizes[std::string(name)];
+  size = std::max(size, std::abs(value));
+  return std::abs(value) <= 1e-12 * size ? 0.0 : value;
+}
+
 /// The largest deflection, moment, contact force and reaction with their places, a line each, of at most
-/// `width` columns where that is 60 or more.
+/// `width` columns where that is 60 or more. `all`: shears too, and the other extreme below each
+/// where it is not 0.
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
-                                       sizes_so_far& sizes) {
+                                       sizes_so_far& sizes, bool all) {
   std::vector<std::string> lines;
-  const auto add = [&](std::string_view name, double value, std::string_view quantity,
-                       const std::string& at) {
-    double& size = sizes[std::string(name)];
-    size = std::max(size, std::abs(value));
-    const bool is_none = std::abs(value) <= 1e-12 * size;
-    const std::string with_unit = fmt::format("{:.6g}", is_none ? 0.0 : value) + unit_words(p, quantity);
-    std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, is_none ? "" : at);
+  const auto add = [&](std::string_view name, double value, const std::string& unit, const std::string& at) {
+    const std::string with_unit = fmt::format("{:.6g}{}", value, unit);
+    std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, at);
     line.erase(line.find_last_not_of(' ') + 1);
     if (static_cast<int>(line.size()) > width) line = fmt::format("{} {}, {}", name, with_unit, at);
     lines.push_back(std::move(line));
   };
-  if (!r.ranges.empty()) {
-    const placed_value& w = r.ranges.front().largest();
-    add(std::holds_alternative<assembled>(p.geometry.kind) ? "u" : "w", w.value, "w",
-        place_words(p.geometry, w));
-  }
-  if (const value_range* const m = bending(r.ranges))
-    add(m->name, m->largest().value, m->name, place_words(p.geometry, m->largest()));
+  const auto add_range = [&](std::string_view name, const value_range& v) {
+    const bool is_least = -v.least.value > (1 + 1e-9) * v.most.value;  // of ties the positive one
+    const placed_value& first = is_least ? v.least : v.most;
+    const placed_value& other = is_least ? v.most : v.least;
+    const double most = without_rounding(name, first.value, sizes);
+    add(name, most, unit_words(p, v.name, first.node), most == 0.0 ? "" : place_words(p.geometry, first));
+    const double least = without_rounding(name, other.value, sizes);
+    if (all && least != 0.0 && std::abs(least - most) > 1e-9 * std::abs(most))
+      add("and", least, unit_words(p, v.name, other.node), place_words(p.geometry, other));
+  };
+  const auto add_force = [&](std::string_view name, double force, int node, const std::string& at) {
+    const double value = without_rounding(name, force, sizes);
+    add(name, value, unit_words(p, "force", node), value == 0.0 ? "" : at);
+  };
+  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+  if (!r.ranges.empty()) add_range(of_matrix ? "u" : "w", r.ranges.front());
+  if (const value_range* const m = bending(r.ranges)) add_range(m->name, *m);
   for (const value_range& v : r.ranges) {
-    if (v.name == "stress") add("least stress", v.least.value, v.name, place_words(p.geometry, v.least));
-    if (v.name == "stress") add("most stress", v.most.value, v.name, place_words(p.geometry, v.most));
-    if (v.name == "von_mises") add("von Mises", v.most.value, v.name, place_words(p.geometry, v.most));
+    if ((all && v.name == "shear") || v.name == "stress") add_range(v.name, v);
+    if (v.name == "von_mises")
+      add("von Mises", v.most.value, unit_words(p, v.name), place_words(p.geometry, v.most));
   }
   if (const auto pair = r.hardest_pair())
-    add("contact force", r.pairs[*pair].force, "force",
-        fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
+    add_force("contact force", r.pairs[*pair].force, p.pairs[*pair].node,
+              fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
   if (const auto i = r.hardest_support(p))
-    add("reaction", r.reactions[*i], "force", place_words(p.geometry, p.supports[*i].node));
+    add_force("reaction", r.reactions[*i], p.supports[*i].node, place_words(p.geometry, p.supports[*i].node));
   return lines;
+}
+
+/// The three sums of forces, and what each bed does.
+std::vector<std::string> sum_lines(const problem& p, const load& acting, const structure_state& s,
+                                   const step_results& r, sizes_so_far& sizes) {
+  std::vector<std::string> lines;
+  const auto words = [&](std::string_view name, double sum) {
+    return fmt::format("{} {:.6g}{}", name, without_rounding("sums", sum, sizes), unit_words(p, "force"));
+  };
+  for (const double force : r.reactions) (void)without_rounding("sums", force, sizes);
+  if (const auto sums = balance_of(p, acting, r))
+    lines.push_back(fmt::format("{:<14}{}, {}, {}", "sums", words("loads", sums->loads),
+                                words("reactions", sums->reactions), words("contact", sums->contact)));
+  for (int number = 0; const bed_reading& b : beds_in(p, r, s))
+    lines.push_back(fmt::format("{:<14}pressure {:.6g} to {:.6g}{}, largest at {}; {:.6g}{} in contact",
+                                fmt::format("bed {}", ++number), b.pressure.least.value,
+                                b.pressure.most.value, unit_words(p, "pressure"),
+                                place_words(p.geometry, b.pressure.most), b.contact,
+                                unit_words(p, "contact")));
+  return lines;
+}
+
+/// " 2.5" or " 2.5, 1": where a node of a beam or plate is, for the end of a row.
+std::string place_column(const model& m, int node) {
+  if (std::holds_alternative<assembled>(m.kind)) return "";
+  const place at = place_of_node(m, node);
+  return fmt::format(" {:.6g}", at.x) +
+         (std::holds_alternative<plate>(m.kind) ? fmt::format(", {:.6g}", at.y) : "");
 }
 
 /// Tables of all pairs, reactions and ends of elements, 80 columns wide.
@@ -102,28 +145,35 @@ std::string detail_tables(const problem& p, const structure_state& s, const step
   const auto line = [&text]<class... A>(fmt::format_string<A...> words, A&&... all) {
     text += fmt::format(words, std::forward<A>(all)...) + '\n';
   };
-  const std::string_view node = node_name(p.geometry);
+  const model& m = p.geometry;
+  const std::string_view node = node_name(m);
+  const std::string_view where = std::holds_alternative<beam>(m.kind) ? " x"
+                                 : r.elements.places > 0              ? " x, y"
+                                                                      : "";
   if (!r.pairs.empty())
-    line("{:>8} {:>10}  {:<8} {:<10} {:>14} {:>14}", "pair", node, "surface", "state", "gap", "force");
+    line("{:>8} {:>10}  {:<8} {:<10} {:>14} {:>14}{}", "pair", node, "surface", "state", "gap", "force",
+         where);
   for (std::size_t i = 0; i < r.pairs.size(); ++i)
-    line("{:>8} {:>10}  {:<8} {:<10} {:>14.7g} {:>14.7g}", i + 1,
+    line("{:>8} {:>10}  {:<8} {:<10} {:>14.7g} {:>14.7g}{}", i + 1,
          on_one_line(place_name(p.geometry, p.pairs[i].node)), surface_name(p.pairs[i].surface),
-         state_name(s.isep[i]), r.pairs[i].gap, r.pairs[i].force);
-  if (!r.reactions.empty()) line("{:>19}  {:<8} {:>25}", node, "dof", "reaction");
+         state_name(s.isep[i]), r.pairs[i].gap, r.pairs[i].force, place_column(m, p.pairs[i].node));
+  if (!r.reactions.empty()) line("{:>19}  {:<8} {:>25}{}", node, "dof", "reaction", where);
   for (std::size_t i = 0; i < r.reactions.size(); ++i)
-    line("{:>19}  {:<8} {:>25.7g}", on_one_line(place_name(p.geometry, p.supports[i].node)),
-         dof_names(p.geometry)[p.supports[i].dof], r.reactions[i]);
+    line("{:>19}  {:<8} {:>25.7g}{}", on_one_line(place_name(p.geometry, p.supports[i].node)),
+         dof_names(p.geometry)[p.supports[i].dof], r.reactions[i], place_column(m, p.supports[i].node));
   if (r.elements.elements() == 0) return text;
   line("{:>8}  {:<8} {}", "element", "at its",
        r.elements.places == 2 ? "left and right end" : "four corners");
   for (std::size_t e = 0; e < r.elements.elements(); ++e) {
-    std::string number = std::to_string(e + 1);
+    const auto corners = nodes_of_element(m, static_cast<int>(e));
+    text += fmt::format("{:>8}  {:<9}", e + 1, where.substr(1));
+    for (const int corner : corners) text += fmt::format(" {:>14}", place_column(m, corner).substr(1));
+    text += '\n';
     for (const element_results* const all : {&r.elements, &r.stresses}) {
       for (std::size_t name = 0; name < all->names.size(); ++name) {
-        const auto at = all->at(e, name);
-        text += fmt::format("{:>8}  {:<9}{:>14.7g}", std::exchange(number, ""), all->names[name], at[0]);
-        for (const double value : at.subspan(1)) text += fmt::format(" {:>14.7g}", value);
-        text += '\n';
+        std::string row = fmt::format("{:>8}  {:<9}", "", all->names[name]);
+        for (const double value : all->at(e, name)) row += fmt::format(" {:>14.7g}", value);
+        text += row + '\n';
       }
     }
   }
@@ -148,7 +198,12 @@ std::vector<std::string> words_of_1989(const row_of_1989& row) {
 class table_printer {
  public:
   table_printer(const run_result& r, const terminal& t, bool detail)
-      : run_(r), problem_(r.what), loads_(r.what), terminal_(t), detail_(detail) {
+      : run_(r),
+        problem_(r.what),
+        loads_(r.what),
+        terminal_(t),
+        detail_(detail),
+        whole_ends_(detail || r.record.steps.size() <= few_steps || starts_from_zero(r.what)) {
     const int room = t.width - fixed_width - (column() != "" ? kernels_width : 0);
     const int widest = widest_event(problem_);
     events_below_ = room < widest;
@@ -165,6 +220,7 @@ class table_printer {
       for (std::size_t step = 0; step < run_.record.steps.size(); ++step) print_step(step);
     }
     if (of_combinations && problem_.steps.size() > 1) print_envelope();
+    if (!whole_ends_) print_extremes();
     return {std::move(text_), legend()};
   }
 
@@ -183,6 +239,7 @@ class table_printer {
   [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const;
   void print_end(const step_record& s, const std::optional<certificate>& judged);
   [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const;
+  void print_extremes();
   [[nodiscard]] std::vector<std::string> events_of(const increment_record& i) const;
   [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
                                 std::string_view kernels, std::string_view load,
@@ -200,11 +257,13 @@ class table_printer {
   load_path loads_;
   const terminal& terminal_;
   bool detail_;
+  bool whole_ends_;
   int load_width_ = 0;                     // 0: no room for loads
   int indent_ = 0;                         // of the events
   bool events_below_ = false;              // on a narrow terminal they stand on lines of their own
   bool headed_ = false, snapped_ = false;  // what the rows so far have shown
   sizes_so_far sizes_;
+  std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;  // of each step
   std::string text_;
 };
 
@@ -337,11 +396,29 @@ void table_printer::print_end(const step_record& s, const std::optional<certific
     text_ += label + line + '\n';
     label.assign(label.size(), ' ');
   }
-  const step_results r = results_of(problem_, loads_.at(s.end.step, s.end.fraction), s.end);
-  for (const std::string& largest : largest_lines(problem_, r, width, sizes_))
-    for (const std::string& line : wrap({largest}, width))
+  const load acting = loads_.at(s.end.step, s.end.fraction);
+  const step_results r = results_of(problem_, acting, s.end);
+  for (std::size_t i = 0; i < r.ranges.size(); ++i) extremes_[i].emplace_back(s.end.step, r.ranges[i]);
+  std::vector<std::string> lines = largest_lines(problem_, r, width, sizes_, whole_ends_);
+  if (whole_ends_)
+    std::ranges::move(sum_lines(problem_, acting, s.end, r, sizes_), std::back_inserter(lines));
+  for (const std::string& unbroken : lines)
+    for (const std::string& line : wrap({unbroken}, width))
       text_ += painted(terminal_, paint::strong, label + line) + '\n';
   if (detail_) text_ += detail_tables(problem_, s.end, r);
+}
+
+/// A table for each quantity, a step a row.
+void table_printer::print_extremes() {
+  for (const auto& [number, of_steps] : extremes_) {
+    const auto heading = fmt::format("{:<8}  {:>12}  {:<24}  {:>12}  at", of_steps.front().second.name,
+                                     "least", "at", "largest");
+    text_ += "\n" + painted(terminal_, paint::strong, heading) + "\n";
+    for (const auto& [step, v] : of_steps)
+      text_ += fmt::format("step {:<3}  {:>12.6g}  {:<24}  {:>12.6g}  {}\n", step, v.least.value,
+                           place_words(problem_.geometry, v.least), v.most.value,
+                           place_words(problem_.geometry, v.most));
+  }
 }
 
 std::vector<std::string> table_printer::legend() const {
