@@ -39,6 +39,7 @@ struct run_options : problem_options {
   bool strict = false;
   bool detail = false;    ///< all numbers on the terminal
   bool envelope = false;  ///< in the result
+  bool refine = false;    ///< also on half the element size
   std::string
       watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
   int max_increments = 0;  ///< in a step; 0: the default limit

@@ -216,6 +216,9 @@ void declare_run(option_parser& p, CLI::App* c) {
   c->add_flag("--envelope", o.envelope,
               "Add to the result of --json the least and largest values over all increments, and to --csv "
               "F.envelope.csv, these along a beam; this takes one more solve for each increment");
+  c->add_flag("--refine", o.refine,
+              "Solve once more on half the element size, and say how much w, moments, shears, forces, "
+              "reactions and bearing pressures change at most");
   c->add_option(
        "--node", o.watched,
        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "

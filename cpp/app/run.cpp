@@ -11,6 +11,7 @@
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/session/path_states.hpp"
+#include "contct/session/refinement.hpp"
 #include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
@@ -126,6 +127,7 @@ run_setup set_up(const run_options& o) {
   refuse_bad_options(o);
   setup.what = read_with_warnings(o, setup.outputs);
   if (!o.vtu.empty()) check_grid_coordinates(setup.what);
+  if (o.refine) (void)refined(setup.what);  // throws for a matrix
   setup.structure = structure_of(setup.what);
   return setup;
 }
@@ -239,6 +241,24 @@ void report_comparison(shown_run& o) {
   for (const std::string& name : std::span(kernels).subspan(1)) report_free_run(o, name);
 }
 
+/// Solve once more on half the element size, and print what that changes.
+void report_refinement(shown_run& o) {
+  o.run.refine();
+  const problem& p = o.setup.what;
+  std::vector<std::string> items;
+  for (const auto& [kind, change, of] : o.run.result.refined) {
+    const double shown = change <= 1e-9 * of ? 0.0 : change;
+    items.push_back(fmt::format("{}{} by {:.3g}{} ({:.2g} %)",
+                                items.empty() ? "half the element size changes " : "", kind, shown,
+                                unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of));
+  }
+  if (items.empty()) items.emplace_back("on half the element size the problem is not solved");
+  if (std::holds_alternative<beam>(p.geometry.kind))
+    items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
+                                      : "beams are exact between nodes, a bed has twice as many pairs");
+  print_verdict(o, paint::quiet, items);
+}
+
 /// The report for --junit and --markdown.
 check_report check_report_of(const shown_run& o) {
   const run_result& run = o.run.result;
@@ -304,6 +324,7 @@ exit_status run_command(const run_options& options) {
   shown_run o{setup};
   go(o);
   report_comparison(o);
+  if (options.refine) report_refinement(o);
   return finish(o);
 }
 

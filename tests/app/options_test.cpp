@@ -56,7 +56,8 @@ TEST_CASE("a bare contct run names no kernels, which is both rules, and writes n
   CHECK(o.trace.empty());
   CHECK(o.html.empty());
   CHECK(o.vtu.empty());
-  CHECK_FALSE((o.free_run || o.final_only || o.strict || o.report.quiet));
+  CHECK(parsed<run_options>({"run", "f", "--refine"}).refine);
+  CHECK_FALSE((o.refine || o.free_run || o.final_only || o.strict || o.report.quiet));
   CHECK(o.max_increments == 0);
 }
 

@@ -99,13 +99,37 @@ TEST_CASE("without --kernels the trace and unit 26 are those of the 1989 rule al
   CHECK(calls({}) == calls({"--kernels", "fortran"}));
 }
 
-TEST_CASE("a bed's step has the pressure and the length in contact") {
-  const finished f = contct_program(
-      "/", {"run", CONTCT_ROOT "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels", "corrected"});
+TEST_CASE("half the element size changes no beam, and is refused for a matrix before anything is solved") {
+  const scratch_folder dir;
+  dir.write("pb.toml", good_problem);
+  const finished f = contct_program(dir.path(), {"run", "pb.toml", "--refine", "--json", "o.json"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("half the element size changes w by 0 (0 %)") &&
+                        Contains("beams are exact between nodes"));
+  const auto refined = nlohmann::json::parse(dir.read("o.json"))["refined"];
+  CHECK(refined.size() == 5);
+  CHECK(refined["moment"]["of"].get<double>() == Approx(36.2791).epsilon(1e-5));
+  CHECK(refined["moment"]["change"].get<double>() < 1e-11);
+  dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2.0\n");
+  dir.write("m.toml", "[matrix]\nstiffness = \"K.mtx\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
+  const finished matrix = contct_program(dir.path(), {"run", "m.toml", "--refine", "--json", "m.json"});
+  CHECK(matrix.exit == 2);
+  CHECK(matrix.out.empty());
+  CHECK_THAT(matrix.err,
+             Contains("--refine: found a structure given by its matrix, K.mtx; allowed: [beam] and [plate]"));
+  CHECK(dir.files() == std::vector<std::string>{"K.mtx", "m.toml", "o.json", "pb.toml"});
+}
+
+TEST_CASE(
+    "a bed's step has the pressure and the length in contact, and --refine says that it has more pairs") {
+  const finished f =
+      contct_program("/", {"run", CONTCT_ROOT "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels",
+                           "corrected", "--refine"});
   CHECK_THAT(f.out,
              Contains("        sums          loads -1, reactions 0, contact 1\n"
                       "        bed 1         pressure 0 to 3.3121, largest at node 1, x = 0; 0.625 in\n"
                       "        contact\n"));
+  CHECK_THAT(f.out, Contains("pressure by 0.0157 (0.47 %)") && Contains("a bed has twice as many pairs"));
 }
 
 TEST_CASE("the table fits its terminal, from 40 columns to 160") {

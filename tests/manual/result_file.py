@@ -20,7 +20,7 @@ from manual import blocks
 
 # No reference problem's path is given up.
 UNSEEN = {("A step", "ended_by")}
-LEAST_RUNS, LEAST_KEYS = 134, 238
+LEAST_RUNS, LEAST_KEYS = 134, 255
 
 MECHANISM = """
 [units]
@@ -129,6 +129,8 @@ def runs(root, plugin):
         problem = root / f"reference/{part}.toml"
         yield problem, ["--kernels", "corrected", "--envelope", "--proof", "proof.json"], 0
         yield problem, ["--final-only"], 0
+    for part in ("pb07-three-gap-supports", "pp05a-free-plate-on-bed-n8"):
+        yield root / f"reference/problems/{part}.toml", ["--kernels", "corrected", "--refine"], 0
     pb07 = root / "reference/problems/pb07-three-gap-supports.toml"
     yield pb07, ["--free-run", "--kernels", "fortran,cpp"], 0
     yield pb07, ["--free-run", "--kernels", "corrected,fortran"], 1

@@ -11,6 +11,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/session/refinement.hpp"
 #include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 
@@ -96,6 +97,16 @@ path_end run::follow_leader(std::vector<observer*>& all) {
   if (wanted.free_run) all.push_back(&own_path_.emplace());
   return follow(result.what, result.structure, result.engine, *leader_, all,
                 {wanted.max_increments, result.judged.ends()});
+}
+
+void run::refine() {
+  const problem finer = refined(result.what);
+  const linear_structure of_finer = structure_of(finer);
+  run ends(finer, of_finer, {.file = wanted.file, .kernels = {}});
+  ends.go({});
+  const bool solved =
+      result.end.status == path_status::solved && ends.result.end.status == path_status::solved;
+  if (solved) result.refined = changes_between(result, ends.result);
 }
 
 const compared_path& run::follow_alone(const std::string& name) {

@@ -58,6 +58,9 @@ class run {
   /// `shown`, who shows how far the path has come, observes behind the comparison and the certificate.
   void go(const run_outputs& outputs, const std::vector<observer*>& shown = {});
 
+  /// Find the ends of the steps on half the element size, and how they differ.
+  void refine();
+
   /// How the path of another kernel compares with the leader's, for the result too.
   const compared_path& follow_alone(const std::string& name);
 

@@ -109,6 +109,13 @@ struct compared_path {
   std::string distances;  ///< in words
 };
 
+/// How much the numbers of a kind change on a mesh of half the element size: see changes_between.
+struct mesh_change {
+  std::string_view kind;
+  double change = 0.0;
+  double of = 0.0;  ///< the largest of its kind on the finer mesh
+};
+
 /// All that is known of a run when it is over: every output is made from this.
 struct run_result {
   /// `p` and `s`, its structure, must outlive this object.
@@ -127,11 +134,12 @@ struct run_result {
   std::optional<lockstep_on_path> compared;  ///< none: no kernel was compared call by call
   std::shared_ptr<const rule_1989> beside;   ///< of a run of both rules; null: of others, and without answer
   std::vector<compared_path> free_runs;
-  bool equal = true;               ///< the kernels agreed
-  std::string comparison;          ///< how they did, in words; empty for a kernel alone
-  std::vector<std::string> facts;  ///< version, listing, floating point
-  std::string date;                ///< of the run, in UTC; may be empty
-  bool envelope = false;           ///< it was asked for
+  bool equal = true;                 ///< the kernels agreed
+  std::vector<mesh_change> refined;  ///< empty: not asked for, or not solved on both meshes
+  std::string comparison;            ///< how they did, in words; empty for a kernel alone
+  std::vector<std::string> facts;    ///< version, listing, floating point
+  std::string date;                  ///< of the run, in UTC; may be empty
+  bool envelope = false;             ///< it was asked for
 
   /// As results have it: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;

@@ -355,6 +355,8 @@ class result_writer {
     members["lockstep"] = calls != nullptr ? lockstep_json(*calls) : json(nullptr);
     if (r_.beside) members["rule_1989"] = rule_1989_json(r_);
     members["status"] = r_.status();
+    for (const mesh_change& c : r_.refined)
+      members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
     if (parts_ != result_parts::report) return members;

@@ -1,0 +1,177 @@
+#include "contct/session/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "contct/model/line.hpp"
+#include "contct/session/step_results.hpp"
+
+namespace contct {
+namespace {
+
+/// The numbers of nodes and elements on either mesh: of a beam, or of a plate row by row.
+struct halved_grid {
+  explicit halved_grid(const model& m) {
+    const auto* const p = std::get_if<plate>(&m.kind);
+    columns = p != nullptr ? p->columns() : nodes(m);
+    rows = nodes(m) / columns;
+  }
+  [[nodiscard]] int fine_columns() const { return 2 * columns - 1; }
+  [[nodiscard]] int node(int coarse) const {
+    return 2 * (coarse / columns) * fine_columns() + 2 * (coarse % columns);
+  }
+  /// The coarse nodes around a fine one: 2, or 4 in the middle of an element; itself where it was there.
+  [[nodiscard]] std::vector<int> around(int fine) const {
+    const int i = fine % fine_columns();
+    const int j = fine / fine_columns();
+    std::vector<int> all;
+    for (int row = j / 2; row <= (j + 1) / 2; ++row)
+      for (int column = i / 2; column <= (i + 1) / 2; ++column) all.push_back(row * columns + column);
+    return all;
+  }
+  [[nodiscard]] std::vector<int> parts_of(const std::vector<int>& elements) const {
+    std::vector<int> all;
+    for (const int e : elements) {
+      for (int above = 0; above < std::min(rows, 2); ++above) {
+        const int left = (2 * (e / (columns - 1)) + above) * (fine_columns() - 1) + 2 * (e % (columns - 1));
+        all.insert(all.end(), {left, left + 1});
+      }
+    }
+    return all;
+  }
+  int columns, rows;
+};
+
+/// The middle between two numbers of a file need not be one: it is made of them, as runs are.
+void halve(std::vector<double>& x, std::vector<even_run>& runs) {
+  for (std::size_t i = 1; i < x.size() && (i > 1 || runs.empty()); ++i) runs.push_back({x[i], 1});
+  for (even_run& run : runs) run.elements *= 2;
+  std::vector<double> fine = {x.front()};
+  for (std::size_t i = 1; i < x.size(); ++i)
+    fine.insert(fine.end(), {x[i - 1] + (x[i] - x[i - 1]) / 2, x[i]});
+  x.swap(fine);
+}
+
+void halve(beam& b) {
+  halve(b.x, b.runs);
+  std::vector<double> EI;
+  for (const double of_element : b.EI) EI.insert(EI.end(), 2, of_element);
+  b.EI.swap(EI);
+}
+
+void halve(plate& p) {
+  halve(p.x, p.x_runs);
+  halve(p.y, p.y_runs);
+}
+
+void halve(assembled& a) {
+  throw std::invalid_argument(
+      "--refine: found a structure given by its matrix, " + a.name +
+      "; allowed: [beam] and [plate]. Write the matrix of a finer mesh with the program that it is from, and "
+      "compare the two results");
+}
+
+std::vector<char> fixed_in(const problem& p, int dof) {
+  std::vector<char> fixed(nodes(p.geometry));
+  for (const support& s : p.supports)
+    if (s.fixed && s.dof == dof) fixed[s.node] = 1;
+  return fixed;
+}
+
+void add_supports(const problem& p, const halved_grid& grid, int dof, problem& fine) {
+  const std::vector<char> fixed = fixed_in(p, dof);
+  for (int node = 0; node < nodes(fine.geometry); ++node) {
+    const std::vector<int> around = grid.around(node);
+    const auto share = 1.0 / static_cast<double>(around.size());
+    if (share == 1.0 || !std::ranges::all_of(around, [&](int n) { return fixed[n] != 0; })) continue;
+    fine.supports.push_back({node, dof, true});
+    for (std::size_t step = 0; step < p.steps.size(); ++step) {
+      double mean = 0.0;
+      for (const prescribed_displacement& g : p.steps[step].settlements)
+        if (g.dof == dof && std::ranges::count(around, g.node) > 0) mean += share * g.value;
+      if (mean != 0.0) fine.steps[step].settlements.push_back({node, dof, mean});
+    }
+  }
+}
+
+/// The bed `b` of `p`. New faces are means, or values of the polynomial.
+void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& fine) {
+  std::map<int, double> faces;
+  for (std::size_t i = 0; i < b.share.size(); ++i)
+    faces[p.pairs[b.first_pair + i].node] = p.pairs[b.first_pair + i].face;
+  const std::vector<char> fixed = fixed_in(p, 0);
+  const std::vector<char> now_fixed = fixed_in(fine, 0);
+  const std::vector<double> shares = tributary_shares(fine.geometry);
+  bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed};
+  for (int node = 0; node < nodes(fine.geometry); ++node) {
+    const std::vector<int> around = grid.around(node);
+    const auto known = std::ranges::count_if(around, [&](int n) { return faces.contains(n); });
+    const bool all = std::ranges::all_of(around, [&](int n) { return faces.contains(n) || fixed[n] != 0; });
+    if (now_fixed[node] != 0 || known == 0 || !all) continue;
+    double face = 0.0;
+    for (const int n : around)
+      if (faces.contains(n)) face += faces[n] / static_cast<double>(known);
+    if (!b.face.empty())
+      face = values_at<double>(std::get<beam>(fine.geometry.kind), b.face, std::vector{node}).front();
+    made.share.push_back(shares[node]);
+    fine.pairs.push_back({node, p.pairs[b.first_pair].surface, face, b.modulus * shares[node],
+                          b.closed.value_or(true) && face == 0.0});
+  }
+  fine.beds.push_back(std::move(made));
+}
+
+std::size_t contacts_of(const problem& p) {
+  return p.beds.empty() ? p.pairs.size() : p.beds.front().first_pair;
+}
+
+}  // namespace
+
+problem refined(const problem& p) {
+  const halved_grid grid(p.geometry);
+  problem fine = p;
+  std::visit([](auto& kind) { halve(kind); }, fine.geometry.kind);
+  for (support& s : fine.supports) s.node = grid.node(s.node);
+  for (load& l : fine.steps) {
+    for (point_load& at : l.points) at.node = grid.node(at.node);
+    for (prescribed_displacement& at : l.settlements) at.node = grid.node(at.node);
+    for (distributed_load& d : l.distributed) d.elements = grid.parts_of(d.elements);
+  }
+  if (std::holds_alternative<plate>(p.geometry.kind))
+    for (int dof = 0; dof < plate::dofs_per_node; ++dof) add_supports(p, grid, dof, fine);
+  fine.pairs.resize(contacts_of(p));
+  for (contact_pair& pair : fine.pairs) pair.node = grid.node(pair.node);
+  fine.beds.clear();
+  for (const bed& b : p.beds) add_bed(p, grid, b, fine);
+  return fine;
+}
+
+std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine) {
+  std::vector<mesh_change> all;
+  const auto take = [&all](std::string_view kind, double before, double now) {
+    auto at = std::ranges::find(all, kind, &mesh_change::kind);
+    if (at == all.end()) at = all.insert(all.end(), {kind});
+    at->change = std::max(at->change, std::abs(now - before));
+    at->of = std::max(at->of, std::abs(now));
+  };
+  const problem& p = coarse.what;
+  for (std::size_t step = 0; step < p.steps.size(); ++step) {
+    const structure_state& before = coarse.record.steps[step].end;
+    const structure_state& now = fine.record.steps[step].end;
+    step_results a = results_of(p, p.steps[step], before);
+    step_results b = results_of(fine.what, fine.what.steps[step], now);
+    for (const bed_reading& r : beds_in(p, a, before)) a.ranges.push_back(r.pressure);
+    for (const bed_reading& r : beds_in(fine.what, b, now)) b.ranges.push_back(r.pressure);
+    for (std::size_t i = 0; i < a.ranges.size(); ++i) {
+      take(a.ranges[i].name, a.ranges[i].least.value, b.ranges[i].least.value);
+      take(a.ranges[i].name, a.ranges[i].most.value, b.ranges[i].most.value);
+    }
+    for (std::size_t i = 0; i < contacts_of(p); ++i) take("force", a.pairs[i].force, b.pairs[i].force);
+    for (std::size_t i = 0; i < p.supports.size() && std::holds_alternative<beam>(p.geometry.kind); ++i)
+      if (p.supports[i].dof == 0) take("reaction", a.reactions[i], b.reactions[i]);
+  }
+  return all;
+}
+
+}  // namespace contct
