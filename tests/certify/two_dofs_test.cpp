@@ -3,6 +3,7 @@
 
 #include "catch.hpp"
 #include "contct/certify/certificate.hpp"
+#include "contct/certify/reference_solution.hpp"
 #include "contct/exact/exact_means.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/matrix/sparse_factor.hpp"
@@ -176,4 +177,26 @@ TEST_CASE("A state is not certified in which one of two dofs is off by a tenth o
     judged.step_ended({1, 1.0, u, path.seen.steps[0].isep, 1e-3});
     CHECK_FALSE(judged.all_certified());
   }
+}
+
+TEST_CASE("The bound of a state that moves both dofs of a stiff pair too far is no smaller than that") {
+  const problem p =
+      on_matrix({2, {{0, 0, 1}, {1, 0, 0}, {1, 1, 1}}}, {{0, face_below, 0.0, 1e6, true, 1}}, {force(0, -3)});
+  const linear_structure s = structure_of(p);
+  std::vector<double> u = follow_met(p, "refactor", "corrected").u(1);
+  for (double& x : u) x -= 1e-4;
+  const std::vector<int> isep = {in_contact};
+  certifier judged(p, s);
+  judged.step_ended({1, 1.0, u, isep, 1e-3});
+  REQUIRE(judged.steps().at(0).has_value());
+  CHECK(judged.steps()[0]->error[quantity::w].value_or(1.0) >= 0.999e-4);
+}
+
+TEST_CASE("The reference solution of cantilevers that meet is the closed form, without a path") {
+  const problem p = two_cantilevers();
+  const linear_structure s = structure_of(p);
+  const std::vector<double> load = {-15, 0, 0, 0};
+  const reference_answer answer = reference_solver(s).solve(load, {});
+  REQUIRE(answer.how == reference_answer::outcome::found);
+  CHECK(answer.displacement[2] == Approx(-75.0 / 11 / 60000).epsilon(1e-11));
 }
