@@ -31,19 +31,22 @@ void take(envelope_curves& all, const beam& b, const beam_lines& lines, const st
   const int parts = parts_of(b);
   std::size_t place = 0;
   for (int e = 0; e < b.elements(); ++e) {
-    const element_line line = lines.at(e);
+    const std::vector<element_line> pieces = lines.pieces(e);
+    auto piece = pieces.begin();
     const double* const u = &s.displacement[std::size_t{beam::dofs_per_node} * e];
     for (int k = 0; k <= parts; ++k, ++place) {
+      while (piece + 1 != pieces.end() && all.x[place] > piece->right) ++piece;
+      const double t = (all.x[place] - piece->left) / piece->h;
       const auto take_one = [&](std::size_t quantity, const auto& polynomial, double left, double right) {
-        const double inside = polynomial_at(polynomial, static_cast<double>(k) / parts);
+        const double inside = polynomial_at(polynomial, t);
         const double value = k == 0 ? left : k == parts ? right : inside;
         envelope::range<double>& known = all.curves[quantity].at[place];
         if (value < known.least.value) known.least = {value, s.step, s.number};
         if (value > known.most.value) known.most = {value, s.step, s.number};
       };
-      take_one(0, line.w, u[0], u[2]);
-      take_one(1, line.moment, lines.ends().at(e, 1)[0], lines.ends().at(e, 1)[1]);
-      take_one(2, line.shear, lines.ends().at(e, 0)[0], lines.ends().at(e, 0)[1]);
+      take_one(0, piece->w, u[0], u[2]);
+      take_one(1, piece->moment, lines.ends().at(e, 1)[0], lines.ends().at(e, 1)[1]);
+      take_one(2, piece->shear, lines.ends().at(e, 0)[0], lines.ends().at(e, 0)[1]);
     }
   }
 }

@@ -59,6 +59,10 @@ void halve(beam& b) {
   std::vector<double> EI;
   for (const double of_element : b.EI) EI.insert(EI.end(), 2, of_element);
   b.EI.swap(EI);
+  std::vector<beam_section> sections;
+  for (const beam_section& of_element : b.sections) sections.insert(sections.end(), 2, of_element);
+  b.sections.swap(sections);
+  for (int& node : b.hinges) node *= 2;
 }
 
 void halve(plate& p) {
@@ -90,7 +94,7 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
     for (std::size_t step = 0; step < p.steps.size(); ++step) {
       double mean = 0.0;
       for (const prescribed_displacement& g : p.steps[step].settlements)
-        if (g.dof == dof && std::ranges::count(around, g.node) > 0) mean += share * g.value;
+        if (g.dof == dof && std::ranges::count(around, g.node) > 0) mean += share * product_of<double>(g.value, g.factor);
       if (mean != 0.0) fine.steps[step].settlements.push_back({node, dof, mean});
     }
   }
@@ -136,6 +140,7 @@ problem refined(const problem& p) {
   for (load& l : fine.steps) {
     for (point_load& at : l.points) at.node = grid.node(at.node);
     for (prescribed_displacement& at : l.settlements) at.node = grid.node(at.node);
+    for (face_move& at : l.moves) at.node = grid.node(at.node);
     for (distributed_load& d : l.distributed) d.elements = grid.parts_of(d.elements);
   }
   if (std::holds_alternative<plate>(p.geometry.kind))

@@ -26,20 +26,25 @@ struct end_of_step {
 std::string rows_of(const beam& b, const end_of_step& s) {
   const beam_lines lines(b, s.acting, s.state.displacement, s.read.elements.values);
   std::string rows;
-  const auto add_end = [&](int e, int right) {
+  const auto add_end = [&](int e, int right, double slope) {
     const int node = e + right;
-    rows += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", s.step, e + 1, node + 1, b.x[node], s.u(2 * node),
-                        s.u(2 * node + 1), lines.ends().at(e, 1)[right], lines.ends().at(e, 0)[right],
-                        s.pressure_at(node));
+    rows += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", s.step, e + 1, node + 1, b.x[node], s.u(2 * node), slope,
+                        lines.ends().at(e, 1)[right], lines.ends().at(e, 0)[right], s.pressure_at(node));
+  };
+  const auto add_inside = [&](int e, const element_line& at, double x, double t) {
+    rows += fmt::format("{},{},,{},{},{},{},{},\r\n", s.step, e + 1, x, polynomial_at(at.w, t),
+                        polynomial_at(at.slope, t), polynomial_at(at.moment, t), polynomial_at(at.shear, t));
   };
   for (int e = 0; e < b.elements(); ++e) {
-    const element_line at = lines.at(e);
-    add_end(e, 0);
-    for (const double t : extreme_places(at))
-      rows +=
-          fmt::format("{},{},,{},{},{},{},{},\r\n", s.step, e + 1, at.left + t * at.h, polynomial_at(at.w, t),
-                      polynomial_at(at.slope, t), polynomial_at(at.moment, t), polynomial_at(at.shear, t));
-    add_end(e, 1);
+    const std::vector<element_line> pieces = lines.pieces(e);
+    add_end(e, 0, s.u(2 * e + 1));
+    for (const element_line& at : pieces) {
+      if (&at != &pieces.front()) add_inside(e, at, at.left, 0.0);
+      for (const double t : extreme_places(at)) add_inside(e, at, at.left + t * at.h, t);
+      if (&at != &pieces.back()) add_inside(e, at, at.right, 1.0);
+    }
+    // At a hinge the node's slope is that on its right.
+    add_end(e, 1, b.has_hinge(e + 1) ? polynomial_at(pieces.back().slope, 1.0) : s.u(2 * e + 3));
   }
   return rows;
 }
