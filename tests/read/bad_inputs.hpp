@@ -352,9 +352,8 @@ inline std::vector<bad_input> bad_tables() {
 /// All of them.
 inline std::vector<bad_input> bad_inputs() {
   std::vector<bad_input> all = bad_tables();
-  for (const auto& more :
-       {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_sections(), bad_hinges(), bad_pairs(),
-        bad_units_and_steps(), bad_combinations()})
+  for (const auto& more : {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_sections(),
+                           bad_hinges(), bad_pairs(), bad_units_and_steps(), bad_combinations()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -134,9 +134,11 @@ resultant sum_of_loads(const assembled& /*a*/, const load& l) {
 /// Of a matrix.
 std::string unit_at(const assembled& a, const problem& p, std::string_view quantity, int dof) {
   const placed_dof at = dof >= 0 && a.places.known() ? a.places.dofs[dof] : placed_dof{};
-  const bool has_pair = std::any_of(p.pairs.begin(), p.pairs.end(),
-                                    [dof](const contact_pair& c) { return c.node == dof || (dof >= 0 && c.other == dof); });
-  if (at.is_length() || has_pair) return on_one_line(" " + (quantity == "w" ? p.units.length : p.units.force));
+  const bool has_pair = std::any_of(p.pairs.begin(), p.pairs.end(), [dof](const contact_pair& c) {
+    return c.node == dof || (dof >= 0 && c.other == dof);
+  });
+  if (at.is_length() || has_pair)
+    return on_one_line(" " + (quantity == "w" ? p.units.length : p.units.force));
   const bool turns = at.direction != 0;
   return turns && quantity == "force" ? on_one_line(" " + p.units.force + " " + p.units.length) : "";
 }

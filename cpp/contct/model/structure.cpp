@@ -183,7 +183,8 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
 }
 
 void add_moves(const load& l, int dofs_per_node, std::span<double> moved) {
-  for (const face_move& m : l.moves) moved[m.node * dofs_per_node + m.dof] += product_of<double>(m.value, m.factor);
+  for (const face_move& m : l.moves)
+    moved[m.node * dofs_per_node + m.dof] += product_of<double>(m.value, m.factor);
 }
 
 void count_from_faces(const linear_structure& s, std::span<const double> moved, std::span<double> f) {

@@ -13,7 +13,8 @@ namespace contct {
 /// combination and each place of a train starts from the unloaded structure. `files` finds those that a load
 /// names; `warnings` gets those about their numbers.
 [[nodiscard]] std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
-                                           const std::vector<support>& supports, const std::vector<contact_pair>& pairs,
-                                           const named_files& files, std::vector<std::string>& warnings);
+                                           const std::vector<support>& supports,
+                                           const std::vector<contact_pair>& pairs, const named_files& files,
+                                           std::vector<std::string>& warnings);
 
 }  // namespace contct

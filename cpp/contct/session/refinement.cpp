@@ -94,7 +94,8 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
     for (std::size_t step = 0; step < p.steps.size(); ++step) {
       double mean = 0.0;
       for (const prescribed_displacement& g : p.steps[step].settlements)
-        if (g.dof == dof && std::ranges::count(around, g.node) > 0) mean += share * product_of<double>(g.value, g.factor);
+        if (g.dof == dof && std::ranges::count(around, g.node) > 0)
+          mean += share * product_of<double>(g.value, g.factor);
       if (mean != 0.0) fine.steps[step].settlements.push_back({node, dof, mean});
     }
   }

@@ -207,11 +207,11 @@ class result_writer {
   void write() {
     for (std::size_t step = 0; step < r_.record.steps.size(); ++step) add_step(step);
     const model& m = r_.what.geometry;
-    document_.finish(
-        foot(), {{"nodes", placed_nodes_of(m), [&m](auto i) { return node_json(m, i); }},
-                 {"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
-                 {"calls", r_.record_of_calls().calls.size(),
-                  [this](auto i) { return call(r_.record_of_calls().calls[i]); }}});
+    document_.finish(foot(),
+                     {{"nodes", placed_nodes_of(m), [&m](auto i) { return node_json(m, i); }},
+                      {"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
+                      {"calls", r_.record_of_calls().calls.size(),
+                       [this](auto i) { return call(r_.record_of_calls().calls[i]); }}});
   }
 
  private:
@@ -284,12 +284,14 @@ class result_writer {
                       {"elements", nullptr}});
     else
       members["increments"] = json::array();
-    members.update({{"extremes", extremes_json(m, at_end.ranges)},
-                    {"extremes_at", ranges_are_at(m)},
-                    {"beds", list_of(beds_in(r_.what, at_end, s.end), [&m, i = 0](const bed_reading& b) mutable -> json {
-                       return {{"bed", ++i}, {"pressure", range_json(m, b.pressure)}, {"contact", b.contact}};
-                     })}});
-    if (const auto sums = balance_of(r_.what, acting, at_end)) members["balance"] = {
+    members.update(
+        {{"extremes", extremes_json(m, at_end.ranges)},
+         {"extremes_at", ranges_are_at(m)},
+         {"beds", list_of(beds_in(r_.what, at_end, s.end), [&m, i = 0](const bed_reading& b) mutable -> json {
+            return {{"bed", ++i}, {"pressure", range_json(m, b.pressure)}, {"contact", b.contact}};
+          })}});
+    if (const auto sums = balance_of(r_.what, acting, at_end))
+      members["balance"] = {
           {"loads", sums->loads}, {"reactions", sums->reactions}, {"contact", sums->contact}};
     if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction, true);
     if (s.from_fallback) members["ended_by"] = "oracle";

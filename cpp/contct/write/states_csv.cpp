@@ -28,8 +28,9 @@ std::string rows_of(const beam& b, const end_of_step& s) {
   std::string rows;
   const auto add_end = [&](int e, int right, double slope) {
     const int node = e + right;
-    rows += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", s.step, e + 1, node + 1, b.x[node], s.u(2 * node), slope,
-                        lines.ends().at(e, 1)[right], lines.ends().at(e, 0)[right], s.pressure_at(node));
+    rows +=
+        fmt::format("{},{},{},{},{},{},{},{},{}\r\n", s.step, e + 1, node + 1, b.x[node], s.u(2 * node),
+                    slope, lines.ends().at(e, 1)[right], lines.ends().at(e, 0)[right], s.pressure_at(node));
   };
   const auto add_inside = [&](int e, const element_line& at, double x, double t) {
     rows += fmt::format("{},{},,{},{},{},{},{},\r\n", s.step, e + 1, x, polynomial_at(at.w, t),

@@ -122,8 +122,8 @@ std::vector<std::string> certificate_complaints(const run_result& r) {
     const auto& c = r.judged.steps()[i];
     const int step = r.record.steps[i].end.step;
     if (c && !c->certified)
-      lines.push_back(fmt::format("{} is not certified: {}; allowed: {}{}{}", step_words(r.what, step), c->problem,
-                                  percent_words(certified_share), pull_words(*c, r.what),
+      lines.push_back(fmt::format("{} is not certified: {}; allowed: {}{}{}", step_words(r.what, step),
+                                  c->problem, percent_words(certified_share), pull_words(*c, r.what),
                                   worst_until(step, *c, r.what, r.early)));
   }
   return starts_from_zero(r.what) ? first_of(std::move(lines)) : lines;
@@ -215,7 +215,8 @@ std::string passage_warning(const problem& p, std::span<const step_record> steps
   if (!worst) return "";
   const contact_pair& left = p.pairs[worst->first];
   return fmt::format(
-      "{}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g}{} at x = "
+      "{}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g}{} at x "
+      "= "
       "{:.6g}. Where these are separate stops, this is as it should be; where one surface runs between them, "
       "put pairs closer together (at the nodes of a finer mesh: element_size)",
       step_words(p, step), worst->first + 1, worst->second + 1, left.face, worst->depth, unit_words(p, "w"),
