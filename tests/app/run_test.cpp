@@ -186,6 +186,7 @@ TEST_CASE("on a narrow terminal an increment's events stand on lines of their ow
                              "    certified\n"
                              "    w -0.00483721, node 3, x = 2\n"
                              "    moment -36.2791, node 1, x = 0\n"
+                             "    shear 18.1395, node 1, x = 0\n"
                              "    contact force 41.8605, pair 1, node\n"
                              "    3 below\n"
                              "    reaction 18.1395, node 1\n"));

@@ -113,10 +113,12 @@ def plainly(program, root, plugin, bench, folder):
     """What is wrong with the results of exact, explain and contct_bench raises a ValueError; returns a summary."""
     pb07 = root / "reference/problems/pb07-three-gap-supports.toml"
     (folder / "free.toml").write_text(FREE)
+    of_case = (BEAM % (2.0, 2, 2.0)).replace("[[step]]", '[[case]]\nname = "G"')
+    (folder / "combined.toml").write_text(of_case + '[[combination]]\nname = "a"\nterms = { G = 1.0 }\n')
     near_tie = root / "reference/problems/divergences/near-tie.toml"
     results = {
         "exact.md": [["exact", pb07, "--kernels", "fortran,corrected"], ["exact", "free.toml", "--kernels", "fortran"],
-                     ["exact", root / "reference/structures/frame.toml"]],
+                     ["exact", root / "reference/structures/frame.toml"], ["exact", "combined.toml"]],
         "explain-format.md": [["explain", pb07], ["explain", near_tie],
                               ["explain", root / "reference/structures/frame.toml"],
                               ["explain", pb07, "--kernels", f"fortran,plugin:{plugin}"]],

@@ -143,7 +143,7 @@ def runs(root, plugin):
     for text in (PLATE, MANY_PARTS, SETTLED_BEAM, PARTS):
         yield text, ["--envelope"], 0
     yield PLATE, ["--html", "page.html"], 0
-    for part in ("problems/pb07-three-gap-supports", "problems/pp05a-free-plate-on-bed-n8", "problems/pb14-gerber-beam", "structures/frame", "structures/calculix/console"):
+    for part in ("problems/pb07-three-gap-supports", "problems/pp05a-free-plate-on-bed-n8", "problems/pb14-gerber-beam", "problems/pb15-two-beams", "structures/frame", "structures/calculix/console"):
         yield root / f"reference/{part}.toml", ["--html", "page.html"], 0
 
 

@@ -215,7 +215,7 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
   CHECK_THAT(text, Contains("               node  dof                       reaction x\n"));
   CHECK_THAT(text, Contains("w                         18.13953"));
   CHECK_THAT(text, Contains("theta                     36.27907"));
-  CHECK_THAT(text, Contains("       2  x                     1              2\n          shear"));
+  CHECK_THAT(text, Contains("       2  x                      1              2\n          shear"));
   for (std::size_t at = 0, end = 0; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
     CHECK(end - at <= 80);
 }

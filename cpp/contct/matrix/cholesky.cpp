@@ -96,10 +96,6 @@ stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
   if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
-sparse_columns& sparse_factor::matrix() {
-  throw std::logic_error("this factor's matrix cannot be changed");
-}
-
 /// Springs between two rows are in the matrix for this factor only.
 bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
   std::vector<std::pair<double*, double>> own;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "contct/matrix/stiffness_matrix.hpp"
@@ -34,7 +35,7 @@ class sparse_factor {
 
   /// A, to change entries beside the diagonal of the next factor. Throws std::logic_error where others hold
   /// it.
-  [[nodiscard]] virtual sparse_columns& matrix();
+  [[nodiscard]] virtual sparse_columns& matrix() { throw std::logic_error("this factor's matrix cannot be changed"); }
 
   /// Solve A x = b in place, for one right-hand side or several, one after the other. Throws std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
