@@ -35,7 +35,9 @@ class sparse_factor {
 
   /// A, to change entries beside the diagonal of the next factor. Throws std::logic_error where others hold
   /// it.
-  [[nodiscard]] virtual sparse_columns& matrix() { throw std::logic_error("this factor's matrix cannot be changed"); }
+  [[nodiscard]] virtual sparse_columns& matrix() {
+    throw std::logic_error("this factor's matrix cannot be changed");
+  }
 
   /// Solve A x = b in place, for one right-hand side or several, one after the other. Throws std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
