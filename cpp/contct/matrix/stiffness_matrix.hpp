@@ -133,8 +133,8 @@ struct sparse_columns {
 /// A spring at one row: its stiffness is added to the diagonal. Or between two rows: then -stiffness is added
 /// beside it too, where the matrix must have a place.
 struct spring_at {
-  int row;
-  double stiffness;
+  int row = 0;
+  double stiffness = 0.0;
   int other = -1;
 
   bool operator==(const spring_at&) const = default;

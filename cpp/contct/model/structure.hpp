@@ -139,12 +139,12 @@ struct support {
 /// A candidate contact pair: a one-sided spring between a node and a face; or between two nodes, with the
 /// face on the other one: it then sees the difference of their deflections.
 struct contact_pair {
-  int node;          ///< from 0
-  int surface;       ///< n: face_above (+1) or face_below (-1)
-  double face;       ///< c: the position of the face
-  double stiffness;  ///< k of its spring, positive
-  bool closed;       ///< in contact at the start
-  int other = -1;    ///< the node with the face, from 0; -1: the face stands still. No support fixes either
+  int node = 0;            ///< from 0
+  int surface = 0;         ///< n: face_above (+1) or face_below (-1)
+  double face = 0.0;       ///< c: the position of the face
+  double stiffness = 0.0;  ///< k of its spring, positive
+  bool closed = false;     ///< in contact at the start
+  int other = -1;  ///< the node with the face, from 0; -1: the face stands still. No support fixes either
 
   /// w of the node, less that of the other one. Of rows of numbers too.
   template <class Vector>

@@ -50,8 +50,8 @@ CONTCT_SERVE_EXPORT int contct_serve_version(void);
 CONTCT_SERVE_EXPORT char* contct_about(void);
 
 /* contct run: follow the path of a problem. "result" is what --json writes (reference/result-file.md).
- *   "kernels"         the first leads; without it, both rules: "corrected" gives the answer, and "fortran"
- * and "cpp" follow the 1989 path beside it "engine"          as --engine; without it, what suits the leader
+ *   "kernels"         the first leads; without it, "corrected" gives the answer, beside the 1989 path
+ *   "engine"          as --engine; without it, what suits the leader
  *   "final_only"      false; true: no path, the equilibrium under each step's load
  *   "envelope"        false
  *   "max_increments"  0, the program's own limit
