@@ -1,5 +1,5 @@
 """Makes the pages in which the compiled program runs: the playground, contct.html, and the course, a page for each of its Markdown files, whose
-pictures are scenes that can be dragged.
+pictures are scenes that can be dragged. Page 12 has a judge of kernels.
 usage: python3 pages.py ROOT MODULE OUT    (MODULE: contct.js as Emscripten writes it; OUT: the folder of contct.html; the course is beside it)"""
 import json
 import pathlib
@@ -7,6 +7,9 @@ import re
 import sys
 
 root, module, out = (pathlib.Path(a) for a in sys.argv[1:])
+sys.path.insert(0, str(root / "reference/course/port"))
+import hint  # noqa: E402
+
 here, report, course = root / "cpp/playground", root / "cpp/contct/write/report", root / "reference/course"
 
 
@@ -41,6 +44,15 @@ def scenes():
     return {name: {**s, "text": read(root / s["problem"])} for name, s in all_scenes.items()}
 
 
+def judged():
+    """What the judge of page 12 has: the golden calls with their answers, and the hints. JSON has no NaN and no infinity: they are texts."""
+    real = lambda x: x if abs(x) < float("inf") else str(x)
+    calls = [{"name": c["name"], "note": c["note"], "indof": c["indof"], "ndofpn": c["ndofpn"], "ndof": c["ndof"],
+              "dofs": [[n, real(d), real(d_star)] for n, d, d_star in c["dofs"]], "pairs": [[*p[:3], real(p[3])] for p in c["pairs"]],
+              "smin": real(c["answer"][0]), "ss": [real(s) for s in c["answer"][1]], "isep": c["answer"][2]} for c in hint.golden_calls(root)]
+    return {"golden": calls, "hints": hint.read_table(), "where": hint.WHERE}
+
+
 def given(**more):
     text = json.dumps({"scenes": scenes(), "listing": read(root / "fortran/contct.f"), **more}, ensure_ascii=False)
     return text.replace("</", "<\\/")
@@ -72,6 +84,7 @@ def page_of(markdown_file, converter):
         return f'<figure data-scene="{m[2]}">{m[1]}</figure>'
 
     body = re.sub(r'<p>(<img [^>]*title="scene: ([\w-]+)"[^>]*>)</p>', place, body)
+    body = re.sub(r'<p>(<img [^>]*title="judge: port"[^>]*>)</p>', r'<div data-port>\1</div>', body)
     body = re.sub(r'href="([\w-]+)\.md', r'href="\1.html', body)
     body = re.sub(r'(href|src)="(?!https?:|#|[\w-]+\.html)([^"]+)"', lambda m: f'{m[1]}="../../reference/course/{m[2]}"', body)
     return filled(read(here / "course.html"), {
@@ -85,8 +98,8 @@ def write_course():
     converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc"])
     for page in sorted(course.glob("*.md")):
         write_whole(folder / ("index.html" if page.stem == "README" else f"{page.stem}.html"), page_of(page, converter))
-    scripts = together("result.js", "picture.js", "program.js", "scene.js", "two_rules.js", "course.js")
-    write_whole(folder / "course.js", f"const given = {given()};\n{read(module)}\n{scripts}")
+    scripts = together("result.js", "picture.js", "program.js", "scene.js", "two_rules.js", "port.js", "course.js")
+    write_whole(folder / "course.js", f"const given = {given(**judged())};\n{read(module)}\n{scripts}")
 
 
 write_playground()

@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 import time
+import tomllib
 
 root = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(root / "tests" / "browser"))
@@ -502,6 +503,45 @@ def course_pages():
         check(value("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), f"{name}: nothing sticks out")
 
 
+# A fault of kernel.js: its mutant in hints.toml, a text of the kernel, what stands there instead.
+FAULTS = [("smin-quotient-dropped", " - smin) / smin", " - smin)"), ("epsmul-le", "diff < 1", "diff <= 1"), ("gap-reversed", "cc[i] - dd[dof]", "dd[dof] - cc[i]"),
+          ("toggled-by-sign", "isep[i] === 1 ? -1 : 1", "-isep[i]"), ("sschk-negated", "(isep[i] * isurf[i])", "(-isep[i] * isurf[i])"),
+          ("do-30-from-2", "let i = 0; i < nc; ++i) {\n    const diff", "let i = 1; i < nc; ++i) {\n    const diff"), ("nodes-from-0", "(id[i] - 1)", "id[i]"),
+          ("delta-dropped", "sschk * 1e-20", "sschk"), ("cpp-smin-not-set-without-event", "if (smin === 1) return smin;", "if (smin === 1) return -7;")]
+
+
+def judged(source):
+    """What the judge of page 12 says of a kernel, typed into its box."""
+    value(f"document.querySelector('[data-port] textarea').value = {json.dumps(source)}")
+    value("document.querySelector('[data-port] button').click()")
+    browser.wait_for("!document.querySelector('[data-port] button').disabled", 20)
+    return value("document.querySelector('[data-port] .told').innerText")
+
+
+def judge_of_kernels():
+    """Page 12: a kernel in JavaScript is put to the golden calls."""
+    table = tomllib.loads((root / "reference/course/hints.toml").read_text(encoding="utf-8"))
+    right = (root / "tests/playground/kernel.js").read_text(encoding="utf-8")
+    browser.open(str(pathlib.Path(page).resolve().parents[1] / "course/12-port-it.html"))
+    browser.wait_for("document.querySelector('[data-port] textarea') !== null")
+    said = judged(value("document.querySelector('[data-port] textarea').value"))
+    check(said.startswith("0 of 222 ") and "look at DO 10" in said, f"the empty kernel fails every call: {said}")
+    said = judged(right)
+    check(said.startswith("222 of 222 ") and "This is CONTCT" in said, f"a right kernel passes every call: {said}")
+    check(value("document.querySelector('[data-port] svg') === null"), "and nothing is drawn")
+    for name, old, new in FAULTS:
+        said = judged(right.replace(old, new))
+        check(right.count(old) == 1 and said.startswith(f"{table[name]['right']} of 222 ") and said.rstrip().endswith(table[name]["says"]) and "All answers" in said,
+              f"the fault {name} is told by its hint: {said}")
+    judged(right.replace(*FAULTS[0][1:]))
+    dots = value("[...document.querySelectorAll('[data-port] [data-s]')].map(d => [Number(d.dataset.s), d.classList.contains('gold')])")
+    check(sorted(dots) == sorted([[256 / 257 - 2**-53, True], [1, False], [256 / 257 - 2**-53, True], [1, True]]), f"the first failing call is drawn, right and theirs: {dots}")
+    said = judged(right.replace("let smin = 1;", "let smin = 1; while (nc === 2);"))
+    check("does not answer call full-load 4 in 3 seconds" in said, f"an endless loop is stopped: {said}")
+    check("SyntaxError" in judged("function contct( {") and "no is not defined" in judged(right.replace("let smin = 1;", "no();")), "what JavaScript refuses is told")
+    check(judged(right).startswith("222 of 222 "), "the judge goes on after all of that")
+
+
 browser.open(page)
 ready()
 try:
@@ -521,6 +561,7 @@ try:
     long_beam()
     print_times("1000 elements, 100 pairs")
     course_pages()
+    judge_of_kernels()
     check(not browser.errors, f"the page reports no error: {browser.errors[:3]}")
     outside = [r for r in browser.requests if not r.startswith(("file://", "data:", "about:", "blob:"))]
     check(not outside, f"no network: {outside[:3]}")

@@ -1,5 +1,6 @@
 """The pictures of the course, drawn by the scenes of its pages: writes those that are missing or differ, or only tells of them.
 usage: python3 pictures.py COURSE [--check]      (COURSE: the folder build/course; exit 1 under --check where one differs)"""
+import json
 import pathlib
 import sys
 
@@ -8,6 +9,7 @@ sys.path.insert(0, str(root / "tests" / "browser"))
 from devtools import Browser  # noqa: E402
 
 course, check = pathlib.Path(sys.argv[1]).resolve(), "--check" in sys.argv
+without_quotient = (root / "tests/playground/kernel.js").read_text(encoding="utf-8").replace(" - smin) / smin", " - smin)")
 # Each picture: a page that has its scene, and what is done there first.
 PICTURES = {
     "tip-stop": ("01-picture", "scenes[0].push(2, -60, false)"),
@@ -18,15 +20,16 @@ PICTURES = {
     "tie": ("08-equality", "(scenes[0].push(8, -3, false), scenes[0].start())"),
     "bent-beam": ("09-wrong", "scenes[0].show(2)"),
     "single-precision": ("11-rounding", "scenes[0].show(2)"),
+    "port": ("12-port-it", f"scenes[0].judge({json.dumps(without_quotient)})"),
 }
 folder = root / "reference/course/pictures"
 browser, different = Browser(), []
 try:
     for name, (page, script) in PICTURES.items():
         browser.open(str(course / f"{page}.html"), width=760, height=900)
-        browser.value("document.querySelector('[data-scene]').scrollIntoView()")
+        browser.value("document.querySelector('[data-scene], [data-port]').scrollIntoView()")
         browser.wait_for("document.querySelector('[data-lives]') !== null")
-        browser.value(f"({script}, 0)")
+        browser.value(f"Promise.resolve({script}).then(() => 0)")
         text = browser.value("fileOf(scenes[0].picture.firstChild)") + "\n"
         file = folder / f"{name}.svg"
         if not file.exists() or file.read_text(encoding="utf-8") != text:
