@@ -296,22 +296,34 @@ def _hermite(h: float, y0: float, y1: float, slope0: float, slope1: float, a: fl
     return y0 * b * b * (1 + 2 * a) + y1 * a * a * (1 + 2 * b) + h * (slope0 * a * b * b - slope1 * a * a * b)
 
 
+def _pieces(shown: Record, end: Record, e: int) -> list[tuple[Any, ...]]:
+    """x, w, theta, moment and shear at both ends of each piece of element `e`, and its imposed curvature."""
+    own, nodes = end.elements[e], shown.structure.nodes
+    if "pieces" in own:
+        return [(p.x, p.w, p.theta, p.moment, p.shear, p.curvature) for p in own.pieces]
+    w0, t0, w1, t1 = end.displacement[2 * e:2 * e + 4]
+    if e + 2 in shown.structure.get("hinges", []):  # the node's slope is that on the right of a hinge
+        h, (m0, m1), (v0, v1) = nodes[e + 1].x - nodes[e].x, own.moment, own.shear
+        t1 = t0 + h * ((m0 + m1) / 2 + h * (v0 - v1) / 12) / shown.structure.EI[e]
+    return [((nodes[e].x, nodes[e + 1].x), (w0, w1), (t0, t1), own.moment, own.shear, 0.0)]
+
+
 def _along(shown: Record, end: Record, quantity: str) -> tuple[list[float], list[float]]:
     """x and the quantity along a beam, between nodes too: exact where the load along an element is linear, as in the page."""
-    nodes, stiffness = shown.structure.nodes, shown.structure.EI
+    stiffness = shown.structure.EI
     parts = max(2, 480 // len(stiffness))
     xs, ys = [], []
     for e, EI in enumerate(stiffness):
-        h = nodes[e + 1].x - nodes[e].x
-        w0, t0, w1, t1 = end.displacement[2 * e:2 * e + 4]
-        (m0, m1), (v0, v1) = end.elements[e].moment, end.elements[e].shear
-        # Curvatures at the ends, less what the cubic of deflections and slopes has.
-        k0, k1 = m0 / EI - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h, m1 / EI - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h
-        for a, b in ((k / parts, 1 - k / parts) for k in range(parts + 1)):
-            xs.append(nodes[e].x + a * h)
-            ys.append(_hermite(h, m0, m1, v0, v1, a, b) if quantity == "moment"
-                      else 6 * a * b * (m1 - m0) / h + v0 * b * (1 - 3 * a) + v1 * a * (3 * a - 2) if quantity == "shear"
-                      else _hermite(h, w0, w1, t0, t1, a, b) + (h * a * b) ** 2 / 2 * (k0 * b + k1 * a))
+        for (left, right), (w0, w1), (t0, t1), (m0, m1), (v0, v1), curvature in _pieces(shown, end, e):
+            h = right - left
+            # Curvatures at the ends, less what the cubic of deflections and slopes has.
+            k0 = m0 / EI + curvature - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h
+            k1 = m1 / EI + curvature - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h
+            for a, b in ((k / parts, 1 - k / parts) for k in range(parts + 1)):
+                xs.append(left + a * h)
+                ys.append(_hermite(h, m0, m1, v0, v1, a, b) if quantity == "moment"
+                          else 6 * a * b * (m1 - m0) / h + v0 * b * (1 - 3 * a) + v1 * a * (3 * a - 2) if quantity == "shear"
+                          else _hermite(h, w0, w1, t0, t1, a, b) + (h * a * b) ** 2 / 2 * (k0 * b + k1 * a))
     return xs, ys
 
 

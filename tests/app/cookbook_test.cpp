@@ -68,14 +68,17 @@ TEST_CASE("contct new writes the files that a problem names beside it, and overw
 }
 
 TEST_CASE("crane: the column's reaction is that of moments about the left bearing once the bracket is left") {
-  const json step = solved("crane")["steps"][1];
+  const json step = solved("crane")["steps"][0];
+  CHECK(step["name"] == "SLS left");
   CHECK(step["pairs"][0]["state"] == "separated");
+  const double weight = 78.5 * 1.491e-2;
   CHECK(step["reactions"][1]["value"].get<double>() ==
-        Approx((1.17 * 12 * 6 + 75.0 * 2 + 75.0 * 4) / 6).epsilon(1e-9));
+        Approx((weight * 12 * 6 + 75.0 * 2 + 75.0 * 4) / 6).epsilon(1e-9));
 }
 
 TEST_CASE("slab: under the axle the settlement is that of an infinite beam, beside that of the weight") {
-  const json step = solved("slab")["steps"][1];
+  const json step = solved("slab")["steps"][13];
+  CHECK(step["name"] == "axle at 6");
   const double w = 6.25 / 4e4 + 100 * decay(4e4, 4.3e4) / (2 * 4e4);
   CHECK(step["w"][24].get<double>() == Approx(-w).epsilon(1e-3));
 }
@@ -88,10 +91,12 @@ TEST_CASE("base-plate: the grout presses with the column's force and the bolts' 
 }
 
 TEST_CASE("racks: the last rack carries what a propped cantilever does whose clamp rises") {
-  const json step = solved("racks")["steps"][1];
-  CHECK(step["pairs"][0]["state"] == "separated");
-  const double force = 3 * 0.8 * 8 / 8 - 3 * 4772 * 0.015 / (8 * 8 * 8);
-  CHECK(step["pairs"][1]["force"].get<double>() == Approx(force).epsilon(1e-3));
+  const json steps = solved("racks")["steps"];
+  for (const auto& [step, rise] : {std::pair(1, 0.015), std::pair(2, 0.015 + 0.010)}) {
+    CHECK(steps[step]["pairs"][0]["state"] == "separated");
+    const double force = 3 * 0.8 * 8 / 8 - 3 * 4772 * rise / (8 * 8 * 8);
+    CHECK(steps[step]["pairs"][1]["force"].get<double>() == Approx(force).epsilon(1e-3));
+  }
 }
 
 TEST_CASE(

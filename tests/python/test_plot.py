@@ -43,6 +43,18 @@ def test_a_beam_is_drawn_exactly_between_its_nodes(simple, matplotlib):
     assert result.plot().get_ylabel() == "w [m]"
 
 
+def test_a_load_inside_an_element_and_a_hinge_have_their_kinks(matplotlib):
+    beam = {"beam": {"length": 10.0, "elements": 2, "EI": EI}, "hinge": [{"node": 2}],
+            "support": [{"node": 1, "fix": ["w", "theta"]}, {"node": 3, "fix": "w"}], "step": [{"point": [{"x": 7.5, "w": -8.0}]}]}
+    result = contct.run(beam)
+    xs, ys = drawn(result.plot("moment"))["moment"]  # the right part is a simple beam that hangs on the left one
+    assert all(abs(m - (-4 * (5 - x) if x <= 5 else 4 * (x - 5) if x <= 7.5 else 4 * (10 - x))) < 1e-9 for x, m in zip(xs, ys))
+    xs, ys = drawn(result.plot("w"))["w"]
+    assert all(abs(w + 4 * x * x * (15 - x) / (6 * EI)) < 1e-9 for x, w in zip(xs, ys) if x <= 5)
+    xs, ys = drawn(result.plot("shear"))["shear"]
+    assert {round(v, 9) for v in ys} == {4.0, -4.0}
+
+
 def test_a_step_is_chosen_by_its_index(simple, matplotlib):
     axes = contct.run(simple, kernels="corrected").plot("moment", step=0)
     assert max(drawn(axes)["moment"][1]) == pytest.approx(-q / 2 * L**2 / 8)

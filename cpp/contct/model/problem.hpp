@@ -26,10 +26,10 @@ struct even_run {
 
 /// What a beam's cross-section is, as far as a file says: 0 is not known.
 struct beam_section {
-  double E, I;          ///< EI is their product
-  double W = 0.0;       ///< section modulus: M / W is the stress at the extreme fibres
-  double A = 0.0;       ///< area
-  double weight = 0.0;  ///< per volume
+  double E = 0.0, I = 0.0;  ///< EI is their product
+  double W = 0.0;           ///< section modulus: M / W is the stress at the extreme fibres
+  double A = 0.0;           ///< area
+  double weight = 0.0;      ///< per volume
   bool operator==(const beam_section&) const = default;
 };
 

@@ -19,9 +19,9 @@ namespace contct {
 
 /// A force or moment at one dof of one node, work-conjugate to the dof.
 struct point_load {
-  int node;             ///< from 0
-  int dof;              ///< within the node, from 0
-  double value;         ///< positive as the dof
+  int node = 0;         ///< from 0
+  int dof = 0;          ///< within the node, from 0
+  double value = 0.0;   ///< positive as the dof
   double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
 };
 
@@ -59,17 +59,17 @@ struct placed_load {
 
 /// What a support moves one dof of one node to.
 struct prescribed_displacement {
-  int node;             ///< from 0
-  int dof;              ///< within the node, from 0; a support fixes it
-  double value;         ///< positive as the dof
+  int node = 0;         ///< from 0
+  int dof = 0;          ///< within the node, from 0; a support fixes it
+  double value = 0.0;   ///< positive as the dof
   double factor = 1.0;  ///< as a point load's
 };
 
 /// Moves the faces of all pairs at one dof of one node.
 struct face_move {
-  int node;             ///< from 0
-  int dof;              ///< within the node, from 0
-  double value;         ///< positive as the dof
+  int node = 0;         ///< from 0
+  int dof = 0;          ///< within the node, from 0
+  double value = 0.0;   ///< positive as the dof
   double factor = 1.0;  ///< as a point load's
 };
 

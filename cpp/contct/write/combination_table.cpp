@@ -39,8 +39,9 @@ std::string row_of(const run_result& r, const load_path& loads, std::size_t i, s
 template <class Value>
 std::string line_of(const problem& p, std::string_view what, double value, const std::string& place,
                     const envelope::reached<Value>& at, std::string_view quantity) {
-  return fmt::format("{:<16}{:<20}{:<20}{}\n", what, fmt::format("{:.6g}{}", value, unit_words(p, quantity)),
-                     place, on_one_line(p.steps[at.step - 1].name));
+  return fmt::format("{:<15} {:<19} {:<22} {}\n", what,
+                     fmt::format("{:.6g}{}", value, unit_words(p, quantity)), place,
+                     on_one_line(p.steps[at.step - 1].name));
 }
 
 }  // namespace
@@ -50,8 +51,8 @@ std::string envelope_text(const problem& p, const envelope& e) {
   for (std::size_t i = 0; i < e.names.size(); ++i)
     for (const bool least : {true, false}) {
       const auto& at = least ? e.values[i].least : e.values[i].most;
-      text += line_of(p, fmt::format("{} {}", least ? "least" : "largest", e.names[i]), at.value.value,
-                      place_words(p.geometry, at.value), at, e.names[i]);
+      text += line_of(p, fmt::format("{} {}", least ? "least" : "largest", e.names[i]),
+                      at.value.value, place_words(p.geometry, at.value), at, e.names[i]);
     }
   const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
   if (force != e.pairs.end() && force->value > 0.0)

@@ -28,6 +28,15 @@ void put_kind(json& out, const beam& b) {
   out["kind"] = "beam";
   out["EI"] = b.EI;
   if (!b.hinges.empty()) out["hinges"] = numbered(b.hinges);
+  for (std::size_t e = 0; e < b.sections.size(); ++e) {
+    const beam_section& s = b.sections[e];
+    if (e > 0 && s == b.sections[e - 1]) continue;
+    json& entry = out["sections"].emplace_back();
+    entry = {{"element", e + 1}, {"E", s.E}, {"I", s.I}};
+    for (const auto& [name, value] :
+         {std::pair("W", s.W), std::pair("A", s.A), std::pair("weight", s.weight)})
+      if (value > 0.0) entry[name] = value;
+  }
 }
 
 void put_kind(json& out, const plate& p) {

@@ -253,10 +253,11 @@ const rangeWords = ([low, high]) => (low === high ? short(low) : `${short(low)} 
 
 function structureRows() {
   if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["Dofs", structure.dofs.length]];
-  const { columns, nodes, D, nu, E, thickness, EI } = structure;
+  const { columns, nodes, D, nu, E, thickness, EI, sections = [] } = structure;
+  const sectionWords = ({ element, ...of }) => [`Section from x = ${short(nodes[element - 1].x)}`, Object.entries(of).map(([name, value]) => `${name} ${short(value)}`).join(", ")];
   const along = ["Nodes along x", columns ?? nodes.length];
   const x = [inLength("x"), rangeWords(spread(nodes.map((n) => n.x)))];
-  if (EI) return [along, x, ...runsOf(EI).map(([first, last]) => [inUnit(`EI from x = ${short(nodes[first].x)} to ${short(nodes[last + 1].x)}`, "EI"), EI[first]])];
+  if (EI) return [along, x, ...runsOf(EI).map(([first, last]) => [inUnit(`EI from x = ${short(nodes[first].x)} to ${short(nodes[last + 1].x)}`, "EI"), EI[first]]), ...sections.map(sectionWords)];
   return [along, x, ["Nodes along y", nodes.length / columns], [inLength("y"), rangeWords(spread(nodes.map((n) => n.y)))],
     ...(E ? [[inUnit("Young's modulus E", "stress"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
 }
