@@ -67,6 +67,8 @@ class cases {
   static inline const Real half = Real(0.5);
   static constexpr Real subnormal_gap =
       bytes == 4 ? Real(1e-6) : Real(1e-9);  // divided by the largest number
+  static constexpr Real gap_of_tiny =
+      bytes == 4 ? Real(0x1p-21) : Real(0x1p-50);  // divided by the largest number: the smallest
 
   golden_trace quiet() const {
     return {named("quiet"),
@@ -262,7 +264,10 @@ class cases {
          one("signed zeros everywhere", {{-Real(0), -Real(0), -Real(0)}, {0, -Real(0), 0}}),
          one("DIFF = (inf - s) / s beside a tie", {{0, 1, half}, {0, limits::min() / 2, max}, {0, 1, half}}),
          one("c - D is rounded, and the quotient of the rounded gap is not that of the gap",
-             {{Real(-0.02), 3, Real(0.3)}})}};
+             {{Real(-0.02), 3, Real(0.3)}}),
+         one("DIFF below EPSMUL of subnormal SS, where EPSMUL * SMIN is rounded to their difference: both",
+             {{0, max, gap_of_tiny * (bytes == 4 ? 320 : 112704)},
+              {0, max, gap_of_tiny * (bytes == 4 ? 321 : 113144)}})}};
   }
 
   golden_trace text() const {

@@ -1,8 +1,9 @@
-"""mutants.py BUILD.json [--first N]: builds every mutant of mutants.toml and puts it to the golden set.
+"""mutants.py BUILD.json [--first N | --caught FILE]: builds every mutant of mutants.toml and puts it to the golden set.
 
 A mutant is contct-replay linked with an object of the mutated kernel in front of the libraries: what an object defines keeps a
 library's member out. Before the mutants of a source it goes the same way as it is, and has to live. With
---first only so many mutants of each source are tried. Exit status 1 where a mutant lives, or does not compile: it is none.
+--first only so many mutants of each source are tried. With --caught the first call of each trace that shows a mutant is written to
+FILE, for reference/vectors/make.py. Exit status 1 where a mutant lives, or does not compile: it is none.
 """
 import json
 import os
@@ -60,7 +61,8 @@ def build_program(build, file, source, folder):
 
 
 def noticed(file, folder):
-    """(the first trace that shows the mutant, in words, or None where none does; the IFs that the traces' branch margins name)"""
+    """(the first trace that shows the mutant, in words, or None where none does; the IFs that the traces' branch margins name; the
+    first call of each trace that shows it)"""
     def limited():
         resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -72,44 +74,50 @@ def noticed(file, folder):
     said = [line for line in done.stdout.splitlines() if ": mismatch; " in line]
     named = re.findall(r"branch margin: (?:pair \d+: )?IF \((.*?)\) was", done.stderr)
     seen = None if done.returncode == 0 else Path(said[0].split(": ")[0]).stem if said else f"ends with {done.returncode}"
-    return seen, named
+    return seen, named, {Path(trace).stem: int(call) for trace, call in re.findall(r"(\S+\.trace): [\w-]+: call (\d+):", done.stderr)}
 
 
 def tried(build, file, name, replacements):
-    """(is it as it has to be, what came of it, the IFs that are named)"""
-    named = []
+    """(is it as it has to be, what came of it, the IFs that are named, the calls that show it)"""
+    named, calls = [], {}
     try:
         with tempfile.TemporaryDirectory() as folder:
             build_program(build, file, edited((ROOT / file).read_text(), replacements), Path(folder))
-            seen, named = noticed(file, Path(folder))
+            seen, named, calls = noticed(file, Path(folder))
     except ValueError as wrong:
-        return False, f"is none: {wrong}", named
+        return False, f"is none: {wrong}", named, calls
     except subprocess.TimeoutExpired:
         seen = "hangs"
     if seen is None:
-        return name == UNMUTATED, "lives", named
-    return name != UNMUTATED, f"is noticed: {seen}", named
+        return name == UNMUTATED, "lives", named, calls
+    return name != UNMUTATED, f"is noticed: {seen}", named, calls
 
 
-def main(build_file, first=None):
+def main(build_file, option=None, value=None):
+    first = value if option == "--first" else None
     build = json.loads(Path(build_file).read_text())
     trials = []
     table = tomllib.loads((HERE / "mutants.toml").read_text())
     faults = {name: conditions for conditions, names in table["faulty"] for name in names}
-    margins = {}
+    margins, caught = {}, {}
     for source in table["source"]:
         trials.append((source["file"], UNMUTATED, []))
         some = source["mutants"][:first and int(first)]
         trials += [(source["file"], name, [(old, new)]) for name, old, new in some]
     wrong = 0
     with ThreadPoolExecutor(os.cpu_count()) as workers:
-        for (file, name, _), (good, words, named) in zip(trials, workers.map(lambda t: tried(build, *t), trials)):
+        for (file, name, _), (good, words, named, calls) in zip(trials, workers.map(lambda t: tried(build, *t), trials)):
             faulty = faults.get(name) if file.endswith(".f") else None
             if faulty:
                 margins[name] = bool(named) and all(condition in faulty for condition in named)
                 words += f"; its branch margins name {' and '.join(sorted(set(named))) or 'nothing'}"
             print(f"{'' if good else 'WRONG: '}{file}, {name}: {words}", flush=True)
             wrong += not good
+            if calls and file.endswith(".f"):
+                caught[name] = calls
+    if option == "--caught":
+        rows = (f"{json.dumps(name)}: {json.dumps(calls)}" for name, calls in sorted(caught.items()))
+        Path(value).write_text("{\n" + ",\n".join(rows) + "\n}\n")
     print(f"{len(trials)} kernels, mutants and as they are, {wrong} wrong")
     told = sum(margins.values())
     print(f"the branch margins name the faulty IF, and no other, for {told} of {len(margins)} mutants of an IF")
@@ -121,4 +129,4 @@ def main(build_file, first=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], *sys.argv[3:]))
+    sys.exit(main(*sys.argv[1:]))
