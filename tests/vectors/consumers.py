@@ -1,0 +1,87 @@
+"""consumers.py ROOT LANGUAGE [PROGRAM]: the consumer of reference/vectors/consumers in that language finds the kernel that is
+CONTCT equal, and finds each fault of faults.toml. With PROGRAM, which is contct, `replay` and `fuzz` judge the same kernels, and
+have to agree. Exit status 77: the language is not installed.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+from edits import edited  # noqa: E402
+
+STRICT = "-O2 -ffp-contract=off"
+# the tool; the file with the kernel: in reference/kernels, or the consumer; how it is built; how it is run; the vectors
+LANGUAGES = {
+    "c": ("cc", "contct_kernel.c", f"cc {STRICT} -I ROOT/cpp -o judge judge.c contct_kernel.c -lm", "./judge VECTORS", "txt"),
+    "fortran": ("gfortran", "contct_kernel.f90", f"gfortran {STRICT} -o judge contct_kernel.f90 judge.f90", "./judge VECTORS", "txt"),
+    "python": ("python3", "contct_kernel.py", "", "python3 judge.py VECTORS .", "json"),
+    "rust": ("rustc", "judge.rs", "rustc -O -o judge judge.rs", "./judge VECTORS", "txt"),
+    "go": ("go", "judge.go", "go build -o judge judge.go", "./judge VECTORS", "json"),
+    "julia": ("julia", "judge.jl", "", "julia --startup-file=no judge.jl VECTORS", "txt"),
+    "javascript": ("node", "judge.js", "", "node judge.js VECTORS", "json"),
+    "octave": ("octave-cli", "judge.m", "", "octave-cli --quiet --norc judge.m VECTORS", "txt"),
+}
+OUTSIDE = {
+    "c": (f"cc {STRICT} -shared -fPIC -I ROOT/cpp -o kernel.so contct_kernel.c", "plugin:./kernel.so", 20000),
+    "fortran": (f"gfortran {STRICT} -shared -fPIC -o kernel.so contct_kernel.f90", "plugin:./kernel.so", 20000),
+    "python": ("", "pipe:python3 contct_kernel.py", 5000),
+}
+
+
+def run(command, folder):
+    done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True, text=True, errors="replace", check=False, timeout=300,
+                          env={**os.environ, "GOCACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"})
+    return done.returncode, done.stdout + done.stderr
+
+
+def built(command, root, folder):
+    status, said = run(command.replace("ROOT", str(root)), folder)
+    if status != 0:
+        raise ValueError(f"{command}: {said}")
+
+
+def judgements(root, language, folder, program):
+    """{who judges: (exit status, what is said)}"""
+    _, _, build, judge, kind = LANGUAGES[language]
+    built(build, root, folder)
+    found = {"vectors": run(judge.replace("VECTORS", f"{root}/reference/vectors/contct-vectors-1.{kind}"), folder)}
+    if program and language in OUTSIDE:
+        build, kernel, calls = OUTSIDE[language]
+        built(build, root, folder)
+        found["replay"] = run(f"{program} replay --quiet --kernel '{kernel}' {root}/reference/traces/*.trace", folder)
+        found["fuzz"] = run(f"{program} fuzz --quiet --problems 0 --calls {calls} --kernels 'fortran,{kernel}'", folder)
+    return found
+
+
+def main(root, language, program=None):
+    root, (tool, kernel, *_) = Path(root).resolve(), LANGUAGES[language]
+    program = program and Path(program).resolve()
+    if not shutil.which(tool):
+        print(f"{tool} is not installed")
+        return 77
+    folders = [root / "reference/vectors/consumers", root / "reference/kernels"]
+    source = next(folder / kernel for folder in folders if (folder / kernel).exists()).read_text()
+    document = json.loads((root / "reference/vectors/contct-vectors-1.json").read_text())
+    calls = sum(len(case["calls"]) for case in document["cases"] if case["real"] == 8)
+    faults = tomllib.loads((HERE / "faults.toml").read_text())[language]
+    for name, *edit in [["as it is"], *faults]:
+        with tempfile.TemporaryDirectory() as work:
+            shutil.copytree(folders[0], work, dirs_exist_ok=True)
+            (Path(work) / kernel).write_text(edited(source, [edit] if edit else []))
+            found = judgements(root, language, Path(work), program)
+        print(name, {who: status for who, (status, _) in found.items()}, flush=True)
+        for who, (status, said) in found.items():
+            if status != (1 if edit else 0) or (not edit and who == "vectors" and f"{calls} calls" not in said):
+                return f"{language}, {name}, judged by {who}: found exit status {status}, allowed: {1 if edit else 0}\n{said[-2000:]}"
+    print(f"{language}: {len(faults)} faults are found")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
