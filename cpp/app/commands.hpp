@@ -84,12 +84,14 @@ struct fuzz_options {
   std::string shard;                     ///< "I/N"
   std::string json;
   std::string out;  ///< a folder
+  std::string kernel_report, badge;
   report_options report;
 };
 
 struct replay_options {
   std::vector<std::string> traces;
   std::vector<std::string> kernels;
+  std::string kernel_report, badge;
   report_options report;
 };
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "app/kernel_report.hpp"
 #include "app/outputs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
@@ -65,6 +66,12 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
   return report;
 }
 
+kernel_report kernel_report_of(const fuzz_result& r) {
+  const fuzz_follower& f = r.followers.front();
+  return {command_of(r.request), f.name, std::string(name_of(f.highest)), r.calls, f.compared, {},
+          f.mismatch_reports};
+}
+
 void print_result(const fuzz_result& r) {
   const terminal t = look_at_terminal();
   print_text(fmt::format("{}\n", command_of(r.request)));
@@ -119,7 +126,10 @@ exit_status run_command(const fuzz_options& options) {
     throw std::invalid_argument("--kernels: found one kernel; allowed: two or more, the first one leads");
   for (const std::string& name : request.kernels)
     refuse_unequal(facts_of_kernel(request.kernels[0]), facts_of_kernel(name));
-  const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
+  const std::vector<output_option> outputs = with_reports(
+      {{"--json", options.json}, {"--report", options.kernel_report}, {"--badge", options.badge}},
+      options.report);
+  refuse_many_reported(request.kernels.size() - 1, options.kernel_report + options.badge);
   refuse_shared_outputs(outputs);
   const output_files files(outputs);
   const fuzz_run run = fuzzed(request, options.report.quiet);
@@ -133,6 +143,10 @@ exit_status run_command(const fuzz_options& options) {
     for (const std::string& name : write_cases(run.cases, options.out, request.seed))
       complain("written: {}", name);
   files.write("--json", fuzz_json(r));
+  if (!(options.kernel_report + options.badge).empty()) {
+    files.write("--report", report_json(kernel_report_of(r)));
+    files.write("--badge", badge_svg(kernel_report_of(r)));
+  }
   files.write(report_of(r, missed));
   if (r.compared().mismatches > 0) return exit_status::kernels_differ;
   return missed.empty() ? exit_status::solved : exit_status::bad_input;

@@ -128,6 +128,14 @@ void add_reports(CLI::App* command, report_options& o) {
            "Write a summary in Markdown to this file (- is standard output)");
 }
 
+template <class Options>
+void add_kernel_report(CLI::App* command, Options& o) {
+  add_file(command, "--report", o.kernel_report,
+           "Write the identity of the one kernel that is checked, what was compared and the closest equality "
+           "that holds to this file (- is standard output)");
+  add_file(command, "--badge", o.badge, "Write the same as a badge, an SVG picture, to this file");
+}
+
 /// A parser, and the options of the command that was chosen.
 class option_parser {
  public:
@@ -172,6 +180,7 @@ void declare_replay(option_parser& p, CLI::App* c) {
   add_kernels(c, "--kernel", o.kernels,
               "The kernels to check; by default the 1989 code in the trace's precision")
       ->allow_extra_args(false);  // what follows is a trace
+  add_kernel_report(c, o);
   add_reports(c, o.report);
 }
 
@@ -310,6 +319,7 @@ void declare_fuzz(option_parser& p, CLI::App* c) {
   c->add_option("--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   add_file(c, "--out", o.out, "Write each mismatch to this folder, reduced, as a trace");
+  add_kernel_report(c, o);
   add_reports(c, o.report);
 }
 

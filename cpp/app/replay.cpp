@@ -1,11 +1,14 @@
 // contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
+#include <filesystem>
 #include <stdexcept>
 
+#include "app/kernel_report.hpp"
 #include "app/outputs.hpp"
 #include "contct/compare/compare.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/text/sha256.hpp"
 
 namespace contct {
 namespace {
@@ -17,9 +20,27 @@ std::string verdict_of(const replay_report& r, const floating_point& fp) {
                      : fmt::format("equal to the bit, but the environment is not strict ({})", describe(fp));
 }
 
+/// What came of all traces to a kernel that is reported.
+struct replayed {
+  kernel_report report = {"replay", "", "", 0, {}, {}, {}};
+  nearness near;
+
+  void add(const std::string& file, const std::string& text, const replay_report& r,
+           const std::string& details) {
+    report.traces.push_back(
+        {std::filesystem::path(file).stem().string(), sha256(text), r.calls, r.compared.mismatches});
+    report.calls += r.calls;
+    report.compared += r.compared;
+    near.most_ulps = std::max(near.most_ulps, r.near.most_ulps);
+    near.same_events = near.same_events && r.near.same_events;
+    if (report.first_mismatch.empty() && r.first)
+      report.first_mismatch = {report.traces.back().name + ": " + details};
+  }
+};
+
 /// One trace against one kernel.
-check_result replay_one(const std::string& file, const std::string& text, const std::string& name,
-                        bool quiet) {
+check_result replay_one(const std::string& file, const std::string& text, const std::string& name, bool quiet,
+                        replayed& all) {
   trace_reader calls(text, file);
   const trace_header h = calls.read_header();
   const std::string kernel = name.empty() ? usual_kernel(h) : name;
@@ -43,6 +64,7 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   result.what = passed_if(r.compared.mismatches == 0);
   result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict_of(r, fp), r.calls,
                                r.compared.values, r.compared.mismatches);
+  all.add(file, text, r, r.first ? words_of(*r.first)[0] : "");
   if (!r.first) return result;
   result.details = joined(words_of(*r.first), "\n") + "\n";
   if (!fp.strict()) result.details += "environment, not kernel: " + describe(fp) + "\n";
@@ -53,7 +75,9 @@ check_result replay_one(const std::string& file, const std::string& text, const 
 
 exit_status run_command(const replay_options& options) {
   const auto started = std::chrono::steady_clock::now();
-  const std::vector<output_option> outputs = with_reports({}, options.report);
+  const std::vector<output_option> outputs =
+      with_reports({{"--report", options.kernel_report}, {"--badge", options.badge}}, options.report);
+  refuse_many_reported(options.kernels.size(), options.kernel_report + options.badge);
   std::vector<output_option> inputs;
   for (const std::string& file : options.traces) inputs.push_back({"a trace", file});
   refuse_shared_outputs(outputs, inputs);
@@ -64,11 +88,13 @@ exit_status run_command(const replay_options& options) {
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();
   constexpr paint paints[] = {paint::good, paint::bad, paint::quiet};  // as in `outcome`
+  replayed all;
   check_report report{"contct replay", common_facts(), {}, 0.0};
   for (const std::string& file : options.traces) {
     const std::string text = read_input(file, "trace", 2048);
     for (const std::string& kernel : kernels) {
-      check_result r = replay_one(file == "-" ? "standard input" : file, text, kernel, options.report.quiet);
+      check_result r =
+          replay_one(file == "-" ? "standard input" : file, text, kernel, options.report.quiet, all);
       if (!silent)
         print_text(fmt::format("{}: {}\n", whole_line(r.name),
                                painted(t, paints[static_cast<int>(r.what)], r.summary)));
@@ -85,6 +111,12 @@ exit_status run_command(const replay_options& options) {
     print_text(fmt::format("{} passed, {} failed, {} skipped\n", report.count(outcome::passed),
                            report.count(outcome::failed), report.count(outcome::skipped)));
   flush_standard_output();
+  if (!(options.kernel_report + options.badge).empty()) {
+    all.report.kernel = kernels[0];
+    all.report.rung = rung_of(all.near, all.report.compared);
+    files.write("--report", report_json(all.report));
+    files.write("--badge", badge_svg(all.report));
+  }
   files.write(report);
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
 }

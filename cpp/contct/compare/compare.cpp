@@ -175,6 +175,14 @@ void follower::note(const mismatch& found, const answered_call& c) {
                            narrowest_decision(c, leader_.real_bytes, answer_)};
 }
 
+void nearness::note(const call<double>& leader, const call_outputs& other, bool answered) {
+  same_events = same_events && answered && std::ranges::equal(leader.isep, other.isep);
+  if (!answered) return;
+  most_ulps = std::max(most_ulps, ulps_between(leader.smin, other.smin));
+  for (std::size_t i = 0; i < other.ss.size(); ++i)
+    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], other.ss[i]));
+}
+
 bool comparable(const trace_header& h, const kernel_facts& k) {
   return h.real_bytes == k.real_bytes && h.rule == k.rule;
 }
@@ -191,7 +199,7 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
     const answered_call recorded = c.answered();
     report.branches.count(recorded.c, recorded.isep_before);
     if (progress) progress(report.calls);
-    (void)asked.ask(recorded);
+    if (asked.ask(recorded)) report.near.note(recorded.c, asked.answer(), asked.answered());
   }
   report.compared = asked.compared;
   report.first = asked.first();

@@ -153,11 +153,21 @@ class follower {
   std::optional<mismatch_report> first_;
 };
 
+/// How near a kernel came that is not equal to the bit.
+struct nearness {
+  std::uint64_t most_ulps = 0;  ///< of SMIN and SS, over all calls
+  bool same_events = true;      ///< ISEP was equal in all calls, and every call was answered
+
+  /// Note the answer to a call of another.
+  void note(const call<double>& leader, const call_outputs& other, bool answered);
+};
+
 /// The result of a replay.
 struct replay_report {
   std::int64_t calls = 0;
   tally compared;
   branch_counts branches;
+  nearness near;
   std::optional<mismatch_report> first;  ///< the first difference
 };
 

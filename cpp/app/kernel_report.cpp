@@ -1,0 +1,87 @@
+#include "app/kernel_report.hpp"
+
+#include <stdexcept>
+
+#include "app/outputs.hpp"
+#include "contct/kernel/registry.hpp"
+#include "contct/number/probe.hpp"
+#include "contct/text/input_text.hpp"
+#include "contct/text/sha256.hpp"
+#include "contct/text/strings.hpp"
+
+namespace contct {
+namespace {
+
+/// A JSON text.
+std::string quoted(std::string_view text) {
+  constexpr escape marks[] = {{'"', "\\\""}, {'\\', "\\\\"}};
+  return '"' + escaped(whole_line(text), marks) + '"';
+}
+
+/// Of a plug-in's file. What a command runs is not known.
+std::string file_sha256(const std::string& kernel) {
+  constexpr std::string_view plugin = "plugin:";
+  constexpr std::size_t most_mib = 512;
+  if (!kernel.starts_with(plugin)) return "null";
+  return quoted(sha256(read_input(kernel.substr(plugin.size()), "plug-in", most_mib)));
+}
+
+std::string identity(const std::string& kernel) {
+  const kernel_facts f = facts_of_kernel(kernel);
+  return fmt::format(
+      R"({{ "name": {}, "real": {}, "rule": "{}", "language": {}, "compiler": {}, "flags": {}, "sha256": {} }})",
+      quoted(f.name), f.real_bytes, f.rule == contact_rule::listing ? "listing" : "corrected",
+      quoted(f.language), quoted(f.compiler), quoted(f.flags), file_sha256(kernel));
+}
+
+}  // namespace
+
+std::string rung_of(const nearness& n, const tally& compared) {
+  constexpr std::uint64_t few_ulps = 64;  // as for fuzz
+  if (compared.mismatches == 0) return "bits";
+  if (!n.same_events) return "none";
+  return n.most_ulps <= few_ulps ? "ulps" : "events";
+}
+
+void refuse_many_reported(std::size_t kernels, const std::string& outputs) {
+  if (outputs.empty() || kernels == 1) return;
+  throw std::invalid_argument(
+      fmt::format("--report, --badge: found {} kernels to check; allowed: one, named by --kernel (replay) or "
+                  "--kernels LEADER,NAME (fuzz)",
+                  kernels));
+}
+
+std::string report_json(const kernel_report& r) {
+  std::vector<std::string> traces, first_mismatch;
+  for (const replayed_trace& t : r.traces)
+    traces.push_back(
+        fmt::format("\n  {{ \"name\": {}, \"sha256\": \"{}\", \"calls\": {}, \"mismatches\": {} }}",
+                    quoted(t.name), t.sha256, t.calls, t.mismatches));
+  for (const std::string& line : r.first_mismatch) first_mismatch.push_back(quoted(line));
+  std::string text = "{\n \"format\": \"contct-report-1\",\n";
+  text += fmt::format(" \"program\": \"contct {}\",\n \"listing_sha256\": \"{}\",\n \"vectors\": \"{}\",\n",
+                      CONTCT_VERSION, CONTCT_LISTING_SHA256, CONTCT_VECTORS_VERSION);
+  text += fmt::format(" \"floating_point\": {},\n \"command\": {},\n \"kernel\": {},\n",
+                      quoted(describe(probe_floating_point())), quoted(r.command), identity(r.kernel));
+  text +=
+      fmt::format(" \"calls\": {},\n \"values_compared\": {},\n \"mismatches\": {},\n \"rung\": \"{}\",\n",
+                  r.calls, r.compared.values, r.compared.mismatches, r.rung);
+  return json_escaped(text + fmt::format(" \"traces\": [{}],\n \"first_mismatch\": [{}]\n}}\n",
+                                         joined(traces, ","), joined(first_mismatch, ", ")));
+}
+
+std::string badge_svg(const kernel_report& r) {
+  const bool equal = r.rung == "bits";
+  const std::string words = equal ? "equal to the bit" : "equal in " + r.rung;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"190\" height=\"20\" role=\"img\" "
+      "aria-label=\"CONTCT: "
+      "{0}\">\n<title>CONTCT: {0}, {2} calls</title>\n<rect width=\"190\" height=\"20\" rx=\"3\" "
+      "fill=\"#444\"/>\n<rect x=\"64\" width=\"126\" height=\"20\" rx=\"3\" fill=\"{1}\"/>\n<g fill=\"#fff\" "
+      "font-family=\"sans-serif\" font-size=\"12\" text-anchor=\"middle\">\n<text x=\"32\" "
+      "y=\"14\">CONTCT</text>\n"
+      "<text x=\"127\" y=\"14\">{0}</text>\n</g>\n</svg>\n",
+      r.rung == "none" ? "not equal" : words, equal ? "#2a7d2a" : "#a33", r.calls);
+}
+
+}  // namespace contct

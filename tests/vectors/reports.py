@@ -1,0 +1,42 @@
+"""reports.py ROOT PROGRAM: the reports of reference/vectors/reports of kernels that are built in are verified by replaying them, a
+report of `fuzz` is too; a report in which a number, the kernel or a trace is another is refused.
+"""
+import hashlib
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+
+def main(root, program):
+    root = Path(root).resolve()
+    script, reports = root / "reference/vectors/verify_report.py", sorted((root / "reference/vectors/reports").glob("*.json"))
+
+    def verified(file, kernel):
+        line = [sys.executable, script, file, "--kernel", kernel, "--contct", program]
+        return subprocess.run(line, capture_output=True, text=True, check=False).returncode
+
+    built_in = [r for r in reports if r.stem in ("fortran", "cpp", "fortran-r4", "cpp-r4")]
+    if len(built_in) != 4 or any(verified(report, report.stem) != 0 for report in built_in):
+        return "a report of reference/vectors/reports is not verified"
+    traces = json.loads(built_in[0].read_text())["traces"]
+    if any(t["sha256"] != hashlib.sha256((root / f"reference/traces/{t['name']}.trace").read_bytes()).hexdigest() for t in traces):
+        return "a report has another SHA-256 of a trace than Python"
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "fuzz.json"
+        subprocess.run([program, "fuzz", "--quiet", "--calls", "1500", "--report", file], check=True)
+        if verified(file, "cpp") != 0:
+            return "a report of fuzz is not verified"
+        good = json.loads(built_in[0].read_text())
+        for change in ({"calls": good["calls"] + 1}, {"mismatches": 1}, {"rung": "ulps"}, {"kernel": {**good["kernel"], "sha256": "0" * 64}},
+                       {"traces": traces[1:]}, {"traces": [{**traces[0], "sha256": "0" * 64}, *traces[1:]]}, {"command": "replay; true"}):
+            file.write_text(json.dumps({**good, **change}))
+            if verified(file, built_in[0].stem) not in (1, 2):
+                return f"verified although it has {list(change)}"
+    print(f"{len(built_in)} reports of replays and one of fuzz are verified; seven changed ones are not")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
