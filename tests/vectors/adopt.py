@@ -1,0 +1,74 @@
+"""adopt.py ROOT REPLAY: runs the shell lines of reference/adopt one by one, as their systems do, in a repository of a user's: they end with 0 for a
+kernel that is CONTCT, and one of them with 1 for a kernel with a fault. REPLAY is contct-replay.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+from edits import edited  # noqa: E402
+
+
+def steps_of_action(text, adopt, replay):
+    """(line, its environment) for each step: what GitHub puts in the place of ${{ .. }}."""
+    values = {"github.action_path": adopt, "inputs.source": "mine.c", "inputs.replay": replay}
+    for line, environment in re.findall(r"- run: (.*)\n(?:      (?!env).*\n)*      env: \{ (.*) \}", text):
+        line = line[1:-1].replace('\\"', '"') if line.startswith('"') else line
+        yield line, {name: values[key] for name, key in re.findall(r'(\w+): "\$\{\{ ([\w.]+) \}\}"', environment)}
+
+
+def jobs(root, replay):
+    """{file: [(line, environment)]}"""
+    adopt, repository = root / "reference/adopt", {"CONTCT_REPOSITORY": str(root)}
+    text = {file.name: file.read_text() for file in adopt.iterdir()}
+    return {
+        "action.yml": list(steps_of_action(text["action.yml"], str(adopt), replay)),
+        "gitlab-ci.yml": [(line, repository) for line in re.findall(r"^    - (.*)$", text["gitlab-ci.yml"], re.M)],
+        "Jenkinsfile": [(line, repository) for line in re.findall(r"sh '(.*)'", text["Jenkinsfile"])],
+        "Dockerfile": copies(text["Dockerfile"], root),
+    }
+
+
+def copies(text, root):
+    """What COPY puts into the image is enough for its ENTRYPOINT."""
+    lines = []
+    for source, target in re.findall(r"^COPY (\S+) /(\S+)$", text, re.M):
+        lines.append((f"mkdir -p {Path(target).parent} && cp -r {root / source} {target}", {}))
+    entry, = re.findall(r'^ENTRYPOINT \["sh", "/(.*)"\]$', text, re.M)
+    return [*lines, (f"sh {entry} mine.c", {})]
+
+
+def statuses(lines, kernel):
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "mine.c").write_text(kernel)
+        (Path(folder) / "git").write_text('#!/bin/sh\nexec ln -s "$5" "$6"\n')  # clone, without what is not committed yet
+        (Path(folder) / "git").chmod(0o755)
+        path = f"{folder}:{os.environ['PATH']}"
+        return [subprocess.run(["sh", "-e", "-c", line], cwd=folder, env={**os.environ, "PATH": path, **environment}, capture_output=True,
+                               check=False, timeout=300).returncode for line, environment in lines]
+
+
+def main(root, replay):
+    root, replay = Path(root).resolve(), str(Path(replay).resolve())
+    if not shutil.which("cc"):
+        return 77
+    good = (root / "reference/kernels/contct_kernel.c").read_text()
+    bad = edited(good, [("epsgap = 1e-10", "epsgap = 1e-9")])
+    count = 0
+    for name, lines in jobs(root, replay).items():
+        found, faulty = statuses(lines, good), statuses(lines, bad)
+        print(name, found, faulty)
+        if len(lines) < 2 or any(found) or 1 not in faulty or set(faulty) - {0, 1}:
+            return f"{name}: found {found} for a kernel that is CONTCT, {faulty} for one that is not"
+        count += len(lines)
+    print(f"{count} lines run")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
