@@ -232,8 +232,9 @@ TEST_CASE("more than 12 combinations have a row each, with the name, and below s
   const std::string many = table_of(a_run(train + "1\n").result, terminal{}, false).text;
   CHECK_THAT(many, Contains("\nHL-93 at 7      1        0  moment 49.5833"));  // 10 * 7 * 17 / 24
   CHECK_THAT(many, !Contains("incr  share"));
-  CHECK_THAT(many,
-             Contains("largest moment  60                  node 13, x = 12        HL-93 at 12\n"));  // P L / 4
+  CHECK_THAT(
+      many,
+      Contains("largest moment  60                  node 13, x = 12        HL-93 at 12\n"));  // P L / 4
   const std::string few = table_of(a_run(train + "8\n").result, terminal{}, false).text;
   CHECK_THAT(few, Contains("   2.1  1"));
   CHECK_THAT(few, Contains("end  HL-93 at 8;"));

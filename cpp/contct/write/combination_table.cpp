@@ -51,8 +51,8 @@ std::string envelope_text(const problem& p, const envelope& e) {
   for (std::size_t i = 0; i < e.names.size(); ++i)
     for (const bool least : {true, false}) {
       const auto& at = least ? e.values[i].least : e.values[i].most;
-      text += line_of(p, fmt::format("{} {}", least ? "least" : "largest", e.names[i]),
-                      at.value.value, place_words(p.geometry, at.value), at, e.names[i]);
+      text += line_of(p, fmt::format("{} {}", least ? "least" : "largest", e.names[i]), at.value.value,
+                      place_words(p.geometry, at.value), at, e.names[i]);
     }
   const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
   if (force != e.pairs.end() && force->value > 0.0)
