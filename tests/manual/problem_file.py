@@ -2,7 +2,7 @@
 
 - Every table of a problem file is given a key that does not exist. The refusal lists the keys that are allowed there. They must
   be those that the manual documents for that table and that structure.
-- Every example is read and solved; every example of a refusal is refused with the message that is shown.
+- Every example is read and solved; every example of a refusal, there and in refusals.md, is refused with the message that is shown.
 """
 import re
 import shutil
@@ -190,7 +190,7 @@ def main(program, root):
     compared = sum(map(len, accepted.values()))
     if compared < LEAST_KEYS:
         return f"found {compared} keys to compare, allowed: {LEAST_KEYS} or more"
-    shown = list(examples(text))
+    shown = list(examples(text + (Path(__file__).parent / "refusals.md").read_text()))
     for example in shown:
         if wrong := wrong_example(run, *example):
             return wrong
