@@ -19,7 +19,7 @@
 
 namespace contct {
 
-/// Take the place of standard streams that are closed, so that no file of ours gets their number
+/// Take the place of closed standard streams, so that no file of ours gets their number
 /// and, with it, what is printed.
 void hold_standard_streams();
 

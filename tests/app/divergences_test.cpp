@@ -79,7 +79,7 @@ TEST_CASE("way 1: a near tie is toggled early, and the offset survives unloading
   says(text, "3 %", 100 * w(wrong, 2, 3) / -w(truth, 1, 3));
 }
 
-TEST_CASE("way 2: in a small unit of length an open pair closes before anything has moved") {
+TEST_CASE("way 2: in a small unit of length a separated pair comes into contact before anything has moved") {
   const std::string text = section("2. ");
   const json wrong = run("small-unit.toml", "fortran", uncertified);
   const json truth = run("small-unit.toml", "corrected", right);
@@ -126,7 +126,7 @@ TEST_CASE("way 4: an event exactly at full load is left to the next step, and on
   }
 }
 
-TEST_CASE("way 6: an event near full load toggles a pair that has none") {
+TEST_CASE("way 6: an event near full load toggles another pair too") {
   const std::string text = section("6. ");
   const json wrong = run("mark-toggled.toml", "fortran", uncertified);
   const json truth = run("mark-toggled.toml", "corrected", right);

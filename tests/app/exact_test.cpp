@@ -119,7 +119,7 @@ TEST_CASE("a matrix that is nearly singular is solved, and one that is barely in
   CHECK(refused.exit == 2);
   CHECK_THAT(refused.err,
              Contains("k.mtx: not positive semidefinite: found work -1e-16, in exact arithmetic"));
-  CHECK(with("1").exit == 4);  // semidefinite, and the load drives the free motion
+  CHECK(with("1").exit == 4);  // semidefinite, and the load drives the rigid-body motion
 }
 
 TEST_CASE("kernels are measured with settlements, several steps, two-sided pairs and pairs at fixed dofs") {

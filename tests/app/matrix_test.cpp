@@ -1,4 +1,4 @@
-// A matrix from elsewhere, run as a person would.
+// An external matrix, run as a person would.
 #include "app/process.hpp"
 #include "catch.hpp"
 

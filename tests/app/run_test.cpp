@@ -381,7 +381,7 @@ TEST_CASE("only the end: the path's final states without a path, certified") {
     const auto& b = at_once["steps"][step];
     CHECK(b["increments"].empty());
     CHECK(b["certificate"]["exact"] == true);
-    CHECK(b["certificate"]["independent"] == false);  // it is the oracle's own state
+    CHECK(b["certificate"]["independent"] == false);  // it is the reference solution
     CHECK(a["certificate"]["independent"] == true);
     for (std::size_t node = 0; node < a["w"].size(); ++node) {
       CHECK(a["w"][node].get<double>() == Approx(b["w"][node].get<double>()).epsilon(1e-9).margin(1e-11));

@@ -1,4 +1,4 @@
-// Files from strangers: whatever their texts hold, a terminal is shown characters and obeys none, and they
+// Files from strangers: whatever their texts hold, a terminal is shown characters and no commands, and they
 // open no files but their own.
 #include <filesystem>
 #include <string>
@@ -141,7 +141,7 @@ TEST_CASE("nor does any text of the files that a problem names, of traces, of a 
   CHECK(escaped >= 2);
 }
 
-TEST_CASE("a kernel that answers with control characters is told so in characters") {
+TEST_CASE("a kernel that answers with control characters is reported in plain characters") {
   const scratch_folder dir;
   dir.write("p.toml", filled(beam_problem, ""));
   dir.write("kernel.sh",
@@ -175,7 +175,7 @@ TEST_CASE("a problem names files below its folder, and others under --allow-outs
   CHECK(allowed == 4);
 }
 
-TEST_CASE("no message quotes a file that is none of the problem's") {
+TEST_CASE("no message quotes a file outside the problem's folder") {
   const scratch_folder dir;
   const std::string secret = "secretroot:x:0:0:root:/root:/bin/sh";
   dir.write("passwd", secret + "\n" + secret + "2 secretfield\n");

@@ -1,4 +1,4 @@
-// contct_bench: the engines side by side, in one process, on one thread.
+// contct_bench: the engines compared, in one process, on one thread.
 #include "bench/bench.hpp"
 
 #include <dlfcn.h>

@@ -154,7 +154,7 @@ def tables_match(name, result):
                   f"{name}: {title.lower()} of step {step['step']}: {column}, {known}")
 
 
-# Structures from elsewhere, and whether they are drawn.
+# Structures given by matrices, and whether they are drawn.
 structures = {"frame": True, "console": True, "bare": False}
 
 
@@ -499,7 +499,7 @@ def opens(name, *words):
     quiet(name)
 
 
-# ---- structures from elsewhere ----
+# ---- structures given by matrices ----
 
 def stands_where_it_was(name, view):
     """Before any load both lines are the same; later they are not, and pairs, faces and supports are marked."""

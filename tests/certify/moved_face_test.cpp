@@ -122,7 +122,7 @@ TEST_CASE("The factor of a move multiplies its distance") {
   });
 }
 
-TEST_CASE("A face that moves at a fixed deflection presses on its support alone") {
+TEST_CASE("A face that moves at a fixed deflection loads its support alone") {
   problem p = cantilever();
   p.supports.push_back({4, 0, true});
   p.steps = {moving(4, 0.01)};

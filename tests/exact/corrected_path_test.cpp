@@ -144,7 +144,7 @@ TEST_CASE("a free beam falls onto its faces at constant load, one after the othe
   CHECK(at(path, 0, 2) == rational(-5, 2) - 4 * rational(8, 48));
 }
 
-TEST_CASE("a mechanism is proved by a free motion on which the load does work") {
+TEST_CASE("a mechanism is proved by a rigid-body motion on which the load does work") {
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(2, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -1 }, { node = 2, theta = -4e-13 } ]\n");
@@ -166,7 +166,7 @@ TEST_CASE("a step that takes away the last contact ends in a mechanism at that s
   CHECK(path.mechanism->work == 3);
 }
 
-TEST_CASE("a free motion that the load does not drive stays where it is") {
+TEST_CASE("a rigid-body motion that the load does not drive stays where it is") {
   const exact_path path = followed(free_beam + pair(2, "below", "0", "1") +
                                    "[[step]]\npoint = [ { node = 1, w = -1 }, { node = 3, w = -1 } ]\n");
   REQUIRE(path.status == contct::path_status::solved);

@@ -110,7 +110,7 @@ TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a fac
   }
 }
 
-TEST_CASE("a residual beyond doubles is infinite, and there is none of displacements that are no numbers") {
+TEST_CASE("a residual beyond doubles is infinite, and displacements that are not finite have none") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   std::vector<double_double> u(6, 0.0);

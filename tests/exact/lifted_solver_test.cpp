@@ -67,7 +67,8 @@ TEST_CASE("dofs that are fixed stay where they are") {
   CHECK(solver.solve({0, 0, 1}) == rational_vector{0, 3, rational(3) + rational(3, 4)});
 }
 
-TEST_CASE("the free motion of a chain that nothing holds is found, and loads without work on it are solved") {
+TEST_CASE(
+    "the rigid-body motion of a chain that nothing holds is found, and loads without work on it are solved") {
   const contct::rational_rows k = chain(5);
   const std::vector<char> fixed(5, 0);
   const std::vector<int> places = in_order(5);

@@ -140,7 +140,7 @@ TEST_CASE("where the 1989 code goes wrong, its rule does, as reference/DIVERGENC
   }
 }
 
-TEST_CASE("a structure that no closed pair holds is a mechanism for the 1989 driver") {
+TEST_CASE("a structure that no pair in contact holds is a mechanism for the 1989 driver") {
   const exact_path path = listed("[beam]\nx = [0, 1]\nEI = 1\n" + stop(1, "-1", "1") + stop(2, "-1", "1") +
                                  "[[step]]\nuniform = -1\n");
   CHECK(path.status == contct::path_status::mechanism);

@@ -8,8 +8,8 @@
 
 using namespace contct;
 
-TEMPLATE_TEST_CASE("a pair closes at the share of the load that brings it to its face (eq. 4)", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("a pair comes into contact at the share of the load that brings it to its face (eq. 4)",
+                   "", float, double) {
   // 1 of 4 units of the test response are used up when the structure meets the face below it.
   small_call<TestType> c({{TestType(-1), TestType(-4), TestType(-2), apart, below}});
   c.ask();
@@ -19,7 +19,7 @@ TEMPLATE_TEST_CASE("a pair closes at the share of the load that brings it to its
   CHECK(c.events == std::vector<event>{{0, change::make}});
 }
 
-TEMPLATE_TEST_CASE("the same formula opens a pair that is lifted off its face", "", float, double) {
+TEMPLATE_TEST_CASE("the same formula separates a pair that is lifted off its face", "", float, double) {
   // Pressed to D = -3 against a face at -2, lifted by 4: after a quarter it passes the face.
   small_call<TestType> c({{TestType(-3), TestType(4), TestType(-2), touching, below}});
   c.ask();
@@ -55,8 +55,8 @@ TEST_CASE("of several events the smallest s comes first (lemma 2)") {
 }
 
 TEMPLATE_TEST_CASE(
-    "a stationary pair opens at once when it is pulled, by a step too small to count (eq. 11, 12)", "", float,
-    double) {
+    "a stationary pair separates at once when it is pulled, by a step too small to count (eq. 11, 12)", "",
+    float, double) {
   using Real = TestType;
   small_call<Real> c({{Real(0), Real(0.5), Real(0), touching, below},     // pulled off its face
                       {Real(0), Real(-0.5), Real(0), touching, below},    // pressed on: quiet

@@ -1,4 +1,4 @@
-// Calls put to kernels from outside, and what these leave behind.
+// Calls put to external kernels, and what these leave behind.
 #pragma once
 
 #include <sys/wait.h>

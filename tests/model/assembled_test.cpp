@@ -52,7 +52,8 @@ int rank_of(const linear_structure& s) {
 }  // namespace
 
 TEST_CASE(
-    "the matrix of a free beam has two free motions, that of a free plate three, of a body in space six") {
+    "the matrix of a free beam has two rigid-body motions, that of a free plate three, of a body in space "
+    "six") {
   for (const int elements : {1, 2, 7, 40, 200}) {
     INFO(elements << " elements");
     CHECK(by_matrix(build(beam_of(elements), {}, {}), {}, {}).rigid_motions == 2);
@@ -84,7 +85,7 @@ TEST_CASE("the motions found are straight, whatever the order of rows: those tha
   }
 }
 
-TEST_CASE("supports take free motions away: the matrix knows no others than those that are left") {
+TEST_CASE("supports take rigid-body motions away: the matrix knows no others than those that are left") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}}, {}).rigid_motions == 1);
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, false, 1e4}}, {}).rigid_motions == 1);
@@ -108,7 +109,7 @@ TEST_CASE("a body in space: four vertical pairs stop three motions, and six well
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(0), at_dof(6), at_dof(1)})) == 6);
 }
 
-TEST_CASE("a dof that no free motion moves holds none: what is left there is rounding") {
+TEST_CASE("a dof that no rigid-body motion moves holds none: what is left there is rounding") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);
   std::vector<support> only_x_is_left;

@@ -83,7 +83,7 @@ TEST_CASE("a polynomial of degree 0 is a uniform load, and parts add up") {
   for (std::size_t i = 0; i < 8; ++i) CHECK(parts[i] == Approx(whole[i]).margin(1e-15));
 }
 
-TEST_CASE("a rigid motion bends nothing, however large") {
+TEST_CASE("a rigid-body motion bends nothing, however large") {
   const beam b = even_beam(10.0, 100, 1e4);
   std::vector<double> u;
   for (const double x : b.x) {
@@ -119,7 +119,7 @@ TEST_CASE("a stiffness beyond double precision is refused, with the element") {
   CHECK_THROWS_WITH(build(b, clamped_left, {}), Catch::Matchers::Contains("element 1"));
 }
 
-TEST_CASE("the two rigid motions of a beam, up and about its middle, are what rigid_rows says") {
+TEST_CASE("the two rigid-body motions of a beam, up and about its middle, are what rigid_rows says") {
   beam b;
   b.x = {2.0, 3.0, 5.0, 6.0};
   b.EI.assign(3, 1.0);

@@ -81,7 +81,7 @@ TEST_CASE("A load that grows along an element left of a hinge is condensed exact
   CHECK(reactions({b}, l, supports, u)[1] == Approx(7.0 * 6 * 9 / 120).epsilon(hinge_rounding));
 }
 
-TEST_CASE("A beam of n hinges has 2 + n rigid motions, none of which needs a force") {
+TEST_CASE("A beam of n hinges has 2 + n rigid-body motions, none of which needs a force") {
   const beam b = hinged({0, 1, 2.5, 3, 4, 6, 7}, {1, 2, 4}, 3);
   const linear_structure s = build(b, {}, {});
   REQUIRE(s.rigid_motions == 5);

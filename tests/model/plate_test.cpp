@@ -158,7 +158,7 @@ linear_structure magnitudes(linear_structure s) {
 
 }  // namespace
 
-TEST_CASE("the three rigid motions of a plate need no force, and are what rigid_rows says") {
+TEST_CASE("the three rigid-body motions of a plate need no force, and are what rigid_rows says") {
   for (const plate& p : {uneven_plate(), uneven_plate(1000, 1), uneven_plate(1e-12, 1e-12)}) {
     const linear_structure s = build(p, {}, {});
     const linear_structure of_signs = magnitudes(s);
@@ -251,7 +251,7 @@ TEST_CASE("corner moments are exact for every cubic field, with x^3 y and x y^3,
       CHECK(moments.at(e, 2)[k] == Approx(p.D * (1 - p.nu) * xy).margin(1e-11));
     }
   }
-  // Under its own weight on simple supports a plate sags.
+  // Under its self-weight on simple supports a plate sags.
   const plate square = quarter_of_square(8);
   const element_results sag = results_in_elements(
       square, {}, displaced(square, simply_supported_quarter(square), unit_pressure_down));
@@ -259,7 +259,7 @@ TEST_CASE("corner moments are exact for every cubic field, with x^3 y and x y^3,
   CHECK(sag.at(63, 1)[2] == Approx(sag.at(63, 0)[2]).epsilon(1e-12));
 }
 
-TEST_CASE("a rigid motion bends no plate, however large") {
+TEST_CASE("a rigid-body motion bends no plate, however large") {
   const plate p = quarter_of_square(10);
   const field far = {[](double x, double y) { return 1000 + 3 * x - 7 * y; },
                      [](double, double) { return 3.0; }, [](double, double) { return -7.0; }};

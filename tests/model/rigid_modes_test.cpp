@@ -60,7 +60,7 @@ band_matrix chain(int points) {
 
 }  // namespace
 
-TEST_CASE("a chain of springs has one free motion: all points by the same length") {
+TEST_CASE("a chain of springs has one rigid-body motion: all points by the same length") {
   const free_motions f = find_free_motions(chain(9), {});
   REQUIRE(f.count == 1);
   REQUIRE(f.rows.size() == 9);
@@ -68,7 +68,7 @@ TEST_CASE("a chain of springs has one free motion: all points by the same length
   CHECK(f.rounding < 1e-9);
 }
 
-TEST_CASE("a spring to the ground leaves a chain no free motion") {
+TEST_CASE("a spring to the ground leaves a chain no rigid-body motion") {
   band_matrix k = chain(9);
   k.at(3, 3) += 0.5;
   CHECK(find_free_motions(k, {}).count == 0);
@@ -81,7 +81,7 @@ TEST_CASE("the scale of the matrix, and of single dofs, does not matter") {
   k.scale(d);
   const free_motions f = find_free_motions(k, {});
   REQUIRE(f.count == 1);
-  // K becomes D K D, so its free motion becomes D^-1 times the old one; the largest entry is 1.
+  // K becomes D K D, so its rigid-body motion becomes D^-1 times the old one; the largest entry is 1.
   CHECK(std::abs(f.rows[0][0]) == Approx(1.0).epsilon(1e-9));
   CHECK(std::abs(f.rows[4][0]) <= 1e-10);
 }
@@ -96,7 +96,7 @@ TEST_CASE("a dof on the least stiffness that there is leaves the other motions a
   CHECK(f.rows[9][0] == 0.0);
 }
 
-TEST_CASE("what is said of the free motions must be so") {
+TEST_CASE("statements about the rigid-body motions must be so") {
   CHECK(find_free_motions(chain(9), 1).count == 1);
   CHECK_THROWS_WITH(find_free_motions(chain(9), 2), Catch::Matchers::Contains("on its supports, 1"));
   band_matrix negative = chain(9);
@@ -104,7 +104,7 @@ TEST_CASE("what is said of the free motions must be so") {
   CHECK_THROWS_AS(find_free_motions(negative, {}), std::invalid_argument);
 }
 
-TEST_CASE("free motions are found without a band as with one") {
+TEST_CASE("rigid-body motions are found without a band as with one") {
   if (!sparse_factor::available()) return;
   assembled body;
   body.name = "K";

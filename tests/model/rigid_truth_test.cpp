@@ -1,4 +1,4 @@
-// What decimals say of rigid motions, where doubles would say something else.
+// What decimals say of rigid-body motions, where doubles would say something else.
 #include "contct/model/rigid_truth.hpp"
 
 #include <array>

@@ -18,7 +18,7 @@ path_record free_run(const beam_problem& p, const char* kernel) {
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ on paths of their own arrive at the same bits") {
+TEST_CASE("FORTRAN and C++ in free run arrive at the same bits") {
   const path_record fortran = free_run(cantilever_over_a_stop(), "fortran");
   const path_record cpp = free_run(cantilever_over_a_stop(), "cpp");
   const free_run_difference d = compare_paths(fortran, cpp, 1e-9, 2);

@@ -6,7 +6,7 @@ using namespace contct;
 
 namespace {
 
-/// A clamped beam between stops, which the first load presses on those below, the second on one above.
+/// A clamped beam between stops, which the first load presses against those below, the second on one above.
 beam_problem between_stops() {
   beam_problem p;
   p.geometry = even_beam(4.0, 8, 100.0);

@@ -37,7 +37,7 @@ full_load_state made_up_rest() {
 
 }  // namespace
 
-TEST_CASE("a free beam dropped onto stops moves rigidly at constant load until it lies on them") {
+TEST_CASE("a free beam dropped onto stops moves as a rigid body at constant load until it lies on them") {
   const beam_problem p = beam_above_stops();
   recorder r;
   const path_end end = p.run("corrected", {&r});
@@ -156,7 +156,7 @@ TEST_CASE("driven away from the start, a beam that nothing holds has not moved")
   CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
 }
 
-TEST_CASE("the listing's rule gets none of this: the path of a beam above its stops ends at the start") {
+TEST_CASE("the 1989 rule gets none of this: the path of a beam above its stops ends at the start") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
     const path_limits limits{0, [&](int, const full_load_state*) {
@@ -250,7 +250,7 @@ TEST_CASE("at a step's end D is where the springs' law has it, whatever the way 
   CHECK(r.steps[3].u[4] == Approx(20 * f).epsilon(1e-12));
 }
 
-TEST_CASE("under the listing's rule an early toggle stays in the sum, as it did in 1989") {
+TEST_CASE("under the 1989 rule an early toggle stays in the sum, as it did in 1989") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty, contact_rule::listing);
   recorder r;
@@ -338,7 +338,7 @@ TEST_CASE("what is found without the path may be that there is no equilibrium") 
   CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule goes its own way
 }
 
-TEST_CASE("nothing ends a path under the listing's rule but itself, nor one without an equilibrium") {
+TEST_CASE("nothing ends a path under the 1989 rule but itself, nor one without an equilibrium") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;
   const path_limits none{0, [&](int, const full_load_state*) {

@@ -179,7 +179,7 @@ def check_reference(folder):
     for problem in files:
         for kernel in ("corrected", "fortran"):
             proof = proof_of(problem, folder, "--kernels", kernel)
-            if proof is None:  # a mechanism, by the listing's rule
+            if proof is None:  # a mechanism, by the 1989 rule
                 if kernel == "corrected":
                     fail(f"{problem.name}: no end with {kernel}")
                 continue

@@ -143,7 +143,7 @@ def test_options_of_a_run(beam, ask):
     assert exit == 5 and found.status == "iteration-limit" and not found.certified
 
 
-def test_states_from_elsewhere_are_certified(beam):
+def test_external_states_are_certified(beam):
     found = contct.run(beam)
     states = [step.displacement for step in found.steps]
     assert contct.certify(beam, states).certified is True

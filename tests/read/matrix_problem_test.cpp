@@ -1,4 +1,4 @@
-// Problems on a matrix from elsewhere: the same answers as from the structure itself, and what is refused.
+// Problems on an external matrix: the same answers as from the structure itself, and what is refused.
 #include <fmt/format.h>
 
 #include <algorithm>

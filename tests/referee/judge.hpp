@@ -72,8 +72,8 @@ struct judgement {
   std::vector<finding> findings;
 };
 
-/// Solve `p` and judge what is said. Where equilibria differ by a rigid motion, forces and reactions alone
-/// are compared.
+/// Solve `p` and judge what is said. Where equilibria differ by a rigid-body motion, forces and reactions
+/// alone are compared.
 [[nodiscard]] judgement judge(const problem& p, const exact_answer& exactly, way how);
 
 }  // namespace contct::referee

@@ -129,7 +129,7 @@ TEST_CASE("options that are not known, of another type, or too deep are refused 
              Contains("more than 16 deep; allowed: at most 16"));
 }
 
-TEST_CASE("states from elsewhere are certified, and a state that is wrong is not") {
+TEST_CASE("external states are certified, and a state that is wrong is not") {
   const std::string text = problem_text("pb07-three-gap-supports");
   std::vector<json> states = displacements(run(text, {{"kernels", {"corrected"}}}).at("result"));
   const json right = certified(text, {{"displacement", states}});

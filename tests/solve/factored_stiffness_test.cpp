@@ -98,7 +98,7 @@ linear_structure three_dofs() {
 
 }  // namespace
 
-TEST_CASE("springs of closed pairs are at the rows of their dofs, and not at fixed ones") {
+TEST_CASE("springs of pairs in contact are at the rows of their dofs, and not at fixed ones") {
   const std::vector<spring_at> springs = springs_of(three_dofs(), std::vector<char>{1, 0, 1});
   REQUIRE(springs.size() == 1);
   CHECK(springs[0].row == 0);

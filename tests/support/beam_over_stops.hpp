@@ -10,7 +10,7 @@
 
 namespace contct {
 
-/// Clamped at its left end, all pairs open; springs of every order from softer to stiffer than the beam.
+/// Clamped at its left end, all pairs separated; springs of every order from softer to stiffer than the beam.
 inline linear_structure cantilever_over_stops(int elements) {
   beam b;
   for (int i = 0; i <= elements; ++i) b.x.push_back(0.5 * i);

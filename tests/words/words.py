@@ -1,4 +1,5 @@
-"""Fails when a sentence for users has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/.
+"""Fails when a sentence has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/, the comments of
+cpp/ and tests/, and the names of tests.
 Usage: words.py ROOT PHRASES LEAST"""
 import re
 import sys
@@ -19,6 +20,23 @@ def texts_of(file):
     return [re.sub(r"`[^`]*`", "`", text) for text in found if " " in text.strip()]
 
 
+def comments_of(file):
+    """The comments of a source, each run of lines as one, and the names of its tests."""
+    source = re.sub(r'R"(\w*)\(.*?\)\1"', '""', file.read_text(encoding="utf-8"), flags=re.DOTALL)
+    names = [m[1] for m in re.finditer(r'\b(?:TEST_CASE|SECTION)\(\s*"((?:\\.|[^"\\\n])*)"', source)]
+    if file.suffix == ".py":
+        names += [m[1].replace("_", " ") for m in re.finditer(r"^def (test_\w+)", source, re.MULTILINE)]
+    mark = "#" if file.suffix == ".py" else "//[/!<]*"
+    plain = re.sub(r'"(?:\\.|[^"\\\n])*"', '""', source)
+    runs = re.findall(rf"(?:^[ \t]*{mark}[^\n]*\n)+|(?<=[\s;]){mark} [^\n]*", plain, re.MULTILINE)
+    return [re.sub(r"`[^`]*`", "`", text) for text in names + [re.sub(rf"\s*{mark}\s*", " ", run) for run in runs]]
+
+
+def sources_of(root):
+    found = [file for folder in ("cpp", "tests") for file in (root / folder).rglob("*")]
+    return sorted(file for file in found if file.suffix in (".cpp", ".hpp", ".h", ".c", ".js", ".py"))
+
+
 def files_of(root):
     rooms = [root / "cpp" / room for room in ("app", "contct", "package")]
     found = [file for room in rooms for file in room.rglob("*") if file.suffix in (".cpp", ".hpp", ".js", ".html", ".py")]
@@ -36,8 +54,9 @@ def main(root, phrases, least):
     rows = [line.split(" -> ") for line in Path(phrases).read_text().splitlines() if line and line[0] != "#"]
     patterns = [(pattern_of(phrase), instead) for phrase, instead in rows]
     looked_at, found = 0, 0
-    for file in files_of(Path(root)):
-        for text in texts_of(file):
+    read = [(file, texts_of) for file in files_of(Path(root))] + [(file, comments_of) for file in sources_of(Path(root))]
+    for file, texts in read:
+        for text in texts(file):
             looked_at += bool(re.search(r"[A-Za-z]{2}", text))
             for pattern, instead in patterns:
                 for hit in pattern.finditer(text):

@@ -163,7 +163,7 @@ TEST_CASE("one pair alone is written when it alone is wanted") {
   }
 }
 
-TEST_CASE("an event exactly at the full load is none for the listing, and the explanation says so") {
+TEST_CASE("an event exactly at the full load is not one for the listing, and the explanation says so") {
   // The face is where the tip sinks to, to the last bit.
   problem p = parse_problem(two_pairs, "pb.toml");
   p.pairs[0].face = -10.0;

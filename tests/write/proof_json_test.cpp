@@ -32,7 +32,7 @@ constexpr const char* stopped_beam =
 
 }  // namespace
 
-TEST_CASE("a proof has the state, the closed pairs, the factor and the bounds of each step") {
+TEST_CASE("a proof has the state, the pairs in contact, the factor and the bounds of each step") {
   const nlohmann::json proof = proof_of(stopped_beam);
   CHECK(proof["format"] == "contct-proof-2");
   REQUIRE(proof["steps"].size() == 2);

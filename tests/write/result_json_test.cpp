@@ -170,7 +170,7 @@ TEST_CASE("forces balance: loads, pairs and reactions add up to nothing") {
   CHECK(step["elements"][1]["shear"][1].get<double>() == Approx(60.0 - pair).epsilon(1e-11));
 }
 
-TEST_CASE("an open pair has a gap and no force, and a mechanism keeps the state reached") {
+TEST_CASE("a separated pair has a gap and no force, and a mechanism keeps the state reached") {
   const auto r = result_of(
       "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
       "0\nstiffness = 10\n"

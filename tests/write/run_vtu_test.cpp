@@ -31,7 +31,8 @@ TEST_CASE("a collection names its files in their order, relative to itself") {
   CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
 }
 
-TEST_CASE("grids of structures from elsewhere: points where nodes are, edges, and pairs that have a node") {
+TEST_CASE(
+    "grids of structures given by matrices: points where nodes are, edges, and pairs that have a node") {
   const a_run r(structure_problem("", "frame", {{"dof       = \"8.x\"", "dof = \"8.r\""}}));
   const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
   CHECK_THAT(vtu, Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));

@@ -160,7 +160,7 @@ TEST_CASE("a step that never moves has a row all the same") {
   CHECK(t.increments[1][11].empty());
 }
 
-TEST_CASE("tables of structures from elsewhere name dofs by their labels, with coordinates or without") {
+TEST_CASE("tables of structures given by matrices name dofs by their labels, with coordinates or without") {
   for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
     std::string increments;
     std::string pairs;

@@ -30,7 +30,7 @@ class certain_contacts {
   /// A and rho of `b`, for a state with a residual: A has at first all pairs beyond their faces; those that
   /// are not so for certain leave it again. False, with the reason, where nothing is proved.
   bool find(std::span<const double_double> u, const long_residual& r, contact_set& b);
-  /// Where the pairs of A leave rigid motions free on which the load does no work at all: springs without
+  /// Where the pairs of A leave rigid-body motions on which the load does no work at all: springs without
   /// force hold the structure where it is, and change nothing else.
   bool find_balanced(int step, std::span<const double_double> u, const long_residual& r, contact_set& b);
 

@@ -4,7 +4,7 @@
 // tells what is wrong with a state that nothing proves.
 //
 // The reference solution shares no code with kernels, engines or the loop. It does share the assembled
-// stiffness, its Cholesky factor (matrix/cholesky) and the count of rigid motions
+// stiffness, its Cholesky factor (matrix/cholesky) and the count of rigid-body motions
 // (model/rigid_modes) with them.
 #pragma once
 
@@ -33,8 +33,8 @@ struct certificate {
   double shape_error = 0.0;  ///< of any number, against the size of its kind; or of any dof, scaled by the
                              ///< root of its stiffness, against the largest
   double equilibrium = 0.0;  ///< load left over by K D and the pairs' forces, scaled likewise
-  double penetration = 0.0;  ///< of open pairs
-  double tension = 0.0;      ///< how far the springs of closed pairs are stretched
+  double penetration = 0.0;  ///< of separated pairs
+  double tension = 0.0;      ///< how far the springs of pairs in contact are stretched
   double rcond = 0.0;        ///< of the equilibrated stiffness
   /// False: the state is the reference solution's own, so that comparing the two shows nothing. What is left
   /// then is equilibrium, penetration and tension.

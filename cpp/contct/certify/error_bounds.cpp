@@ -235,8 +235,8 @@ bool error_prover::is_semidefinite() {
   return *semidefinite_;
 }
 
-/// Nodal loads are sizes. Where there are none, what it takes to move one settling dof alone tells how large
-/// the rounding of forces is that are none.
+/// Nodal loads are sizes. Where there are none, the force that moves one settling dof alone is the size,
+/// against which rounding is judged.
 void error_prover::measure(const long_loads& l, error_bounds& b) const {
   const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {

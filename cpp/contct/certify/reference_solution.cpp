@@ -133,14 +133,14 @@ class reference_solver::search {
     return structure_.is_held(held_by(firm));
   }
 
-  /// Does no open pair stand in the way of this rigid motion?
+  /// Does no separated pair stop this rigid-body motion?
   [[nodiscard]] bool nothing_stops(const numbers& motion) const {
     for (std::size_t i = 0; i < pair_rows_.size(); ++i)
       if (set_[i] == 0 && structure_.pairs[i].surface * pair_rows_[i].stretch(motion) > 0.0L) return false;
     return true;
   }
 
-  /// p = a rigid motion.
+  /// p = a rigid-body motion.
   void put(const free_motion& motion, numbers& p) const {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
@@ -307,7 +307,7 @@ class reference_solver::search {
   std::vector<spring_at> pair_rows_;     // [pairs]
   numbers load_;                         // [rows]
   std::vector<double> given_;            // the same, as it was given [dofs]
-  rigid_work work_;                      // of the load on each rigid motion
+  rigid_work work_;                      // of the load on each rigid-body motion
   std::optional<bool> exists_;           // an equilibrium; none: only rounding decides
   std::vector<holding_spring> holding_;  // of this iteration only
   long double largest_load_ = 0.0L;      // sum of all forces on deflections, the largest so far

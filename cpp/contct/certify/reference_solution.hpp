@@ -14,7 +14,7 @@ namespace contct {
 struct reference_answer {
   enum class outcome {
     found,           ///< the minimiser of the energy
-    no_equilibrium,  ///< certainly: a rigid motion that nothing stops does work under the load
+    no_equilibrium,  ///< certainly: a rigid-body motion that nothing stops does work under the load
     none_seen,       ///< the same as far as doubles see, which no proof confirms
     not_found,       ///< too ill-conditioned, or out of iterations
   };
@@ -41,7 +41,7 @@ struct reference_answer {
 /// has neither force nor energy. From such a point one whole step lands on u*. The sets are then
 /// the same before and after, and that is the test.
 ///
-/// Where the pressed pairs do not hold the structure, the step is the rigid motion that the load
+/// Where the pressed pairs do not hold the structure, the step is the rigid-body motion that the load
 /// drives; where it drives none, springs without force hold the structure.
 ///
 /// Every solve is refined with residuals in long double, so the answer is that of the matrix as it

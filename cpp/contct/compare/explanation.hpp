@@ -81,7 +81,7 @@ struct explained_pair {
   [[nodiscard]] const taken_branch& at(branch b) const { return taken[index_of(b)]; }
   [[nodiscard]] bool toggled() const { return isep_before != isep_after; }
   [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
-  /// Has it an event under the listing's rule? The mark for "no event" is none, however it compares.
+  /// Has it an event under the 1989 rule? The mark for "no event" does not count, however it compares.
   [[nodiscard]] bool is_candidate() const {
     return (way == listing_branch::moving || way == listing_branch::stationary_event) && s > 0.0;
   }

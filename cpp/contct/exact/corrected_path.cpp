@@ -29,8 +29,8 @@ bool is_zero(const rational_vector& v) {
 
 /// The response of the structure to the step's load on a ground of stiffness epsilon M, for epsilon to 0:
 ///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
-/// With free motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later one has
-/// K y = what is left of the order before, and z'M y = 0.
+/// With rigid-body motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later one
+/// has K y = what is left of the order before, and z'M y = 0.
 class soft_ground {
  public:
   explicit soft_ground(const position& at) : at_(at) {
@@ -159,8 +159,8 @@ class corrected_path {
     return 0;
   }
 
-  /// How far along `v` the first separated pair is at its face, or the first one in contact, which no free
-  /// motion moves. Nothing where none ever is.
+  /// How far along `v` the first separated pair is at its face, or the first one in contact, which no
+  /// rigid-body motion moves. Nothing where none ever is.
   [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
     std::optional<rational> way;
     for (std::size_t i = 0; i < at_.closed.size(); ++i) {
@@ -172,7 +172,7 @@ class corrected_path {
     return way;
   }
 
-  /// Along the free motion that the load drives, to the first face. False where none stands in its way.
+  /// Along the rigid-body motion that the load drives, to the first face. False where none stands in its way.
   bool snap() {
     fill_in();
     const rational_vector& motion = response_[0];

@@ -29,9 +29,9 @@ struct definiteness {
   std::optional<negative_work> shown = {};
 };
 
-/// The dofs that free motions of K move are found modulo a prime, and the motions confirmed exactly. K is
-/// semidefinite where it is definite on the others, which the bound on its least eigenvalue proves. Where its
-/// factor fails, that shows a displacement, of which an exact sum decides. Throws std::runtime_error as
+/// The dofs that rigid-body motions of K move are found modulo a prime, and the motions confirmed exactly. K
+/// is semidefinite where it is definite on the others, which the bound on its least eigenvalue proves. Where
+/// its factor fails, that shows a displacement, of which an exact sum decides. Throws std::runtime_error as
 /// lifted_solver::factor does.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 

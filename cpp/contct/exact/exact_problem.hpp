@@ -19,9 +19,9 @@ using exact_step = loads_in<rational>;
 struct exact_problem : equations<rational> {
   std::vector<int> place;  ///< of each dof in a narrow band
   std::vector<exact_step> steps;
-  /// Weights of the squares of displacements by which rigid motions are measured, at dofs that hold all of
-  /// them: those that the load does not drive keep what they have, and it drives others the steepest way. Of
-  /// beams and plates w at the ends and hinges, or corners, as the corrected rule in doubles.
+  /// Weights of the squares of displacements by which rigid-body motions are measured, at dofs that hold all
+  /// of them: those that the load does not drive keep what they have, and it drives others the steepest way.
+  /// Of beams and plates w at the ends and hinges, or corners, as the corrected rule in doubles.
   std::vector<added_spring> ground;
 
   /// The longest that numbers of its path may become, in bits.

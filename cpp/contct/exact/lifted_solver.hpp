@@ -42,11 +42,11 @@ class lifted_solver {
   /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
   [[nodiscard]] const std::vector<rational_vector>& free_motions() const { return free_motions_; }
 
-  /// Is a dof neither fixed nor, by its missing pivot, the amount of a free motion? K + springs is
+  /// Is a dof neither fixed nor, by its missing pivot, the amount of a rigid-body motion? K + springs is
   /// semidefinite where it is positive definite on these.
   [[nodiscard]] bool has_pivot(std::size_t dof) const { return fixed_[dof] == 0 && free_[dof] == 0; }
 
-  /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With free
+  /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With rigid-body
   /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
   [[nodiscard]] rational_vector solve(const rational_vector& b) const;
 
@@ -99,7 +99,7 @@ class lifted_solver {
   std::map<std::pair<int, int>, rational> beside_;  // of springs between two dofs, by both
   field field_;                                     // of the last factorisation
   std::vector<std::uint64_t> factor_;               // L and D of L D L' modulo the prime, as a band
-  std::vector<std::uint64_t> inverse_;              // of D; 0 where the pivot is none
+  std::vector<std::uint64_t> inverse_;              // of D; 0 where there is no pivot
   std::vector<char> free_;                          // dofs without a pivot
   std::vector<whole_row> whole_;                    // [dofs]; empty without a pivot
   std::vector<std::uint64_t> unscale_;              // 1 / scale of each

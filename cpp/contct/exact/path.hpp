@@ -15,7 +15,7 @@ namespace contct {
 struct exact_increment {
   rational fraction;
   std::vector<event> events;  ///< in order of pairs; none at the end of a step
-  bool snaps = false;         ///< a rigid motion to the next face, at constant load, came after them
+  bool snaps = false;         ///< a rigid-body motion to the next face, at constant load, came after them
 };
 
 /// Where a step ended, or where the path stopped.

@@ -7,7 +7,7 @@
 
 namespace contct {
 
-/// Step, share of its load, displacements and statuses.
+/// Step, share of the step, displacements and statuses.
 class position {
  public:
   /// `p` must outlive this object.

@@ -1,4 +1,4 @@
-// Kernels from outside: a shared library with the plug-in ABI, or a command that speaks the trace format.
+// External kernels: a shared library with the plug-in ABI, or a command that speaks the trace format.
 // Each has a process of its own: it may crash, hang or answer nonsense, and the run goes on.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace contct {
 
-/// How long a kernel from outside may take for one call, and after how many failures it is given up. A crash
+/// How long an external kernel may take for one call, and after how many failures it is given up. A crash
 /// costs a millisecond, and many may show what they have in common; a timeout costs the user `patience`.
 struct outside_limits {
   std::chrono::milliseconds patience{10'000};

@@ -42,14 +42,14 @@ struct kernel_facts {
   bool text_by_meaning = false;  ///< its text may write .25 for 0.25, and is compared so
 };
 
-/// What is known of a kernel from outside by its name alone: the 1989 rule, 8-byte REAL, and no text of its
+/// What is known of an external kernel by its name alone: the 1989 rule, 8-byte REAL, and no text of its
 /// own. `what` it is, for people.
 [[nodiscard]] inline kernel_facts facts_of_outside(std::string name, std::string what) {
   return {std::move(name), 8, contact_rule::listing, std::move(what), "", "", false};
 }
 
-/// A kernel that gave no answer: it crashed, did not answer in time, wrote where it must not. Kernels from
-/// outside throw it from `answer`, and can be asked again.
+/// A kernel that gave no answer: it crashed, did not answer in time, wrote where it must not. External
+/// kernels throw it from `answer`, and can be asked again.
 class kernel_failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

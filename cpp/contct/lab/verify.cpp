@@ -133,7 +133,7 @@ double of_extreme(const step_results& s, std::string_view quantity) {
   return asks_place ? at.x : at.value;
 }
 
-/// How many events a step has, or the share of its load at which a pair's comes.
+/// How many events a step has, or the share of the step at which an event of a pair comes.
 double of_events(const step_record& s, const expected_number& e) {
   std::size_t count = 0;
   for (const increment_record& i : s.increments) {

@@ -141,7 +141,7 @@ std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Numb
 }
 
 /// Shear at both ends and moment at both ends of such an element without load, from its displacements: from
-/// the rotations relative to the chord, since the rigid motion of an element may be large.
+/// the rotations relative to the chord, since the rigid-body motion of an element may be large.
 template <class Number>
 std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
   const Number chord = (u[2] - u[0]) / h;
@@ -257,8 +257,8 @@ std::array<std::array<Number, 12>, 12> plate_stiffness(const Number& a, const Nu
   return k;
 }
 
-/// `u` in the scaled dofs, less the plane through corners 0, 1 and 3: a large rigid motion would cancel the
-/// digits of the bending.
+/// `u` in the scaled dofs, less the plane through corners 0, 1 and 3: a large rigid-body motion would cancel
+/// the digits of the bending.
 template <class Number>
 std::array<Number, 12> plate_deformation(const Number& a, const Number& b, const std::array<Number, 12>& u) {
   const Number along_x = u[3] - u[0];

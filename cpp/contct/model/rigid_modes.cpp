@@ -149,7 +149,8 @@ int count_free(const numbers& values) {
       std::count_if(values.begin(), values.end(), [](double v) { return v <= free_below; }));
 }
 
-/// Iterate until the smallest eigenvalues no longer change and the vectors of free motions no longer improve.
+/// Iterate until the smallest eigenvalues no longer change and the vectors of rigid-body motions no longer
+/// improve.
 void converge(subspace& space, std::optional<int> known) {
   double before = std::numeric_limits<double>::infinity();
   double first_held_before = 0.0;

@@ -1,5 +1,5 @@
-// Is the structure held? Decided by its rigid motions, not by a condition number. Where only its stiffness
-// matrix is known, they are found from that.
+// Is the structure held? Decided by its rigid-body motions, not by a condition number. Where only its
+// stiffness matrix is known, they are found from that.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@
 
 namespace contct {
 
-/// A body in space has six rigid motions.
+/// A body in space has six rigid-body motions.
 inline constexpr int most_rigid_motions = 6;
 
-/// What the rigid motions of a structure do at one dof: one number a motion, 0 for those it does not have. A
-/// beam has two motions (up by 1; a turn about the middle that lifts its end by 1) and one for each hinge
-/// (a turn of what is right of it by as much; here of the first four), a plate three (up, along x, along y),
-/// a structure of which only the matrix is known up to six. u = q0 row[0] + q1 row[1] + ... at every dof is a
-/// rigid motion.
+/// What the rigid-body motions of a structure do at one dof: one number a motion, 0 for those it does not
+/// have. A beam has two motions (up by 1; a turn about the middle that lifts its end by 1) and one for each
+/// hinge (a turn of what is right of it by as much; here of the first four), a plate three (up, along x,
+/// along y), a structure of which only the matrix is known up to six. u = q0 row[0] + q1 row[1] + ... at
+/// every dof is a rigid-body motion.
 using rigid_row = std::array<double, most_rigid_motions>;
 
-/// What a motion q, one number for each rigid motion, does where `row` belongs.
+/// What a motion q, one number for each rigid-body motion, does where `row` belongs.
 [[nodiscard]] inline double along(const rigid_row& q, const rigid_row& row) {
   return std::inner_product(q.begin(), q.end(), row.begin(), 0.0);
 }
@@ -39,8 +39,8 @@ using rigid_row = std::array<double, most_rigid_motions>;
 
 class rigid_truth;
 
-/// How many independent rigid motions the dofs that are held stop: the rank of their rows.
-/// The structure is a mechanism when this is less than the number of its rigid motions.
+/// How many independent rigid-body motions the dofs that are held stop: the rank of their rows.
+/// The structure is a mechanism when this is less than the number of its rigid-body motions.
 class rigid_rank {
  public:
   /// `rows` of all dofs, which are known from a matrix and rounded: one is independent whose part beside the
@@ -87,7 +87,7 @@ struct free_motions {
 /// and some forty solves where the matrix is close to leaving something free; memory for K once more and a
 /// factor.
 ///
-/// Throws std::invalid_argument when k has a negative eigenvalue, leaves more than six motions free, or
+/// Throws std::invalid_argument when k has a negative eigenvalue, leaves more than six rigid-body motions, or
 /// fewer than `known`; the message calls it "the matrix".
 [[nodiscard]] free_motions find_free_motions(
     const stiffness_matrix& k, std::optional<int> known,

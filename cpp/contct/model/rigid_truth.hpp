@@ -1,4 +1,4 @@
-// What rounding must not decide: which rigid motions are stopped, and what loads do on them. In rational
+// What rounding must not decide: which rigid-body motions are stopped, and what loads do on them. In rational
 // numbers, from the decimals of the file.
 #pragma once
 
@@ -19,11 +19,12 @@ struct load;
 struct plate;
 struct resultant;
 
-/// What the rigid motions of a beam or plate do at its dofs [dofs], in doubles.
+/// What the rigid-body motions of a beam or plate do at its dofs [dofs], in doubles.
 template <class Kind>
 [[nodiscard]] std::vector<rigid_row> rigid_rows_of(const Kind& kind);
 
-/// The work of a load on each rigid motion of a beam or plate, exactly; or nothing, where that is not known.
+/// The work of a load on each rigid-body motion of a beam or plate, exactly; or nothing, where that is not
+/// known.
 class rigid_work {
  public:
   struct numbers;
@@ -39,14 +40,15 @@ class rigid_work {
   std::shared_ptr<const numbers> exactly_;
 };
 
-/// A rigid motion, scaled so that the largest of its parts is 1.
+/// A rigid-body motion, scaled so that the largest of its parts is 1.
 struct free_motion {
   std::function<double(int dof)> at;  ///< what it does at a dof; 0 where the dof rests
   double work;                        ///< what the load does on it, positive
 };
 
-/// The rigid motions of a beam or plate: up by 1, and turns about its middle that lift an end by 1. A beam
-/// with hinges has one for each of these and of its ends instead, which lifts it by 1 and leaves the others.
+/// The rigid-body motions of a beam or plate: up by 1, and turns about its middle that lift an end by 1. A
+/// beam with hinges has one for each of these and of its ends instead, which lifts it by 1 and leaves the
+/// others.
 class rigid_truth {
  public:
   explicit rigid_truth(const beam& b);
@@ -72,7 +74,7 @@ class rigid_truth {
 
   /// Is there an equilibrium under a load of this `work`, which is known: do forces of the supports of
   /// `supported`, and of pairs that press, balance it? The energy of a structure is otherwise without a least
-  /// value: some rigid motion that no pair and no support stops does work.
+  /// value: some rigid-body motion that no pair and no support stops does work.
   [[nodiscard]] bool is_carried(const rigid_work& work, std::span<const int> supported,
                                 std::span<const contact_pair> pairs) const;
 

@@ -155,12 +155,13 @@ struct contact_pair {
   }
 };
 
-/// n (c - w): the distance of an open pair from its face at deflection w; 0 for a closed one.
+/// n (c - w): the distance of a separated pair from its face at deflection w; 0 for one in contact.
 [[nodiscard]] inline double gap_of(const contact_pair& p, double w, bool closed) {
   return closed ? 0.0 : p.surface * (p.face - w);
 }
 
-/// -n k (c - w): the contact force of a closed pair; 0 for an open one. Not clamped: tension is negative.
+/// -n k (c - w): the contact force of a pair in contact; 0 for a separated one. Not clamped: tension is
+/// negative.
 [[nodiscard]] inline double force_of(const contact_pair& p, double w, bool closed) {
   return closed ? -p.surface * p.stiffness * (p.face - w) : 0.0;
 }
@@ -179,7 +180,7 @@ struct linear_structure {
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
   int rigid_motions = 0;  ///< 2 for a beam and 1 for each hinge, 3 for a plate, up to 6 for other bodies
-  std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid motions do there
+  std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid-body motions do there
   std::vector<int> supported_dofs;    ///< those whose supports stop such motions
   /// The motions without rounding, of beams and plates; null for others.
   std::shared_ptr<const rigid_truth> truth;
@@ -205,7 +206,7 @@ struct linear_structure {
   [[nodiscard]] bool deflects(int dof) const {
     return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
-  /// What stops rigid motions while no dof is held.
+  /// What stops rigid-body motions while no dof is held.
   [[nodiscard]] rigid_rank nothing_held() const {
     return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
   }
@@ -224,10 +225,10 @@ struct linear_structure {
       if (closed(i)) hold(rank, i);
     return rank;
   }
-  /// Are these all of its rigid motions?
+  /// Are these all of its rigid-body motions?
   [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
-  /// The steepest of the rigid motions that `held` leaves free and the load drives; none where it does no
-  /// work on any. `work` decides where it is known, otherwise the rounded `load` [dofs].
+  /// The steepest of the rigid-body motions that `held` leaves free and the load drives; none where it does
+  /// no work on any. `work` decides where it is known, otherwise the rounded `load` [dofs].
   [[nodiscard]] std::optional<free_motion> driven_motion(const rigid_rank& held, std::span<const double> load,
                                                          const rigid_work& work) const;
   /// Is there an equilibrium under a load of this work? Nothing where only rounding would decide.

@@ -33,7 +33,7 @@ bool take_minus(std::string_view& rest) {
   return minus;
 }
 
-/// The exponent that is all of `rest`, saturated; nothing where it is none.
+/// The exponent that is all of `rest`, saturated; nothing where it is no such number.
 std::optional<std::int64_t> exponent_in(std::string_view rest) {
   if (rest.empty()) return 0;
   if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;

@@ -1,4 +1,4 @@
-// Tier 2: kernels on paths of their own, compared by events, load fractions and D.
+// Tier 2: kernels in free run, compared by events, shares of the step and D.
 #pragma once
 
 #include <string>
@@ -33,12 +33,12 @@ class path_record final : public observer {
 };
 
 /// How a kernel's own path differs from the leader's. s itself is not compared: it is a small
-/// difference of nearby event loads and loses digits where the load fractions do not.
+/// difference of nearby event loads and loses digits where the shares do not.
 struct free_run_difference {
   bool same_end = true;          ///< both ended in the same way, in the same step
   bool same_events = true;       ///< the same pairs made and broke in the same order
   std::string first_difference;  ///< of the ends or events, for people; empty when there is none
-  double fraction = 0.0;         ///< largest difference of an event's load fraction
+  double fraction = 0.0;         ///< largest difference of the share of the step at an event
   double displacement = 0.0;     ///< largest difference of D, relative to the path's largest
   double bound = 0.0;            ///< what `fraction` and `displacement` may reach
 

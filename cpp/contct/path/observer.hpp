@@ -15,7 +15,7 @@ struct increment {
   double s;                        ///< s_min
   double fraction;                 ///< share of the step's load consumed by now
   std::span<const event> events;   ///< in order of pairs
-  bool snaps = false;              ///< a rigid motion to the next face, at constant load
+  bool snaps = false;              ///< a rigid-body motion to the next face, at constant load
   std::span<const double> d = {};  ///< D at each pair after it [pairs]
   std::span<const int> isep = {};  ///< ISEP behind its events [pairs]
   /// The force on the structure that each spring has gathered under the 1989 rule; 0 under any other [pairs].

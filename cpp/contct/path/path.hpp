@@ -30,7 +30,7 @@ struct path_end {
   int step = 0;                 ///< the step in which it ended, from 1
   double fraction = 1.0;        ///< share of that step's load reached
   std::vector<int> pairs = {};  ///< mechanism and path_ended: whose opening freed the structure; cycle and
-                                ///< limit: those that keep toggling; from 0, empty when none did
+                                ///< limit: those whose events repeat; from 0, empty when none did
   engine_counts work = {};      ///< what the engine did
   /// Not solved: has the step's full load an equilibrium? Nothing where that is not decided.
   std::optional<bool> has_equilibrium = {};
@@ -54,7 +54,7 @@ class load_history {
   /// settle, the displacement that is prescribed (add_settlements). Where faces move, of displacements that
   /// are counted from them (count_from_faces).
   using totals = std::function<void(int step, std::span<double> total)>;
-  /// The work of that load on the rigid motions, without rounding.
+  /// The work of that load on the rigid-body motions, without rounding.
   using works = std::function<rigid_work(int step)>;
   /// Does a step start from the unloaded structure, whatever stands before it?
   using restarts = std::function<bool(int step)>;
@@ -127,7 +127,7 @@ inline constexpr int most_increments = 1'000'000'000;
 
 /// Follow the path of `steps` load steps, behind one that is not solved only those from zero: `leader`
 /// decides, `engine` solves, `observers` watch. What else has to be decided is up to a policy: the 1989
-/// driver's for a leader with the listing's rule, the corrected rule's for any other
+/// driver's for a leader with the 1989 rule, the corrected rule's for any other
 /// (contct/path/policy.hpp).
 ///
 /// The engine must be fresh: the springs of the pairs that start closed in, all others out.

@@ -79,7 +79,7 @@ struct explained_increment {
   bool left_undone = false;  ///< the driver took the toggles back: the load that is left is rounding
 };
 
-/// Explains a path of a kernel that has the listing's rule, and hands on the increments that are wanted, one
+/// Explains a path of a kernel that has the 1989 rule, and hands on the increments that are wanted, one
 /// at a time, with another kernel's answer beside them: nothing is kept of those before.
 class explained_path final : public observer {
  public:

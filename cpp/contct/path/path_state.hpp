@@ -161,7 +161,8 @@ struct path_state {
     put_at(shape, isep);
   }
 
-  /// The rigid motion that the residual load drives and that nothing stops now; none where it drives none.
+  /// The rigid-body motion that the residual load drives and that nothing stops now; none where it drives
+  /// none.
   [[nodiscard]] std::optional<free_motion> driven_motion() const {
     const rigid_work work = loads_->work(step);
     return structure.driven_motion(held_by(), increment,

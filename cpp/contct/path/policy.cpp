@@ -44,11 +44,11 @@ double difference(double a, double b, double rounding) {
   return std::abs(a - b) <= std::max(1e-10, rounding) * largest ? 0.0 : a - b;
 }
 
-/// A structure that nothing holds moves rigidly, at constant load, to the next face. Write to d* a rigid
-/// motion that the residual load drives and that supports and closed pairs leave free: the limit, up to its
-/// size, of the response of the structure on a ground that gets ever softer. It is long enough to reach every
-/// separated pair on its way; `everywhere` [dofs] becomes all of it. False, and nothing written, when the
-/// load does no work on any free motion.
+/// A structure that nothing holds moves as a rigid body, at constant load, to the next face. Write to d* a
+/// rigid-body motion that the residual load drives and that supports and pairs in contact leave free: the
+/// limit, up to its size, of the response of the structure on a ground that gets ever softer. It is long
+/// enough to reach every separated pair on its way; `everywhere` [dofs] becomes all of it. False, and nothing
+/// written, when the load does no work on any rigid-body motion.
 bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   const std::optional<free_motion> motion = now.driven_motion();
   if (!motion) return false;
@@ -91,8 +91,8 @@ class holding_springs {
 
 /// The policy of the corrected rule: what no kernel can decide from one call (reference/corrected-rule.md).
 ///
-/// Rigid motions that the load drives are followed to the next face at constant load; those that it does not
-/// drive are held by springs without force. A pair that toggles twice running without progress stays in
+/// Rigid-body motions that the load drives are followed to the next face at constant load; those that it does
+/// not drive are held by springs without force. A pair that toggles twice running without progress stays in
 /// contact until the load advances, and after many answers without progress the pair of least index toggles.
 class corrected_policy final : public path_policy {
  public:
@@ -167,7 +167,7 @@ class corrected_policy final : public path_policy {
     return !*driven && now_.residual.share * (1.0 - s_min) <= rounding_at_most;
   }
 
-  /// Where supports and pairs in contact leave rigid motions free that the load does not drive, springs of
+  /// Where supports and pairs in contact leave rigid-body motions that the load does not drive, springs of
   /// separated pairs hold the structure for a solve, each at rest where its pair is. Null when even these do
   /// not hold it.
   [[nodiscard]] std::unique_ptr<holding_springs> hold() {

@@ -40,7 +40,7 @@ class path_policy {
   virtual response respond();
 
   /// Put the call to the kernel, which toggles statuses, and replace its answer where the driver knows
-  /// better. Returns s_min; nothing where a rigid motion meets no face: a mechanism.
+  /// better. Returns s_min; nothing where a rigid-body motion meets no face: a mechanism.
   virtual std::optional<double> decide();
 
   /// May the path go on after the events of this increment, or do they leave a mechanism?

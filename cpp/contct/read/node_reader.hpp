@@ -49,7 +49,7 @@ class node_reader {
   [[nodiscard]] std::string labels_allowed() const;
 
   const model& structure_;
-  const assembled* matrix_;                         // null: the structure is none
+  const assembled* matrix_;                         // null: the structure is a beam or a plate
   std::unordered_map<std::string_view, int> dofs_;  // of a matrix, by label; empty where these are numbers
   std::vector<std::string_view> keys_;              // that for a single node first
   std::vector<std::string_view> dof_names_;         // of a node

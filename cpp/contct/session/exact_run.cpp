@@ -36,7 +36,7 @@ auto naming(const std::string& name, const Find& find) {
   }
 }
 
-/// A matrix from elsewhere may be none of a structure, which the path's equations do not show. Those of beams
+/// A matrix may be that of no structure, which the path's equations do not show. Those of beams
 /// and plates are sums of elements, each of which is semidefinite.
 void refuse_indefinite(const assembled& a, const problem& of, const exact_problem& p) {
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)

@@ -13,7 +13,7 @@ namespace contct {
 /// A state that a path went through: behind an increment, or at the end of a step.
 struct path_moment {
   const step_record* step;
-  const increment_record* increment;  ///< null: the step ended without one, or in a state from elsewhere
+  const increment_record* increment;  ///< null: the step ended without one, or in the state of a fallback
   bool is_end;                        ///< what the path itself tells of the step's end
   int at;                             ///< increments since the start of the path
 };
@@ -21,7 +21,7 @@ struct path_moment {
 /// In the order of the path. The last increment of a step leads to its end, and is not there twice.
 [[nodiscard]] std::vector<path_moment> moments_of(const run_result& r);
 
-/// At no larger share of its load, a step has only begun: structures that rest on their faces let go at once.
+/// At no larger share of the step, it has only begun: structures that rest on their faces let go at once.
 inline constexpr double first_load = 1e-12;
 /// Of the increments of a step at which it has only begun, the last one alone is kept.
 [[nodiscard]] std::vector<path_moment> without_first_moves(std::vector<path_moment> all);
@@ -33,7 +33,7 @@ inline constexpr double first_load = 1e-12;
 /// Finds the states at moments of a path whose recorder keeps states. The path itself knows the pairs' dofs
 /// only, so the whole shape is solved for here: all pairs' springs are in K, each at rest where its node
 /// stands, and the forces that the pairs exert are loads. So one factor serves every state, also where the
-/// closed pairs alone would not hold the structure.
+/// pairs in contact alone would not hold the structure.
 class path_states {
  public:
   /// `r` must outlive this object.

@@ -20,7 +20,7 @@ struct run_request {
       {};                   ///< the leader first; none: only the ends of steps, by the reference solution
   bool both_rules = false;  ///< instead of kernels: the corrected rule leads, that of 1989 runs beside it
   std::string engine = {};  ///< empty: what suits the leader
-  bool free_run = false;    ///< each kernel follows a path of its own, see follow_alone
+  bool free_run = false;    ///< each kernel runs free, see follow_alone
   bool envelope = false;
   bool pictures = false;   ///< states are kept, also where no output here needs them
   int max_increments = 0;  ///< in a step; 0: the default limit

@@ -207,7 +207,7 @@ class condensed_engine final : public spring_engine {
   }
 
   /// After a change of D_at: the sweeps from there on, as far as they give something else than before.
-  /// Neither needs the other, and each is a chain of divisions that wait for each other: side by side they
+  /// Neither needs the other, and each is a chain of divisions that wait for each other: interleaved they
   /// take little longer than one.
   void sweep_from(std::size_t at) {
     step_right(at);

@@ -105,7 +105,7 @@ class exact_printer {
     }
   }
 
-  /// The free motion by the deflections of its nodes.
+  /// The rigid-body motion by the deflections of its nodes.
   void print_mechanism(const mechanism_proof& proof) {
     const auto at = std::ranges::find(r_.path.steps, path_status::mechanism, &exact_step_end::status);
     const std::string where =

@@ -23,8 +23,8 @@ namespace contct {
 /// them; 0), "face", "gap", "force", and what the element's ends or corners read, by name. The field data say
 /// step, increment and share.
 ///
-/// A structure from elsewhere is drawn where its nodes have places: its edges as lines, "displacement" and
-/// "reaction" as they are, "rotation" where it has any; pairs at dofs without a place have no cell.
+/// A structure given by its matrix is drawn where its nodes have places: its edges as lines, "displacement"
+/// and "reaction" as they are, "rotation" where it has any; pairs at dofs without a place have no cell.
 [[nodiscard]] std::string vtu_of_state(const problem& p, const structure_state& s);
 
 /// A collection of `count` files, by their place in which they were kept; "time" counts them from 0.
@@ -39,12 +39,12 @@ namespace contct {
 
 /// Writes a run whose recorder keeps states, by RFC 4180, numbers with all their digits; the files appear.
 ///
-/// The first table has a row an increment: step, increment, kind ("load"; "snap": a rigid motion at constant
-/// load; "end": the step ended without an increment, "rescue": in a state from elsewhere), s, share (of the
-/// step's load), force (sum of the loads), events ("make 1, break 3"), closed, open and at_face (how many
-/// pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not compared),
-/// node (the watched one, from 0, or -1 for the one that deflects most at the ends of steps: a number or a
-/// label) and w, its deflection.
+/// The first table has a row an increment: step, increment, kind ("load"; "snap": a rigid-body motion at
+/// constant load; "end": the step ended without an increment, "rescue": in the state of a fallback), s, share
+/// (of the step's load), force (sum of the loads), events ("make 1, break 3"), closed, open and at_face (how
+/// many pairs), smin (of the call, as the kernel gave it), kernels ("equal" or "differ"; empty: not
+/// compared), node (the watched one, from 0, or -1 for the one that deflects most at the ends of steps: a
+/// number or a label) and w, its deflection.
 ///
 /// The second, where `pairs` is not null, has a row for each pair in each of these: step, increment, pair,
 /// node, surface, state ("contact", "separated"; a dof's label stands for the node where each dof is one),

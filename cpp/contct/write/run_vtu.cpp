@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
 
-/// The nodes of each element, from 0; of a structure from elsewhere those of its edges.
+/// The nodes of each element, from 0; of a structure given by its matrix those of its edges.
 std::vector<std::vector<int>> elements_of(const model& m) {
   std::vector<std::vector<int>> list;
   if (const auto* a = std::get_if<assembled>(&m.kind))

@@ -65,7 +65,7 @@ constexpr std::string_view end_reason(path_status status) {
 /// increment toggled which pair away from its face before.
 [[nodiscard]] std::vector<std::string> certificate_complaints(const run_result& r);
 
-/// Why a path did not reach its end: step, share of its load, and the pairs that had to do with
+/// Why a path did not reach its end: step, share of the step, and the pairs that had to do with
 /// it. Empty for a path that did.
 /// `is_answer`: nothing else leads to an equilibrium that it did not reach.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end, bool is_answer = true);
@@ -84,7 +84,7 @@ constexpr std::string_view end_reason(path_status status) {
 /// where it does not.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
-/// What is wrong with the ends of steps, and where the listing's rule leads the command that follows the
+/// What is wrong with the ends of steps, and where the 1989 rule leads the command that follows the
 /// problem by the corrected one.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
