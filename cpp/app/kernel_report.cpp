@@ -52,7 +52,8 @@ void refuse_many_reported(std::size_t kernels, const std::string& outputs) {
 }
 
 std::string report_json(const kernel_report& r) {
-  std::vector<std::string> traces, first_mismatch;
+  std::vector<std::string> traces;
+  std::vector<std::string> first_mismatch;
   for (const replayed_trace& t : r.traces)
     traces.push_back(
         fmt::format("\n  {{ \"name\": {}, \"sha256\": \"{}\", \"calls\": {}, \"mismatches\": {} }}",

@@ -250,7 +250,7 @@ std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load&
     const int columns = p.columns() - 1;
     const auto unit =
         formulas::plate_unit_load<rational>(along_x.length(e % columns) / 2, along_y.length(e / columns) / 2);
-    std::array<Number, 12> force;
+    std::array<Number, 12> force{};
     for (std::size_t k = 0; k < 12; ++k) force[k] = nearest<Number>(sum[k] + whole[e] * unit[k]);
     all[e].on_parts = force;
   }

@@ -16,7 +16,7 @@ inline const std::vector<std::string> kernels_of_1989 = {"fortran", "cpp"};
 
 /// An event that only one of the two paths has at its share of the step's load.
 struct other_event {
-  event what;
+  event what = {};
   std::optional<double> at;  ///< the share at which the 1989 rule has it; nothing: it does not in this step
 };
 
