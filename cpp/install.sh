@@ -1,4 +1,4 @@
-# Installs Debian packages that are missing. Sourced by cpp/run.sh and tests/run.sh:
+# Installs Debian packages that are missing, and fetches the source of one. Sourced by cpp/run.sh, tests/run.sh and others:
 #     need "why" package...
 # Says what it does; on a system without apt-get, says what to install and stops.
 
@@ -44,4 +44,22 @@ need_petsc() {
 
 need_program() {
   need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
+}
+
+# The source of reference LAPACK, from Debian, in $lapack. Called in the project's root; the machine's own lists of packages stay as
+# they are.
+fetch_lapack() {
+  sources=$(pwd)/build/playground/sources
+  lapack=$sources/lapack
+  [ ! -d "$lapack" ] || return 0
+  echo "fetching the source of LAPACK"
+  mkdir -p "$sources/lists/partial" "$sources/from"
+  { cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | sed -n 's/^deb /deb-src /p'; } >"$sources/from/source.list"
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [ ! -e "$file" ] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$sources/from/${file##*/}"
+  done
+  set -- -qq -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$sources/from" -o "Dir::State::Lists=$sources/lists"
+  apt-get "$@" update && (cd "$sources" && apt-get "$@" source --download-only lapack 2>/dev/null) &&
+    mkdir -p "$lapack.part" && tar -C "$lapack.part" --strip-components=1 -xf "$sources"/lapack_*.orig.tar.gz &&
+    mv "$lapack.part" "$lapack"
 }

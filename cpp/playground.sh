@@ -7,26 +7,8 @@ set -eu
 cd "$(dirname "$0")/.."
 . cpp/install.sh
 
-# The source of reference LAPACK, from Debian; the machine's own lists of packages stay as they are.
-fetch_lapack() {
-  [ ! -d "$lapack" ] || return 0
-  echo "fetching the source of LAPACK"
-  mkdir -p "$sources/lists/partial" "$sources/from"
-  { cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | sed -n 's/^deb /deb-src /p'; } >"$sources/from/source.list"
-  for file in /etc/apt/sources.list.d/*.sources; do
-    [ ! -e "$file" ] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$sources/from/${file##*/}"
-  done
-  set -- -qq -o Dir::Etc::sourcelist=/dev/null -o "Dir::Etc::sourceparts=$sources/from" -o "Dir::State::Lists=$sources/lists"
-  apt-get "$@" update && (cd "$sources" && apt-get "$@" source --download-only lapack 2>/dev/null)
-  mkdir -p "$lapack.part"
-  tar -C "$lapack.part" --strip-components=1 -xf "$sources"/lapack_*.orig.tar.gz
-  mv "$lapack.part" "$lapack"
-}
-
 need "for the playground" emscripten cmake ninja-build f2c libf2c2-dev libboost-dev libtomlplusplus-dev \
   nlohmann-json3-dev libfmt-dev python3-markdown libfast-float-dev librange-v3-dev ca-certificates || exit 77
-sources=$(pwd)/build/playground/sources
-lapack=$sources/lapack
 fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be had" >&2; exit 77; }
 echo "building in build/playground"
 log=$(mktemp)
