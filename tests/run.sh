@@ -4,7 +4,7 @@
 # checks), asan (the same with the program), tsan (threads). --full has all of them, and adds what takes longer:
 # certificates against the exact path, the mutants of both kernels, more failing calls of the system, the exact numbers of
 # all reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
-# playground in a browser, grids read back by VTK, every reader fuzzed for a minute, Debian packages in a bare Debian,
+# playground in a browser, grids read back by VTK, a routine of LAPACK beside its port, every reader fuzzed for a minute, Debian packages in a bare Debian,
 # formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -101,6 +101,7 @@ if [ "$full" = yes ]; then
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "the playground in a browser" playground/run.sh build/release
   with_tool "grids read back by VTK" vtk/run.sh build/release
+  with_tool "the harness on a second routine" ../reference/course/second/run.sh
   with_tool "fuzzers" fuzz/run.sh 60
   with_tool "Debian packages" package/debian.sh
   sh tests/tree/tidy.sh
