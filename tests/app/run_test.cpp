@@ -122,9 +122,9 @@ TEST_CASE("half the element size changes no beam, and is refused for a matrix be
 
 TEST_CASE(
     "a bed's step has the pressure and the length in contact, and --refine says that it has more pairs") {
-  const finished f =
-      contct_program("/", {"run", CONTCT_ROOT "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels",
-                           "corrected", "--refine"});
+  const finished f = contct_program(
+      "/", {"run", std::string(CONTCT_ROOT) + "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels",
+            "corrected", "--refine"});
   CHECK_THAT(f.out,
              Contains("        sums          loads -1, reactions 0, contact 1\n"
                       "        bed 1         pressure 0 to 3.3121, largest at node 1, x = 0; 0.625 in\n"

@@ -187,8 +187,9 @@ double work_on(const plate& p, const load& l, int m, int n) {
     const double x = p.x[node % p.columns()];
     const double y = p.y[node / p.columns()];
     const auto power = [](double of, int e) { return e < 0 ? 0.0 : std::pow(of, e); };
-    work += f[3 * node] * power(x, m) * power(y, n) + f[3 * node + 1] * m * power(x, m - 1) * power(y, n) +
-            f[3 * node + 2] * n * power(x, m) * power(y, n - 1);
+    const std::size_t at = 3 * static_cast<std::size_t>(node);
+    work += f[at] * power(x, m) * power(y, n) + f[at + 1] * m * power(x, m - 1) * power(y, n) +
+            f[at + 2] * n * power(x, m) * power(y, n - 1);
   }
   return work;
 }

@@ -178,7 +178,8 @@ class problem_reader {
 
   /// The dofs with the faces of a table's pairs; -1 where these stand still.
   [[nodiscard]] std::vector<int> read_others(const toml_value& t, const std::vector<int>& at) const {
-    if (!t.has("other")) return std::vector<int>(at.size(), -1);
+    std::vector<int> none(at.size(), -1);
+    if (!t.has("other")) return none;
     const toml_value other = t["other"];
     if (!nodes_->on_matrix())
       other.refuse(

@@ -353,6 +353,7 @@ std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_r
                              const named_files& files, std::vector<std::string>& warnings) {
   const step_reader reader(nodes, supports, pairs, files, warnings);
   std::vector<load> loads;
+  loads.reserve(tables.size());
   for (const toml_value& t : tables) loads.push_back(reader.read(t));
   return loads;
 }

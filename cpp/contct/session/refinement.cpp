@@ -13,11 +13,9 @@ namespace {
 
 /// The numbers of nodes and elements on either mesh: of a beam, or of a plate row by row.
 struct halved_grid {
-  explicit halved_grid(const model& m) {
-    const auto* const p = std::get_if<plate>(&m.kind);
-    columns = p != nullptr ? p->columns() : nodes(m);
-    rows = nodes(m) / columns;
-  }
+  explicit halved_grid(const model& m)
+      : columns(std::holds_alternative<plate>(m.kind) ? std::get<plate>(m.kind).columns() : nodes(m)),
+        rows(nodes(m) / columns) {}
   [[nodiscard]] int fine_columns() const { return 2 * columns - 1; }
   [[nodiscard]] int node(int coarse) const {
     return 2 * (coarse / columns) * fine_columns() + 2 * (coarse % columns);

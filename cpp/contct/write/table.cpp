@@ -204,7 +204,7 @@ class table_printer {
         terminal_(t),
         detail_(detail),
         whole_ends_(detail || r.record.steps.size() <= few_steps || starts_from_zero(r.what)) {
-    const int room = t.width - fixed_width - (column() != "" ? kernels_width : 0);
+    const int room = t.width - fixed_width - (column().empty() ? 0 : kernels_width);
     const int widest = widest_event(problem_);
     events_below_ = room < widest;
     load_width_ = std::min(load_width_at_most, events_below_ ? room : room - 2 - widest);
@@ -334,7 +334,7 @@ std::string table_printer::row(std::string_view number, std::string_view share, 
                                std::string_view kernels, std::string_view load,
                                std::string_view events) const {
   std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
-  if (column() != "") line += fmt::format("{:<7}  ", kernels);
+  if (!column().empty()) line += fmt::format("{:<7}  ", kernels);
   if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
   if (!events_below_) line += events;
   return line.erase(line.find_last_not_of(' ') + 1);
