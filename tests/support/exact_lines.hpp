@@ -32,7 +32,7 @@ inline std::array<rational_vector, 3> exact_line(const beam& b, const load& l, i
   const std::size_t at = std::size_t{1} * e;
   const rational left = decimal_of(b.x[at]);
   const rational h = decimal_of(b.x[at + 1]) - left;
-  const rational EI = stiffness_of<rational>(b, e);
+  const auto EI = stiffness_of<rational>(b, e);
   const rational_vector q = exact_load(l, e, left, h);
   const bool released = b.has_hinge(e + 1);
   const auto k = released ? formulas::released_stiffness(EI, h) : formulas::beam_stiffness(EI, h);
