@@ -64,7 +64,8 @@ def module_text():
 
 def write_playground():
     folder = root / "reference/problems"
-    problems = {str(p.relative_to(folder))[:-5]: read(p) for p in sorted(folder.rglob("*.toml"))}
+    # A page has no other files: problems that name some stay out.
+    problems = {str(p.relative_to(folder))[:-5]: read(p) for p in sorted(folder.rglob("*.toml")) if not p.with_suffix(".mtx").exists()}
     sections = filled(between(read(report / "report.html"), "<main>", "</main>"),
                       {"edition": between(read(root / "reference/parallel-edition.html"), "</h1>", "</body>")})
     write_whole(out / "contct.html", filled(read(here / "playground.html"), {
