@@ -71,6 +71,7 @@ TEST_CASE("Loads, reactions and contact forces of every reference problem add up
   for (const auto& file : std::filesystem::directory_iterator(CONTCT_REFERENCE "/problems")) {
     if (file.path().extension() != ".toml") continue;
     const a_run run(read_problem(file.path().string()), "corrected");
+    if (std::holds_alternative<assembled>(run.what.geometry.kind)) continue;  // in which nothing is "up"
     for (const step_record& s : run.result.record.steps) {
       const load& acting = run.what.steps[s.end.step - 1];
       const step_results read = results_of(run.what, acting, s.end);
