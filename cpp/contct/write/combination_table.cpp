@@ -1,4 +1,4 @@
-// Combinations on the terminal, one a row, and the largest of all.
+// The ends of many steps on the terminal: combinations one a row, and tables of what is least and largest.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,6 +45,19 @@ std::string line_of(const problem& p, std::string_view what, double value, const
 }
 
 }  // namespace
+
+std::string extremes_text(const problem& p, const terminal& t, const extremes_of_steps& extremes) {
+  std::string text;
+  for (const auto& [number, of_steps] : extremes) {
+    const auto heading = fmt::format("{:<8}  {:>12}  {:<24}  {:>12}  at", of_steps.front().second.name,
+                                     "least", "at", "largest");
+    text += "\n" + painted(t, paint::strong, heading) + "\n";
+    for (const auto& [step, v] : of_steps)
+      text += fmt::format("step {:<3}  {:>12.6g}  {:<24}  {:>12.6g}  {}\n", step, v.least.value,
+                          place_words(p.geometry, v.least), v.most.value, place_words(p.geometry, v.most));
+  }
+  return text;
+}
 
 std::string envelope_text(const problem& p, const envelope& e) {
   std::string text;

@@ -220,7 +220,7 @@ class table_printer {
       for (std::size_t step = 0; step < run_.record.steps.size(); ++step) print_step(step);
     }
     if (of_combinations && problem_.steps.size() > 1) print_envelope();
-    if (!whole_ends_) print_extremes();
+    if (!whole_ends_) text_ += extremes_text(problem_, terminal_, extremes_);
     return {std::move(text_), legend()};
   }
 
@@ -239,7 +239,6 @@ class table_printer {
   [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const;
   void print_end(const step_record& s, const std::optional<certificate>& judged);
   [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const;
-  void print_extremes();
   [[nodiscard]] std::vector<std::string> events_of(const increment_record& i) const;
   [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
                                 std::string_view kernels, std::string_view load,
@@ -263,7 +262,7 @@ class table_printer {
   bool events_below_ = false;              // on a narrow terminal they stand on lines of their own
   bool headed_ = false, snapped_ = false;  // what the rows so far have shown
   sizes_so_far sizes_;
-  std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;  // of each step
+  extremes_of_steps extremes_;
   std::string text_;
 };
 
@@ -406,19 +405,6 @@ void table_printer::print_end(const step_record& s, const std::optional<certific
     for (const std::string& line : wrap({unbroken}, width))
       text_ += painted(terminal_, paint::strong, label + line) + '\n';
   if (detail_) text_ += detail_tables(problem_, s.end, r);
-}
-
-/// A table for each quantity, a step a row.
-void table_printer::print_extremes() {
-  for (const auto& [number, of_steps] : extremes_) {
-    const auto heading = fmt::format("{:<8}  {:>12}  {:<24}  {:>12}  at", of_steps.front().second.name,
-                                     "least", "at", "largest");
-    text_ += "\n" + painted(terminal_, paint::strong, heading) + "\n";
-    for (const auto& [step, v] : of_steps)
-      text_ += fmt::format("step {:<3}  {:>12.6g}  {:<24}  {:>12.6g}  {}\n", step, v.least.value,
-                           place_words(problem_.geometry, v.least), v.most.value,
-                           place_words(problem_.geometry, v.most));
-  }
 }
 
 std::vector<std::string> table_printer::legend() const {

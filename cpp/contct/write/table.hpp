@@ -1,7 +1,9 @@
 // The run as a table on the terminal, an increment a row.
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contct/session/run_result.hpp"
@@ -28,6 +30,12 @@ inline constexpr std::size_t most_combinations_in_full = 12;
 [[nodiscard]] std::string combination_rows(const run_result& r, const terminal& t);
 /// The least and largest of all, a line each, with the names of combinations.
 [[nodiscard]] std::string envelope_text(const problem& p, const envelope& e);
+
+/// Of each quantity, by its place among the ranges: the number of a step, and its range.
+using extremes_of_steps = std::map<std::size_t, std::vector<std::pair<int, value_range>>>;
+/// A table for each quantity, a step a row.
+[[nodiscard]] std::string extremes_text(const problem& p, const terminal& t,
+                                        const extremes_of_steps& extremes);
 
 /// The quantity whose extremes stand for the bending of the structure; null where nothing bends.
 [[nodiscard]] const value_range* bending(const std::vector<value_range>& ranges);
