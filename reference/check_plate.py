@@ -46,8 +46,8 @@ def inverse(a):
 class Plate:
     """An element of sides a and b; dofs w, wx and wy at its corners, counter-clockwise from the lower left."""
 
-    def __init__(self, a, b, D, nu):
-        self.a, self.b, self.D, self.nu = positive(a), positive(b), positive(D), nu
+    def __init__(self, a, b, D, nu, weight=None):
+        self.a, self.b, self.D, self.nu, self.weight = positive(a), positive(b), positive(D), nu, weight  # the weight of its area
         self.corners = [(F(0), F(0)), (a, F(0)), (a, b), (F(0), b)]
         self.shapes = inverse([[at(p, d, x, y) for p in MONOMIALS] for x, y in self.corners for d in SLOPES])  # monomials by dofs
         energy = [[self.bending(p, q) for q in MONOMIALS] for p in MONOMIALS]
@@ -90,15 +90,17 @@ def line(of, key, i):
 def plate(of):
     """Names of dofs, lines of coordinates, how much of the area each node has, and the elements with their dofs and left ends."""
     grid, material = of.keys() & {"x", "y", "size", "elements"}, of.keys() - {"x", "y", "size", "elements"}
-    need(grid in ({"x", "y"}, {"size", "elements"}) and material in ({"D", "nu"}, {"E", "nu", "thickness"}), "a plate of two forms")
+    need(grid in ({"x", "y"}, {"size", "elements"}) and material - {"weight"} in ({"D", "nu"}, {"E", "nu", "thickness"})
+         and ("D" not in of or "weight" not in of), "a plate of two forms")
     (x, width), (y, height), nu = line(of, "x", 0), line(of, "y", 1), real(of["nu"])
     need(-1 < nu <= F(1, 2), f"nu is {nu}")
     D = real(of["D"]) if "D" in of else positive(real(of["E"])) * real(of["thickness"])**3 / (12 * (1 - nu * nu))
+    weight = positive(real(of["weight"])) * real(of["thickness"]) if "weight" in of else None
     elements, made = [], {}
     for j in range(len(y) - 1):
         for i in range(len(x) - 1):
             sides, first = (x[i + 1] - x[i], y[j + 1] - y[j]), j * len(x) + i
-            made[sides] = made.get(sides) or Plate(*sides, D, nu)
+            made[sides] = made.get(sides) or Plate(*sides, D, nu, weight)
             corners = [first, first + 1, first + len(x) + 1, first + len(x)]
             elements.append((made[sides], [3 * corner + d for corner in corners for d in range(3)], x[i]))
     return ["w", "wx", "wy"], [x, y], [a * b for b in height for a in width], elements

@@ -137,7 +137,7 @@ class Problem:
         def add(e, work):
             own[e] = [a + b for a, b in zip(own[e], work)]
         if step.get("self_weight", False):
-            need("theta" in self.names and all(e.weight is not None for e, _, _ in self.elements), "self-weight without a section's weight and area")
+            need(self.elements and all(e.weight is not None for e, _, _ in self.elements), "self-weight without a weight")
             for e, (element, _, left) in enumerate(self.elements):
                 add(e, element.load([-element.weight], left))
         for part in listed(step.get("uniform", [])):

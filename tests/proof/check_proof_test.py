@@ -173,7 +173,7 @@ def check_semidefinite(folder):
 
 def check_reference(folder):
     accepted = proved = certified = contradicted = 0
-    files = [file for folder in ("problems", "problems/divergences", "structures") for file in sorted(reference.glob(f"{folder}/*.toml"))]
+    files = [file for folder in ("problems", "problems/divergences", "structures", "cookbook") for file in sorted(reference.glob(f"{folder}/*.toml"))]
     if "all" not in sys.argv:
         files = [file for file in files if not re.search("n16|n24", file.name)]
     for problem in files:
