@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contct/solve/factored_stiffness.hpp"
+
 namespace contct {
 namespace {
 
@@ -23,7 +25,8 @@ certain_contacts::certain_contacts(const problem& p, const linear_structure& s, 
       structure_(s),
       system_(system),
       stiffness_(system, rows_of(s),
-                 s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt) {}
+                 s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt,
+                 quickest_factor(s) == factored_by::cholmod) {}
 
 /// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
 /// rho^2 = r'z + z'e + e' K_A^-1 e.

@@ -45,6 +45,21 @@ row_sums magnitudes(const sparse_columns& a, const sparse_columns& l) {
   return sums;
 }
 
+/// The columns with which blocks begin, and the order: those of a block have the same rows, but for their own
+/// above. Most of a factor is in such columns.
+std::vector<int> blocks_of(const sparse_columns& l) {
+  std::vector<int> firsts;
+  for (int column = 0; column < l.order(); ++column) {
+    const auto rows = l.rows.begin() + l.starts[column];
+    const int size = l.starts[column + 1] - l.starts[column];
+    const bool goes_on = column > 0 && l.starts[column] - l.starts[column - 1] == size + 1 &&
+                         std::equal(rows, rows + size, l.rows.begin() + l.starts[column - 1] + 1);
+    if (!goes_on) firsts.push_back(column);
+  }
+  firsts.push_back(l.order());
+  return firsts;
+}
+
 }  // namespace
 
 bool can_be_factored_long(int order, int subdiagonals) {
@@ -95,32 +110,43 @@ double row_sums::largest() const {
 double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
   const int n = l.order();
   row_sums sums(n, 0.0);
-  std::vector<int> next(l.starts.begin(), l.starts.end() - 1);  // the entry of each column of L that is next
-  std::vector<std::vector<int>> with(n);                        // columns of L by the row of that entry
-  std::vector<double> difference(n, 0.0);                       // a column of A - L L'
-  std::vector<int> rows;                                        // that are not 0 in it
+  const std::vector<int> firsts = blocks_of(l);
+  std::vector<int> next(firsts.size(), 0);  // which row of each block is next, from 0
+  std::vector<std::vector<int>> with(n);    // blocks by that row
+  for (int block = 0; firsts[block] < n; ++block) with[firsts[block]].push_back(block);
+  std::vector<double> difference(n, 0.0);  // a column of A - L L'
+  std::vector<int> rows;                   // that are not 0 in it
+  std::vector<double> product;             // a block's part of it
   const auto add = [&](int row, double value) {
     if (difference[row] == 0.0) rows.push_back(row);
     difference[row] += value;
   };
-  std::size_t most_terms = 0;
+  int most_terms = 0;
   for (int column = 0; column < n; ++column) {
     for (int at = a.starts[column]; at < a.starts[column + 1]; ++at) add(a.rows[at], a.values[at]);
-    std::vector<int> factors = std::exchange(with[column], {});
-    factors.push_back(column);
-    most_terms = std::max(most_terms, factors.size());
-    for (const int k : factors) {
-      const int at = next[k]++;
-      for (int below = at; below < l.starts[k + 1]; ++below)
-        add(l.rows[below], -l.values[at] * l.values[below]);
-      if (next[k] < l.starts[k + 1]) with[l.rows[next[k]]].push_back(k);
+    int terms = 0;
+    for (const int block : std::exchange(with[column], {})) {
+      const int first = firsts[block];
+      const int row = next[block]++;
+      const int* const own = &l.rows[l.starts[first]];
+      const int height = l.starts[first + 1] - l.starts[first];
+      product.assign(height - row, 0.0);
+      const int width = std::min(row + 1, firsts[block + 1] - first);  // of the columns that begin above
+      for (int k = 0; k < width; ++k) {
+        const double* const values = &l.values[l.starts[first + k] + row - k];
+        for (int i = 0; i < height - row; ++i) product[i] += values[0] * values[i];
+      }
+      terms += width;
+      for (int i = 0; i < height - row; ++i) add(own[row + i], -product[i]);
+      if (next[block] < height) with[own[next[block]]].push_back(block);
     }
+    most_terms = std::max(most_terms, terms);
     for (const int row : rows) sums.add(row, column, std::exchange(difference[row], 0.0));
     rows.clear();
   }
   const row_sums sizes = magnitudes(a, l);
-  for (int row = 0; row < n; ++row)
-    sums.add(row, row, static_cast<double>(most_terms + 3) * half_ulp * sizes.of(row));
+  for (int row = 0; row < n; ++row)  // a product goes into its block's sum, and that into the column's
+    sums.add(row, row, (most_terms + 4) * half_ulp * sizes.of(row));
   return sums.largest() + 0x1p-900;  // of underflow
 }
 

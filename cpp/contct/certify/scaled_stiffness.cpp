@@ -28,8 +28,12 @@ std::vector<double> diagonal_of(const sparse_columns& a) {
 }  // namespace
 
 scaled_stiffness::scaled_stiffness(const long_system& t, std::vector<int> row_of,
-                                   std::optional<int> subdiagonals)
-    : system_(t), row_of_(std::move(row_of)), dof_at_(row_of_.size()), subdiagonals_(subdiagonals) {
+                                   std::optional<int> subdiagonals, bool by_columns)
+    : system_(t),
+      row_of_(std::move(row_of)),
+      dof_at_(row_of_.size()),
+      subdiagonals_(subdiagonals),
+      by_columns_(by_columns || !subdiagonals) {
   for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
 }
 
@@ -96,10 +100,10 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
 
 bool scaled_stiffness::factor_in_doubles() {
   long_.reset();
-  if (!subdiagonals_) {
+  if (by_columns_) {
     sparse_columns all = columns(0.0);
     const std::vector<double> diagonal = diagonal_of(all);
-    sparse_ = sparse_factor::make(std::move(all));
+    sparse_ = sparse_ ? sparse_->likewise(std::move(all)) : sparse_factor::make(std::move(all));
     return sparse_->factor(diagonal);
   }
   factor_ = band<double>(0.0);
@@ -191,7 +195,7 @@ std::optional<double> scaled_stiffness::error_of_band(double shift) {
 
 std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   const sparse_columns a = columns(shift);
-  const auto l = sparse_factor::make(a);
+  const auto l = sparse_->likewise(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
   std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
   for (const auto& row : system_.stiffness) most = std::max(most, row.size());
@@ -209,9 +213,9 @@ double scaled_stiffness::proved_below_estimate() {
   for (int tries = 0; tries < 3; ++tries) {
     const double shift = std::ldexp(highest, -4 * tries);
     if (!(shift > 0.0)) break;
-    const std::optional<double> error = long_           ? error_of_band<double_double>(shift)
-                                        : subdiagonals_ ? error_of_band<double>(shift)
-                                                        : error_of_columns(shift);
+    const std::optional<double> error = long_         ? error_of_band<double_double>(shift)
+                                        : by_columns_ ? error_of_columns(shift)
+                                                      : error_of_band<double>(shift);
     if (!error) continue;
     const double mu = (shift - *error) * (1 - 0x1p-50);
     if (mu > 0.0) return mu;  // and a number

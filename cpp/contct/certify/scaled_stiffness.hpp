@@ -30,8 +30,10 @@ struct stiffness_proof {
 class scaled_stiffness {
  public:
   /// `row_of`: the row of each dof in a band of `subdiagonals`; without these, by sparse columns, which takes
-  /// CHOLMOD. `t` must outlive this object.
-  scaled_stiffness(const long_system& t, std::vector<int> row_of, std::optional<int> subdiagonals);
+  /// CHOLMOD. `by_columns`: these are quicker than that band, and are taken unless a proof is kept. `t` must
+  /// outlive this object.
+  scaled_stiffness(const long_system& t, std::vector<int> row_of, std::optional<int> subdiagonals,
+                   bool by_columns = false);
 
   /// Take the springs of these pairs, from 0, into K_A, and factor it. False where a pivot is not positive.
   [[nodiscard]] bool factor(std::span<const int> pairs);
@@ -52,7 +54,10 @@ class scaled_stiffness {
   [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
   /// What least_eigenvalue finds has its proof kept, which takes one more band. Of sparse columns none is.
-  void keep_proof() { keeps_proof_ = true; }
+  void keep_proof() {
+    keeps_proof_ = true;
+    by_columns_ = !subdiagonals_;
+  }
   /// Of the last factor; none before least_eigenvalue.
   [[nodiscard]] const std::optional<stiffness_proof>& proof() const { return proof_; }
 
@@ -78,6 +83,7 @@ class scaled_stiffness {
   const long_system& system_;
   std::vector<int> row_of_, dof_at_;
   std::optional<int> subdiagonals_;
+  bool by_columns_;
   long_vector springs_;  // [dofs] of the pairs taken in
   /// What those between two dofs have beside the diagonal, by both.
   std::map<std::pair<int, int>, double_double> beside_;

@@ -46,7 +46,12 @@ T* made(T* by_cholmod) {
 
 /// CHOLMOD's settings and working space. Never copied: only `cholmod` has one, which cannot be copied.
 struct workspace : cholmod_common {
-  workspace() : cholmod_common{} { cholmod_start(this); }
+  workspace() : cholmod_common{} {
+    cholmod_start(this);
+    print = 0;
+    quick_return_if_not_posdef = 1;
+    supernodal = CHOLMOD_SUPERNODAL;
+  }
   ~workspace() { cholmod_finish(this); }
 };
 
@@ -101,25 +106,25 @@ class supernode {
 class cholmod final : public sparse_factor {
  public:
   explicit cholmod(sparse_columns a) : a_(std::move(a)) {
-    work_.print = 0;
-    work_.quick_return_if_not_posdef = 1;
-    work_.supernodal = CHOLMOD_SUPERNODAL;
     const bool large = a_.order() >= 25'000;  // here METIS's order saves more than the search for it takes
     order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
                    : std::initializer_list<int>{CHOLMOD_AMD});
     cholmod_sparse view = view_of_a();
-    factor_ = made(cholmod_analyze(&view, &work_));
-    // x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
-    for (cholmod_dense** vector : {&b_, &x_, &y_})
-      *vector = made(cholmod_zeros(view.nrow, 1, CHOLMOD_REAL, &work_));
-    e_ = made(cholmod_zeros(std::max<std::size_t>(factor_->maxesize, 1), 1, CHOLMOD_REAL, &work_));
-    places_.resize(view.nrow);
-    const auto* const order = static_cast<const int*>(factor_->Perm);
-    for (std::size_t i = 0; i < view.nrow; ++i) places_[order[i]] = static_cast<int>(i);
+    order_ = made(cholmod_analyze(&view, &work_));
+    prepare();
+  }
+  cholmod(sparse_columns a, const cholmod& like) : a_(std::move(a)) {
+    order_ = made(cholmod_copy_factor(like.order_, &work_));
+    work_.fl = like.work_.fl;
+    prepare();
   }
   ~cholmod() override {
-    cholmod_free_factor(&factor_, &work_);
+    for (cholmod_factor** factor : {&factor_, &order_}) cholmod_free_factor(factor, &work_);
     for (cholmod_dense** vector : {&b_, &x_, &y_, &e_}) cholmod_free_dense(vector, &work_);
+  }
+
+  [[nodiscard]] std::unique_ptr<sparse_factor> likewise(sparse_columns a) const override {
+    return std::make_unique<cholmod>(std::move(a), *this);
   }
 
   [[nodiscard]] std::int64_t bytes() const override {
@@ -164,6 +169,18 @@ class cholmod final : public sparse_factor {
   [[nodiscard]] double flops() const override { return work_.fl; }
 
  private:
+  /// Room for a factor in this order, and for solutions.
+  void prepare() {
+    factor_ = made(cholmod_copy_factor(order_, &work_));
+    // x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
+    for (cholmod_dense** vector : {&b_, &x_, &y_})
+      *vector = made(cholmod_zeros(a_.order(), 1, CHOLMOD_REAL, &work_));
+    e_ = made(cholmod_zeros(std::max<std::size_t>(factor_->maxesize, 1), 1, CHOLMOD_REAL, &work_));
+    places_.resize(a_.order());
+    const auto* const order = static_cast<const int*>(factor_->Perm);
+    for (int i = 0; i < a_.order(); ++i) places_[order[i]] = i;
+  }
+
   /// Take the best of these orders.
   void order_by(std::initializer_list<int> orders) {
     work_.nmethods = 0;
@@ -205,7 +222,8 @@ class cholmod final : public sparse_factor {
 
   workspace work_;
   sparse_columns a_;
-  std::vector<int> places_;  // of each row in the factor's order
+  std::vector<int> places_;          // of each row in the factor's order
+  cholmod_factor* order_ = nullptr;  // a factor without numbers
   cholmod_factor* factor_ = nullptr;
   std::vector<row_of_block> block_;  // in the factor's order
   cholmod_dense* b_ = nullptr;

@@ -47,6 +47,12 @@ class sparse_factor {
   [[nodiscard]] virtual sparse_columns lower() = 0;
   [[nodiscard]] virtual const std::vector<int>& places() const = 0;
 
+  /// One of another matrix with entries in the same places, in this one's order. Throws as make does, and
+  /// std::logic_error where others hold A.
+  [[nodiscard]] virtual std::unique_ptr<sparse_factor> likewise(sparse_columns /*a*/) const {
+    throw std::logic_error("this factor's order cannot be taken over");
+  }
+
   /// Products and sums that a factorisation takes.
   [[nodiscard]] virtual double flops() const = 0;
 };
