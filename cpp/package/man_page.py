@@ -1,7 +1,8 @@
 """man_page.py NAMES SECTION SUMMARY VERSION DATE PAGE: a page of reference/ as a manual page, in the macros of man.
 
 Of Markdown it takes headings, paragraphs, lists, tables, code, bold text, code spans and links, of which the text stays. A row of
-a table becomes an entry: its first cell is the term, and the cells between it and the last one follow the names of their columns."""
+a table becomes an entry: its first cell is the term, and the cells between it and the last one follow the names of their columns.
+One that begins with bold text is a heading."""
 import re
 import sys
 import textwrap
@@ -31,7 +32,7 @@ def entries(table):
                       for line in table.splitlines()]
     for first, *others in rows:
         named = [f"{name.split(',')[0]}: {cell}" for name, cell in zip(head[1:-1], others) if cell]
-        yield f".TP\n{lines(first)}"
+        yield f".SS {lines(first.strip('*'))}" if first.startswith("**") else f".TP\n{lines(first)}"
         yield from (lines(part) for part in ("; ".join(named) + "." * bool(named), others[-1]) if part)
 
 

@@ -18,7 +18,7 @@ for page in "contct 1 running" "contct-problem 5 problem-file" "contct-result 5 
   [ -z "$said" ] || { echo "$said" >&2; exit 1; }
   sed 's/\\f[BR]//g; s/\\-/-/g; s/\\&//g' "$made" >"$folder/plain"
   sed -n 's/^###* /.S[HS] /p' "$source" | tr -d '`' | sed 's/\[/\\[/g; s/\]/\\]/g; s/\\\[HS\\\]/[HS]/; s/.*/^&$/' >"$folder/wanted"
-  sed -n 's/^| `\([a-z_]*\)` |.*/^\1$/p' "$source" >>"$folder/wanted"
+  sed -n 's/^| \(`[a-z_]*`[^|]*\) |.*/^\1$/p' "$source" | tr -d '`' >>"$folder/wanted"
   while read -r wanted; do
     grep -q -e "$wanted" "$folder/plain" || { echo "$made has no line $wanted" >&2; exit 1; }
     count=$((count + 1))

@@ -1,10 +1,11 @@
 """The comparison of a manual with a JSON Schema, and of results with both.
 
-The manual has a table of keys for each object of the schema, below a heading that is the object's title. Its cells say when a key
-is absent or null.
+The manual has a table of keys for each object of the schema, below the object's title. Keys that have a description in the schema
+have no row. A row says on which condition a key is there, and what null means.
 """
 import json
 import math
+import re
 import subprocess
 
 import jsonschema
@@ -54,33 +55,40 @@ def target(schema, wanted):
 
 
 def is_null(wanted):
-    """Can a key's value be null?"""
-    return any(map(is_null, wanted.get("anyOf", []))) or "null" in wanted.get("type", "")
+    """Can a key's value, or an entry of it, be null?"""
+    inner = wanted.get("anyOf", []) + ([wanted["items"]] if "items" in wanted else [])
+    return any(map(is_null, inner)) or "null" in wanted.get("type", "")
 
 
-def cell_fault(of, key, row):
+def row_fault(of, key, row):
     """What a row of the manual says of a key that the schema does not, in words; None where they agree."""
-    wanted = of["properties"][key]
-    if ("absent" in row["absent or null"]) != (key not in of["required"]):
-        return "when it is absent"
-    if ("null" in row["absent or null"]) != is_null(wanted):
-        return "when it is null"
+    absent, meaning = row["key"].endswith("?"), row["meaning"]
+    if absent != (key not in of["required"]):
+        return "whether it may be absent"
+    if absent and ": " not in meaning:
+        return "no condition, with a colon, on which it is there"
+    if bool(re.search(r"\bnull\b", meaning)) != is_null(of["properties"][key]):
+        return "whether it may be null"
     return None
+
+
+def undescribed(of):
+    return {key for key, wanted in of["properties"].items() if "description" not in wanted}
 
 
 def first_difference(text, schema):
     """The first difference between the manual and the schema, in words; None where there is none."""
     tables, known = key_tables(text), objects(schema)
-    if different := (set(tables.rows) ^ set(known)) - tables.shared():
+    if different := (set(tables.rows) ^ {title for title, of in known.items() if undescribed(of)}) - tables.shared():
         return f"an object that only one of the two has: {min(different)}"
     for title, of in known.items():
         if of.get("additionalProperties") is not False:
             return f"{title}: the schema allows other keys"
-        rows = tables.keys(title)
-        if different := set(rows) ^ set(of["properties"]):
+        rows = tables.keys(title) if title in tables.rows else {}
+        if different := set(rows) ^ undescribed(of):
             return f"{title}: a key that only one of the two has: {min(different)}"
         for key, row in rows.items():
-            if wrong := cell_fault(of, key, row):
+            if wrong := row_fault(of, key, row):
                 return f"{title}: {key}: {wrong}"
     return None
 

@@ -1,7 +1,8 @@
 """Reads a manual page in Markdown: its sections, its tables of keys and its code blocks.
 
 A table of keys is one whose first column is called "key". A cell of that column has keys in backticks, of which the row says the same, or a
-link such as [place](#places) to the section whose keys are meant. The column "structure", where there is one, says where a key belongs.
+link such as [place](#places) to the section whose keys are meant; `?` behind a key: it may be absent. The column "structure", where there is
+one, says where a key belongs.
 """
 import re
 from dataclasses import dataclass
@@ -22,9 +23,10 @@ def anchor(heading):
     return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
-def rows(body):
-    """The rows of a section's tables of keys, each a dictionary by the names of the columns."""
-    header, found = None, []
+def rows(heading, body):
+    """{title: the rows of its table of keys, each a dictionary by the names of the columns}: the section's heading is the first title,
+    a row that begins with bold text the next one."""
+    header, title, found = None, heading, {}
     for line in FENCE.sub("", body).splitlines():
         if not line.startswith("|"):
             header = None
@@ -35,8 +37,11 @@ def rows(body):
         elif header[0] == "key" and set(cells[0]) != {"-"}:
             if len(cells) != len(header):
                 raise ValueError(f"found {len(cells)} cells, allowed: {len(header)}: {line}")
-            keys = re.findall(r"`[^`]+`", cells[0]) or cells[:1]
-            found += [dict(zip(header, [key, *cells[1:]])) for key in keys]
+            if cells[0].startswith("**"):
+                title = cells[0].strip("*")
+                continue
+            keys = re.findall(r"`[^`]+`\??", cells[0]) or cells[:1]
+            found.setdefault(title, []).extend(dict(zip(header, [key, *cells[1:]])) for key in keys)
     return found
 
 
@@ -44,8 +49,9 @@ class key_tables:
     """The keys that a page documents, section by section."""
 
     def __init__(self, text):
-        self.rows = {heading: rows(body) for heading, body in sections(text)}
-        self.rows = {heading: found for heading, found in self.rows.items() if found}
+        self.rows = {}
+        for heading, body in sections(text):
+            self.rows |= rows(heading, body)
         self.by_anchor = {anchor(heading): heading for heading in self.rows}
 
     def linked(self, row):
@@ -66,7 +72,7 @@ class key_tables:
             if structure and row.get("structure") and structure not in row["structure"].split(", "):
                 continue
             other = self.linked(row)
-            found |= self.keys(other, structure) if other else {row["key"].strip("`"): row}
+            found |= self.keys(other, structure) if other else {row["key"].strip("`?"): row}
         return found
 
 

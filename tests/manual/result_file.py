@@ -2,8 +2,7 @@
 reference/result-file.md documents that schema. PLUGIN is a kernel that differs from FORTRAN in the last bit.
 
 - Every result of every reference problem, under the 1989 rule and the corrected one, is valid, and so is one of each other kind.
-- The schema and the manual have the same objects with the same keys; the manual's cells say which of them may be absent or null,
-  and of which type they are.
+- Each key of the schema has a row in the manual or a description in the schema; a row says whether it may be absent or null.
 - The result in a page is valid too.
 - Each exit status comes with the `status` of the result that the manual says.
 - Every key of the schema is in some result, but for those in UNSEEN. The example of the manual is what the program writes.
