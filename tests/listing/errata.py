@@ -102,7 +102,8 @@ def row(erratum):
     ocr, compiled = (", ".join(f"`{text}`" for text in erratum[key]) for key in ("ocr", "compiled"))
     seen = Counter(undo["expect"] for undo in erratum["undo"])
     outcomes = ", ".join(what + (f" ({n})" if n > 1 else "") for what, n in seen.items())
-    return f"| {erratum['number']} | {ocr} | {compiled} | {erratum['class']} | {erratum['confidence']} | {outcomes} |"
+    doubt = "" if erratum["confidence"] == "certain" else f" ({erratum['confidence']})"
+    return f"| {erratum['number']} | {ocr} | {compiled}{doubt} | {outcomes} |"
 
 
 def check_page(errata):
