@@ -10,6 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).absolute().parents[2]  # a copy of the project may have a link to this folder
 LISTING = "fortran/contct.f"
+KERNEL = "cpp/contct/kernel/contct.hpp"
 COMMAND = "python3 tests/edition/edition.py --write"
 STEPS = ["1", "2", "3", "4", "5, 6", "7", "8", "9 to 11", "12, 13", "14", "14", "14"]
 KEYS = {"step", "title", "paper", "equation", "note", "listing", "cpp"}
@@ -81,12 +82,12 @@ def listing_code(part):
     return "".join(f"{number} {there[number - 1]}\n" for number in part["listing"])
 
 
-def cpp_code(block):
-    """Numbered, and moved to the left as far as the lines go together."""
+def cpp_code(block, numbered=True):
+    """Moved to the left as far as the lines go together."""
     first, count = places_of(block)[0], len(quoted(block))
     there = lines_of(block["file"])[first:first + count]
     indent = min(len(line) - len(line.lstrip(" ")) for line in there)
-    return "".join(f"{first + i + 1:3}  {line[indent:]}\n" for i, line in enumerate(there))
+    return "".join((f"{first + i + 1:3}  " if numbered else "") + f"{line[indent:]}\n" for i, line in enumerate(there))
 
 
 def plain(text):
@@ -95,16 +96,18 @@ def plain(text):
 
 
 def markdown_page(edition):
-    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nMade from `reference/parallel-edition.toml` and the " \
-           f"sources, not by hand:\n\n```sh\n{COMMAND}\n```\n"
+    """Of the C++ the kernel alone; other files are named. The paper's words stand in the HTML page."""
+    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nThe C++ is that of [contct.hpp](../{KERNEL}). The [HTML page]" \
+           f"(parallel-edition.html), and that of `contct run --html`, also quote the paper and the other files. Made by\n\n```sh\n{COMMAND}\n```\n\n" \
+           f"<table>\n"
     for part in edition["part"]:
-        page += f"\n## {plain(heading(part))}\n\n> {plain(part['paper'])}"
-        page += f" **Eq. {part['equation']}**" if part["equation"] else ""
-        page += f"\n\n{TABLE}<tr><td valign=\"top\">\n\n```fortran\n{listing_code(part)}```\n\n</td><td valign=\"top\">\n"
-        for block in part["cpp"]:
-            page += f"\n`{block['file']}`\n\n```cpp\n{cpp_code(block)}```\n"
-        page += f"\n</td></tr>\n</table>\n\n{plain(part['note'])}\n"
-    return page
+        equation = f" Eq. {part['equation']}." if part["equation"] else ""
+        page += f"<tr><td>\n\n**{plain(heading(part))}.**{equation}\n\n```fortran\n{listing_code(part)}```\n\n</td><td>\n\n{plain(part['note'])}\n"
+        code = "".join(cpp_code(block, numbered=False) for block in part["cpp"] if block["file"] == KERNEL)
+        page += f"\n```cpp\n{code}```\n" if code else ""
+        others = dict.fromkeys(block["file"] for block in part["cpp"] if block["file"] != KERNEL)
+        page += "".join(f"\n[{Path(file).name}](../{file})\n" for file in others) + "\n</td></tr>\n"
+    return page + "</table>\n"
 
 
 def html_page(edition):
