@@ -61,15 +61,6 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
   return {last, errc::value_too_large};
 }
 
-/// With so many digits behind the point.
-inline to_chars_result to_chars(char* first, char* last, double value, chars_format /*scientific*/,
-                                int digits) {
-  const string text = isfinite(value) ? fmt::format("{:.{}e}", value, digits) : fmt::format("{}", value);
-  if (last - first < static_cast<ptrdiff_t>(text.size())) return {last, errc::value_too_large};
-  memcpy(first, text.data(), text.size());
-  return {first + text.size(), errc()};
-}
-
 /// The same without a format, for people.
 inline to_chars_result to_chars(char* first, char* last, double value) {
   const string text = fmt::format("{}", value);

@@ -18,11 +18,14 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/own_kernel.hpp"
@@ -32,6 +35,12 @@ namespace contct {
 namespace {
 
 using clock = std::chrono::steady_clock;
+
+#ifdef CONTCT_STATIC
+constexpr bool is_static = true;
+#else
+constexpr bool is_static = false;
+#endif
 
 constexpr std::string_view ready_word = "ready";
 
@@ -278,12 +287,20 @@ class kernel_in_child final : public kernel {
   call_outputs out_;
 };
 
-/// The child becomes the command, with the channel as its standard input and output.
+/// The child becomes the command, with the channel as its standard input and output. Where there is no shell,
+/// as in an empty container, it becomes the program that the command's first word names.
 void become(const std::string& command, int channel) {
   dup2(channel, STDIN_FILENO);
   dup2(channel, STDOUT_FILENO);
   close(channel);
   execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  std::istringstream words(command);
+  std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  if (!arguments.empty()) execv(pointers[0], pointers.data());
   _exit(127);
 }
 
@@ -328,6 +345,10 @@ void answer_calls(kernel_procedure* ask, int channel) {
 /// What the child of a plug-in does: load the library, say `ready_word` or what is wrong with it, and answer
 /// calls until its end of the channel is closed.
 void host_plugin(const std::string& path, int channel) {
+  if (is_static)
+    return say(channel,
+               "a static program loads no shared library; allowed: pipe:COMMAND, with a command that "
+               "reference/adopt/pipe_main.c makes of the kernel's source");
   fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
   // dlopen looks for a name without a slash among the system's libraries only.
   void* const library =

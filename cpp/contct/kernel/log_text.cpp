@@ -1,6 +1,7 @@
 #include "contct/kernel/log_text.hpp"
 
 #include <charconv>
+#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -27,11 +28,12 @@ void append_i3(int value, std::string& text) {
 /// exponent has three digits.
 template <class Real>
 void append_e(Real value, int significant, std::size_t width, std::string& text) {
-  char scientific[48];  // d.ddde+ee
-  const char* const end = std::to_chars(scientific, scientific + sizeof scientific, value,
-                                        std::chars_format::scientific, significant - 1)
-                              .ptr;
-  const std::string_view all(scientific, end - scientific);
+  // d.ddde+ee, where a locale may have another point. to_chars brings 110 kB of tables into a static program.
+  char scientific[48];
+  const int length =
+      std::snprintf(scientific, sizeof scientific, "%.*e", significant - 1, static_cast<double>(value));
+  const char* const end = scientific + length;
+  const std::string_view all(scientific, length);
   const std::size_t mark = all.find('e');
   int exponent = 0;
   std::from_chars(all.data() + mark + 2, end, exponent);  // behind the sign, which from_chars does not take
@@ -42,7 +44,7 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   char digits[48] = "0.";
   std::size_t n = 2;
   for (const char ch : all.substr(0, mark)) {
-    if (ch != '.') digits[n++] = ch;
+    if (ch >= '0' && ch <= '9') digits[n++] = ch;
   }
   if (size < 100) digits[n++] = 'E';
   digits[n++] = exponent < 0 ? '-' : '+';
