@@ -2,8 +2,8 @@
 """make.py [--check]: writes contct-vectors-1.json and contct-vectors-1.txt from ../traces and caught.json, or with --check
 compares them with what it would write (exit status 1: they differ).
 
-caught.json says which call of a trace is the first that shows a mutant of tests/mutants: `mutants.py BUILD.json --caught FILE`
-writes it. Format: README.md.
+caught.json says which call of a trace is the first that shows a mutant of tests/mutants, or an erratum of ../errata.toml undone:
+`mutants.py BUILD.json --caught FILE` writes it. Format: README.md.
 """
 import hashlib
 import json
@@ -112,7 +112,7 @@ def flags(call, real, mutants):
     found = {f"{b}_{str(outcome).lower()}" if b in BRANCHES else b for b, outcome in decisions(call, real) if outcome or b in BRANCHES}
     for key in ("dd", "dtest", "cc", "ss"):
         found = found.union(*(special(number(x), real) for x in call[key]))
-    return sorted(found) + [f"mutant {name}" for name in mutants]
+    return sorted(found) + [name if name.startswith("erratum ") else f"mutant {name}" for name in mutants]
 
 
 def both(hexfloats):

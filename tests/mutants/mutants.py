@@ -1,9 +1,11 @@
-"""mutants.py BUILD.json [--first N | --caught FILE]: builds every mutant of mutants.toml and puts it to the golden set.
+"""mutants.py BUILD.json [--first N | --errata | --caught FILE]: builds every mutant of mutants.toml, and the listing with each erratum
+of reference/errata.toml undone that changes numbers or text, and puts it to the golden set.
 
 A mutant is contct-replay linked with an object of the mutated kernel in front of the libraries: what an object defines keeps a
 library's member out. Before the mutants of a source it goes the same way as it is, and has to live. With
---first only so many mutants of each source are tried. With --caught the first call of each trace that shows a mutant is written to
-FILE, for reference/vectors/make.py. Exit status 1 where a mutant lives, or does not compile: it is none.
+--first only so many mutants of each source are tried, with --errata only errata. The first call of each trace that shows a mutant of the
+listing has to be the one in reference/vectors/caught.json; --caught writes these calls to FILE. Exit status 1 where a mutant lives, or does
+not compile: it is none.
 """
 import json
 import os
@@ -33,16 +35,24 @@ def run_tool(command, folder):
         raise ValueError(f"does not compile or link:\n{done.stderr}")
 
 
-def compile_listing(build, copy, folder):
+def undone_errata():
+    """(name, replacements, options of the compiler)"""
+    for erratum in tomllib.loads((ROOT / "reference/errata.toml").read_text())["erratum"]:
+        for undo in erratum["undo"]:
+            if undo["expect"] in ("other-numbers", "other-text"):
+                yield f"erratum {erratum['number']}, {undo['name']}", [(r["from"], r["to"]) for r in undo["replace"]], undo.get("compile", [])
+
+
+def compile_listing(build, copy, folder, options):
     """Under both of its names. A line cut at column 72 would be another mutant than the one that is written down."""
     common = [build["fortran"], *build["fortran_flags"].split(), "-O2", "-std=legacy", "-ffp-contract=off",
-              "-Werror=line-truncation", "-cpp", "-c", copy]
+              "-Werror=line-truncation", *options, "-cpp", "-c", copy]
     run_tool([*common, "-DCONTCT=CONTC8", "-fdefault-real-8", "-o", "r8.o"], folder)
     run_tool([*common, "-DCONTCT=CONTC4", "-o", "r4.o"], folder)
     return ["r8.o", "r4.o"]
 
 
-def compile_cpp(build, copy, folder):
+def compile_cpp(build, copy, folder, _):
     """The folder of the mutant comes before the tree, so that a header in it is the one that is included."""
     unit = ROOT / "cpp/contct/kernel/contct.cpp" if copy.suffix == ".hpp" else copy
     names = [f'-DCONTCT_{name}=""' for name in ("FORTRAN_COMPILER", "CXX_COMPILER", "FORTRAN_FLAGS", "CXX_FLAGS")]
@@ -51,11 +61,11 @@ def compile_cpp(build, copy, folder):
     return ["kernel.o"]
 
 
-def build_program(build, file, source, folder):
+def build_program(build, file, source, folder, options):
     copy = folder / file
     copy.parent.mkdir(parents=True)
     copy.write_text(source)
-    objects = (compile_listing if copy.suffix == ".f" else compile_cpp)(build, copy, folder)
+    objects = (compile_listing if copy.suffix == ".f" else compile_cpp)(build, copy, folder, options)
     run_tool([build["cxx"], *build["cxx_flags"].split(), build["replay"], *objects, *build["libraries"].split(),
               *build["link_flags"].split(), "-o", "mutant"], folder)
 
@@ -77,12 +87,12 @@ def noticed(file, folder):
     return seen, named, {Path(trace).stem: int(call) for trace, call in re.findall(r"(\S+\.trace): [\w-]+: call (\d+):", done.stderr)}
 
 
-def tried(build, file, name, replacements):
+def tried(build, file, name, replacements, options=()):
     """(is it as it has to be, what came of it, the IFs that are named, the calls that show it)"""
     named, calls = [], {}
     try:
         with tempfile.TemporaryDirectory() as folder:
-            build_program(build, file, edited((ROOT / file).read_text(), replacements), Path(folder))
+            build_program(build, file, edited((ROOT / file).read_text(), replacements), Path(folder), options)
             seen, named, calls = noticed(file, Path(folder))
     except ValueError as wrong:
         return False, f"is none: {wrong}", named, calls
@@ -102,11 +112,14 @@ def main(build_file, option=None, value=None):
     margins, caught = {}, {}
     for source in table["source"]:
         trials.append((source["file"], UNMUTATED, []))
-        some = source["mutants"][:first and int(first)]
+        some = [] if option == "--errata" else source["mutants"][:first and int(first)]
         trials += [(source["file"], name, [(old, new)]) for name, old, new in some]
+    if first is None:
+        trials += [("fortran/contct.f", *erratum) for erratum in undone_errata()]
+    known = json.loads((ROOT / "reference/vectors/caught.json").read_text())
     wrong = 0
     with ThreadPoolExecutor(os.cpu_count()) as workers:
-        for (file, name, _), (good, words, named, calls) in zip(trials, workers.map(lambda t: tried(build, *t), trials)):
+        for (file, name, *_), (good, words, named, calls) in zip(trials, workers.map(lambda t: tried(build, *t), trials)):
             faulty = faults.get(name) if file.endswith(".f") else None
             if faulty:
                 margins[name] = bool(named) and all(condition in faulty for condition in named)
@@ -115,10 +128,16 @@ def main(build_file, option=None, value=None):
             wrong += not good
             if calls and file.endswith(".f"):
                 caught[name] = calls
+                if option != "--caught" and known.get(name) != calls:
+                    wrong += 1
+                    print(f"WRONG: caught.json has other calls for {name}: found {calls}, allowed: {known.get(name)}")
     if option == "--caught":
         rows = (f"{json.dumps(name)}: {json.dumps(calls)}" for name, calls in sorted(caught.items()))
         Path(value).write_text("{\n" + ",\n".join(rows) + "\n}\n")
     print(f"{len(trials)} kernels, mutants and as they are, {wrong} wrong")
+    if option == "--errata":
+        least = 15
+        return f"found {len(caught)} errata; allowed: {least} or more" if len(caught) < least else int(wrong > 0)
     told = sum(margins.values())
     print(f"the branch margins name the faulty IF, and no other, for {told} of {len(margins)} mutants of an IF")
     if first is None and told < LEAST_TOLD:

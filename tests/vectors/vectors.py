@@ -1,11 +1,13 @@
-"""vectors.py ROOT: contct-vectors-1.json is as its schema says, has every call of the golden set, and each number twice: the
-hex float and the shortest decimal are the same double; the text form has the same numbers.
+"""vectors.py ROOT: contct-vectors-1.json is as its schema says, has every call of the golden set, with the reason why it is there unless its
+path was recorded, and each number twice: the hex float and the shortest decimal are the same double; the text form has the same numbers. Every
+erratum that changes numbers or text when it is undone is the flag of a call.
 """
 import json
 import math
 import re
 import struct
 import sys
+import tomllib
 from pathlib import Path
 
 import jsonschema
@@ -47,7 +49,13 @@ def main(root):
     values = [d for call in calls for _, d in numbers(call)]
     if sorted(map(repr, (bits(float(w)) for w in in_text[1:]))) != sorted(repr(bits(float(d))) for d in values):
         return "contct-vectors-1.txt has other numbers"
+    if wrong := next((case["name"] for case in document["cases"] if not case["name"].startswith("path-") and not all(c["why"] for c in case["calls"])), None):
+        return f"{wrong}: a call has no reason why it is there"
     flags = {flag for call in calls for flag in call["flags"]}
+    errata = tomllib.loads((Path(root) / "reference/errata.toml").read_text())["erratum"]
+    undone = {f"erratum {e['number']}, {u['name']}" for e in errata for u in e["undo"] if u["expect"] in ("other-numbers", "other-text")}
+    if len(undone) < 15 or undone != {flag for flag in flags if flag.startswith("erratum ")}:
+        return f"found errata {sorted(undone ^ {f for f in flags if f.startswith('erratum ')})} in errata.toml or in the flags alone; allowed: in both"
     print(f"{len(calls)} calls, {len(values)} numbers twice, {len(flags)} flags, {sum(f.startswith('mutant ') for f in flags)} of them mutants")
     return 0 if len(flags) >= 90 else f"found {len(flags)} flags; allowed: 90 or more"
 
