@@ -5,6 +5,8 @@ import json
 import pathlib
 import re
 import sys
+import textwrap
+import tomllib
 
 root, module, out = (pathlib.Path(a) for a in sys.argv[1:])
 sys.path.insert(0, str(root / "reference/course/port"))
@@ -44,13 +46,20 @@ def scenes():
     return {name: {**s, "text": read(root / s["problem"])} for name, s in all_scenes.items()}
 
 
+def beside():
+    """By line of the listing the C++ that does the same, from the parallel edition."""
+    parts = tomllib.loads(read(root / "reference/parallel-edition.toml"))["part"]
+    return {line: "\n".join(textwrap.dedent(b["text"]).strip() for b in part["cpp"] if b["file"].endswith("contct.hpp")) for part in parts for line in part["listing"]}
+
+
 def judged():
     """What the judge of page 12 has: the golden calls with their answers, and the hints. JSON has no NaN and no infinity: they are texts."""
     real = lambda x: x if abs(x) < float("inf") else str(x)
     calls = [{"name": c["name"], "note": c["note"], "indof": c["indof"], "ndofpn": c["ndofpn"], "ndof": c["ndof"],
               "dofs": [[n, real(d), real(d_star)] for n, d, d_star in c["dofs"]], "pairs": [[*p[:3], real(p[3])] for p in c["pairs"]],
               "smin": real(c["answer"][0]), "ss": [real(s) for s in c["answer"][1]], "isep": c["answer"][2]} for c in hint.golden_calls(root)]
-    return {"golden": calls, "hints": hint.read_table(), "where": hint.WHERE}
+    return {"golden": calls, "hints": hint.read_table(), "where": hint.WHERE,
+            "stages": [{"digests": s["digests"], "next": after["adds"]} for s, after in zip(hint.STAGES, hint.STAGES[1:])]}
 
 
 def given(**more):
@@ -100,7 +109,7 @@ def write_course():
     for page in sorted(course.glob("*.md")):
         write_whole(folder / ("index.html" if page.stem == "README" else f"{page.stem}.html"), page_of(page, converter))
     scripts = together("result.js", "picture.js", "program.js", "scene.js", "two_rules.js", "port.js", "course.js")
-    write_whole(folder / "course.js", f"const given = {given(**judged())};\n{read(module)}\n{scripts}")
+    write_whole(folder / "course.js", f"const given = {given(beside=beside(), **judged())};\n{read(module)}\n{scripts}")
 
 
 write_playground()

@@ -88,6 +88,8 @@ function hintOf(digest, first, quantity, right) {
   const known = Object.values(given.hints);
   const same = known.filter((h) => h.digest === digest);
   if (same.length > 0) return ["All answers are those of this fault:", ...same.map((h) => h.says)];
+  const stage = given.stages.find((s) => s.digests.includes(digest));
+  if (stage) return ["No fault: the answers are those of a port in the making. Next:", stage.next];
   const alike = known.filter((h) => h.first === first && right > 0);
   return alike.length > 0 ? ["The first wrong answer is that of these faults:", ...alike.slice(0, 3).map((h) => h.says)] : ["No known fault answers so.", given.where[quantity]];
 }

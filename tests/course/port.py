@@ -1,5 +1,6 @@
 """port.py ROOT PROGRAMS: the kernels in the making of reference/course/port. The empty ones in C, Fortran and Python answer no golden call;
-each stage in Python answers as many calls, and `contct replay` passes as many traces, as stages.toml says; the last one passes a fuzz run."""
+each stage in each language answers as many calls, and `contct replay` passes as many traces, as stages.toml says, with the next stage as
+hint; the last one passes a fuzz run."""
 import subprocess
 import sys
 import tempfile
@@ -11,6 +12,8 @@ sys.path.insert(0, str(port))
 import hint  # noqa: E402
 import stages  # noqa: E402
 
+LANGUAGES = ("py", "c", "f90")
+TABLE = hint.read_table()
 CONTCT, CALLS = str(programs / "contct"), hint.golden_calls()
 wrong = []
 
@@ -21,39 +24,52 @@ def check(holds, what):
 
 
 def judged(kernel):
-    """How many golden calls are right, how many traces contct replay finds equal, and its exit status."""
+    """How many golden calls are right, how many traces contct replay finds equal, its exit status, and the hints."""
     done = subprocess.run([CONTCT, "replay", "--kernel", kernel, *sorted(map(str, (root / "reference/traces").glob("*.trace")))],
                           capture_output=True, text=True, check=False)
-    found, _ = hint.findings(CALLS, hint.answers_of(kernel, CALLS))
-    return found["right"], done.stdout.count("equal to the bit"), done.returncode
+    found, first = hint.findings(CALLS, hint.answers_of(kernel, CALLS))
+    return found["right"], done.stdout.count("equal to the bit"), done.returncode, hint.hints(found, first[1][0], TABLE)[1] if first else []
 
 
-def check_stages(folder):
-    last = 0
-    for number, stage in enumerate(stages.STAGES, start=1):
-        file = folder / f"stage-{number}.py"
-        file.write_text(stages.kernel_after(number))
-        kernel = f"pipe:{sys.executable} {file} 2>/dev/null"
-        calls, traces, status = judged(kernel)
+def built(file):
+    """A kernel of C or Fortran as a plug-in, compiled without a warning; one in Python is run as it is."""
+    library, strict = file.with_suffix(".so"), ["-O2", "-ffp-contract=off", "-Wall", "-Werror", "-shared", "-fPIC"]
+    if file.suffix == ".py":
+        return f"pipe:{sys.executable} {file} 2>/dev/null"
+    if file.suffix == ".c":
+        subprocess.run(["cc", "-std=c11", "-Wextra", *strict, "-I", root / "cpp", "-o", library, file], check=True)
+    else:
+        subprocess.run(["gfortran", "-std=f2018", *strict, "-Wno-unused-dummy-argument", "-J", file.parent, "-o", library, file], check=True)
+    return f"plugin:{library}"
+
+
+def check_stages(folder, language):
+    last, nexts = 0, [[stage["adds"]] for stage in stages.STAGES[1:]]
+    nexts[-1:] = [[TABLE["toggled-by-sign"]["says"]], []]  # stage 9 has the answers of a known fault, stage 10 has no wrong one
+    for number, (stage, after) in enumerate(zip(stages.STAGES, nexts), start=1):
+        file = folder / f"{language}-{number}.{language}"
+        file.write_text(stages.kernel_after(number, language))
+        kernel = built(file)
+        calls, traces, status, hints = judged(kernel)
         check({"calls": calls, "traces": traces} == stage["right"] and calls > last and status == (0 if calls == len(CALLS) else 1),
-              f"stage {number} answers {calls} calls, passes {traces} traces, and replay ends with {status}; allowed: {stage['right']}")
+              f"{language}, stage {number} answers {calls} calls, passes {traces} traces, and replay ends with {status}; allowed: {stage['right']}")
+        check(hints == after, f"{language}, stage {number}: the hint is {hints}; allowed: {after}")
         last = calls
     check(last == len(CALLS), "the last stage answers every golden call")
     fuzzed = subprocess.run([CONTCT, "fuzz", "--calls", "3000", "--kernels", f"fortran,{kernel}"], capture_output=True, text=True, check=False)
-    check(fuzzed.returncode == 0, f"the last stage is equal in a fuzz run: exit {fuzzed.returncode}")
+    check(fuzzed.returncode == 0, f"{language}, the last stage is equal in a fuzz run: exit {fuzzed.returncode}")
 
 
 def check_empty(folder):
-    c, fortran = folder / "c.so", folder / "f90.so"
-    strict = ["-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-shared", "-fPIC"]
-    subprocess.run(["cc", "-std=c11", "-Werror", *strict, "-I", root / "cpp", "-o", c, port / "kernel.c"], check=True)
-    subprocess.run(["gfortran", "-std=f2018", *strict, "-J", folder, "-o", fortran, port / "kernel.f90"], check=True, capture_output=True)
-    for kernel in (f"plugin:{c}", f"plugin:{fortran}", f"pipe:{sys.executable} {port}/kernel.py"):
-        found = judged(kernel)
-        check(found == (0, 0, 1), f"the empty kernel {Path(kernel).name} answers {found[0]} calls and passes {found[1]} traces; allowed: 0")
+    for language in LANGUAGES:
+        file = folder / f"{language}-0.{language}"
+        file.write_text(stages.kernel_after(0, language))
+        found = judged(built(file))
+        check(found[:3] == (0, 0, 1), f"the empty kernel {file.name} answers {found[0]} calls and passes {found[1]} traces; allowed: 0")
 
 
 with tempfile.TemporaryDirectory() as name:
     check_empty(Path(name))
-    check_stages(Path(name))
+    for language in LANGUAGES:
+        check_stages(Path(name), language)
 sys.exit(1 if wrong else 0)

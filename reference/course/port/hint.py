@@ -2,7 +2,7 @@
 Exit status: 0 all answers are right, to the bit; 1 not.
 
 hints.toml has, for faults that were put into the kernels on purpose, a sentence, and what their answers were: how many were right, the
-first wrong value, and a digest of them all. A kernel with the same answers has the same fault, or one that no golden call distinguishes from it.
+first wrong value, and a digest of them all; stages.toml has the digests of unfinished kernels. A kernel with the same answers has the same fault, or one that no golden call distinguishes from it.
 """
 import ctypes
 import shlex
@@ -11,6 +11,8 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+
+from stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[3]
 MARGIN = 4096  # elements around DD and DTEST, so that a wrong index finds NaN
@@ -115,6 +117,9 @@ def hints(found, quantity, table):
     same = [t["says"] for t in table.values() if t["digest"] == found["digest"]]
     if same:
         return "All answers are those of this fault:", same
+    after = [stage["adds"] for before, stage in zip(STAGES, STAGES[1:]) if found["digest"] in before["digests"]]
+    if after:
+        return "No fault: the answers are those of a port in the making. Next:", after
     alike = [t["says"] for t in table.values() if t["first"] == found["first"] and found["right"] > 0]
     if alike:
         return "The first wrong answer is that of these faults:", alike[:3]

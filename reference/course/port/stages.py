@@ -1,4 +1,5 @@
-"""python3 reference/course/port/stages.py K: writes kernel.py with the first K stages of stages.toml to standard output."""
+"""python3 reference/course/port/stages.py K [py|c|f90]: writes that kernel, kernel.py if none is named, with the first K stages of stages.toml to
+standard output."""
 import sys
 import tomllib
 from pathlib import Path
@@ -7,10 +8,10 @@ HERE = Path(__file__).resolve().parent
 STAGES = tomllib.loads((HERE / "stages.toml").read_text())["stage"]
 
 
-def kernel_after(count):
-    source = (HERE / "kernel.py").read_text()
+def kernel_after(count, language="py"):
+    source = (HERE / f"kernel.{language}").read_text()
     for stage in STAGES[:count]:
-        for old, new in stage["edits"]:
+        for old, new in stage[language]:
             if source.count(old) != 1:
                 raise ValueError(f"found {source.count(old)} times; allowed: once: {old}")
             source = source.replace(old, new)
@@ -18,4 +19,4 @@ def kernel_after(count):
 
 
 if __name__ == "__main__":
-    sys.stdout.write(kernel_after(int(sys.argv[1])))
+    sys.stdout.write(kernel_after(int(sys.argv[1]), *sys.argv[2:]))
