@@ -2,8 +2,8 @@
 "use strict";
 
 function sceneAt(holder) {
-  const { rules, ...more } = given.scenes[holder.dataset.scene];
-  return rules ? new TwoRules(holder, { kernels: rules, ...more }) : new ContactScene(holder, { listing: given.listing, ...more });
+  const { rules, beside, ...more } = given.scenes[holder.dataset.scene];
+  return rules ? new TwoRules(holder, { kernels: rules, ...more }) : new ContactScene(holder, { listing: given.listing, beside: beside && given.beside, ...more });
 }
 
 async function startCourse() {

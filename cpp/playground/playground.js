@@ -47,10 +47,14 @@ function follow() {
   byId("marks").scrollLeft = editor.scrollLeft;
 }
 
+function withdrawVerdict(why) {
+  byId("right").classList.add("stale");
+  byId("verdict").replaceChildren(element("li", { class: "note" }, `No verdict: ${why}. The picture is that of the last text that ran.`));
+}
+
 /** What the program says against the text; a click goes to the place. */
 function complain(error) {
-  byId("right").classList.add("stale");
-  byId("verdict").replaceChildren(element("li", { class: "note" }, "No verdict: the text is no problem file now. The picture is that of the last text that was."));
+  withdrawVerdict("the text is no problem that runs");
   const button = element("button", { type: "button", class: "bad" }, error.message);
   const lines = editor.value.split("\n");
   let [from, to] = [0, 0];
@@ -71,6 +75,7 @@ function tell(messages) {
 /** Everything from the text, but for what can wait for a pause. The path is shown at this state. */
 function recompute({ asked = false, state = current } = {}) {
   const began = performance.now();
+  clearTimeout(later);
   const checked = ask("check", editor.value, { places: true });
   if (checked.error) return complain(checked.error);
   model = checked.result;
@@ -86,11 +91,11 @@ function recompute({ asked = false, state = current } = {}) {
   showPairMenu();
   milliseconds = performance.now() - began;
   byId("time").textContent = `Recomputed in ${digits(milliseconds, 3)} ms.`;
-  clearTimeout(later);
   later = setTimeout(afterPause, Math.max(250, 8 * milliseconds));
 }
 
 function waitForButton() {
+  withdrawVerdict("the problem is large and waits for its button");
   const button = element("button", { type: "button" }, `Run: ${model.dofs} dofs, ${model.steps.length} steps`);
   button.addEventListener("click", () => recompute({ asked: true }));
   byId("message").replaceChildren(button);
@@ -102,7 +107,13 @@ function afterPause() {
   explainState(frames[current]);
   const answer = askPath("run", { page: true });
   if (answer.error) return;
-  result = JSON.parse(new DOMParser().parseFromString(answer.page, "text/html").getElementById("data").textContent);
+  const [drawn, seen] = [frames.length, where(frames[current])];
+  read(JSON.parse(new DOMParser().parseFromString(answer.page, "text/html").getElementById("data").textContent));
+  if (frames.length !== drawn) { // of a plate it has more states
+    busy = true;
+    load(result, frames.findIndex((f) => where(f) === seen));
+    busy = false;
+  }
   showRest();
 }
 
@@ -116,6 +127,7 @@ function handle(attributes, words, begin) {
     dragging = { to: begin(), x: event.clientX, y: event.clientY };
     held = { times: scene.times };
   });
+  keepTouch(made);
   made.addEventListener("keydown", (event) => {
     const step = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
     if (!step) return;
@@ -276,10 +288,8 @@ async function copyLink() {
 function listenToText() {
   const take = (text) => { editor.value = text; textsBefore.add(text); recompute({ state: Infinity }); };
   editor.addEventListener("input", () => { textsBefore.add(editor.value); recompute(); });
-  byId("own").addEventListener("keydown", (event) => {
-    if (!undoes(event) && !redoes(event)) return;
-    event.preventDefault();
-    editor.value = undoes(event) ? textsBefore.undo() : textsBefore.redo();
+  listenForUndo(byId("own"), (way) => {
+    editor.value = textsBefore[way]();
     recompute();
   });
   editor.addEventListener("scroll", follow);

@@ -64,6 +64,23 @@ class TextHistory {
   redo() { this.at = Math.min(this.texts.length - 1, this.at + 1); return this.text; }
 }
 
+let takeBack = null; // what the keys act on where nothing has the focus, as after a drag
+
+/** The keys that take back and bring back, for what is in `holder`. `act` gets the name of the history's function. */
+function listenForUndo(holder, act) {
+  const take = (event) => {
+    if (!undoes(event) && !redoes(event)) return;
+    event.preventDefault();
+    act(undoes(event) ? "undo" : "redo");
+  };
+  holder.addEventListener("keydown", take);
+  holder.addEventListener("pointerdown", () => { takeBack = take; });
+}
+addEventListener("keydown", (event) => { if (document.activeElement === document.body && takeBack) takeBack(event); });
+
+/** A finger's drag goes on when the handle under it is drawn anew: without this the browser scrolls then. */
+const keepTouch = (handle) => handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
+
 /** Does this key press take back, or bring back? */
 const undoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === "z" && !event.shiftKey;
 const redoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && (event.key.toLowerCase() === "y" || (event.key.toLowerCase() === "z" && event.shiftKey));

@@ -17,9 +17,10 @@ function shapeOf(nodes, u, parts = 6) {
 }
 
 class ContactScene {
-  /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size. */
-  constructor(holder, { text, load = "step[1].point[1]", most = 1, kernels = ["fortran", "cpp"], listing = "", question = "" }) {
-    Object.assign(this, { holder, load, most, kernels, question });
+  /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size. `beside`: other code that does
+      the same, by lines of the listing. */
+  constructor(holder, { text, load = "step[1].point[1]", most = 1, kernels = ["fortran", "cpp"], listing = "", beside = null, question = "" }) {
+    Object.assign(this, { holder, load, most, kernels, beside, question });
     this.history = new TextHistory(text);
     this.listing = listing.split("\n").slice(0, -1).map((words) => element("li", {}, words));
     this.build();
@@ -52,12 +53,7 @@ class ContactScene {
     this.inside = element("div", { class: "inside", hidden: "" }, this.values, this.lines);
     this.holder.classList.add("scene");
     this.holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...Object.values(this.buttons)), this.inside);
-    this.holder.addEventListener("keydown", (event) => {
-      if (!undoes(event) && !redoes(event)) return;
-      event.preventDefault();
-      event.stopPropagation();
-      this.restore(undoes(event) ? this.history.undo() : this.history.redo());
-    });
+    listenForUndo(this.holder, (way) => this.restore(this.history[way]()));
   }
 
   // ---- the program's answers ----
@@ -199,6 +195,7 @@ class ContactScene {
     const made = svg("rect", { x: x - 24, y: top - 8, width: 48, height: 72, rx: 8, class: "handle across", tabindex: "0", role: "slider", "aria-label": words,
       "aria-valuenow": String(this.force), "aria-valuemin": String(-this.most), "aria-valuemax": "0" }, svg("title", {}, words));
     made.addEventListener("pointerdown", (event) => this.drag(event));
+    keepTouch(made);
     made.addEventListener("keydown", (event) => {
       const [across, along] = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key] || [0, 0];
       if (across === 0 && along === 0) return;
@@ -280,7 +277,7 @@ class ContactScene {
     const [x, y, foot] = [X(this.nodes[p.at]), Y(closed ? w : p.face), Y(p.face) - p.side * 26];
     const through = this.through && p.side * (p.face - w) * times < -0.5;
     const turns = [0.2, 0.35, 0.5, 0.65, 0.8].map((t, i) => `L${x + (i % 2 ? 6 : -6)} ${y + (foot - y) * t}`).join("");
-    root.append(titled(`pair ${p.pair}: face ${p.surface} at ${short(p.face)}`, shape(`M${x} ${y}${turns}L${x} ${foot}`, "spring"),
+    root.append(titled(`pair ${p.pair}: face ${p.surface} at ${short(p.face)}`, shape(`M${x} ${y}${turns}L${x} ${foot}`, "spring", { fill: "none" }),
       line(x - 16, y, x + 16, y, `face-line${through ? " through" : ""}`), line(x - 12, foot, x + 12, foot, "thin")));
     root.append(axisWord(x + 14, foot - 4, String(p.pair)));
   }
@@ -319,11 +316,15 @@ class ContactScene {
     root.append(line(S(0), y, S(1), y, "zero"), ...[0, 1].map((s) => line(S(s), y - 5, S(s), y + 5, "zero")),
       axisWord(S(0), y + 22, "0", "start"), axisWord(S(1), y + 22, "1: all the load", "end"));
     const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
-    for (const p of [...meeting].sort((a, b) => a.s - b.s)) {
+    for (const [n, p] of [...meeting].sort((a, b) => a.s - b.s).entries()) {
       const gold = p.s === told.s;
       const words = `pair ${p.pair}: s = ${p.s}${gold ? ", the smallest: s_min" : ""}`;
       const dot = svg("circle", { cx: S(p.s), cy: y, r: gold ? 8 : 6, class: gold ? "dot gold" : "dot", tabindex: "0", role: "button", "aria-label": words, "data-s": String(p.s) }, svg("title", {}, words));
-      const open = () => { this.at = this.linesOf(this.k).findIndex((l) => l.pair?.pair === p.pair); this.draw(); };
+      const open = () => {
+        this.at = this.linesOf(this.k).findIndex((l) => l.pair?.pair === p.pair);
+        this.draw();
+        this.picture.querySelectorAll("[data-s]")[n]?.focus();
+      };
       dot.addEventListener("click", open);
       dot.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); open(); } });
       root.append(dot);
@@ -386,7 +387,9 @@ class ContactScene {
     const { pair } = now;
     const known = pair ? [["GAP", pair.gap, 30], ["DTEST", pair.d_star, 31], ["SS", pair.s, 34], ["DIFF", pair.diff, 51]].filter(([, value, from]) => value !== undefined && value !== null && now.line >= from) : [];
     const smin = now.line >= 42 ? [["SMIN", this.told[this.k].s]] : [];
+    const code = this.beside?.[now.line];
     this.values.replaceChildren(element("dt", {}, pair ? `I = ${pair.pair}` : ""), element("dd", {}, `Line ${now.line}: ${now.words}`),
-      ...[...known, ...smin].flatMap(([name, value]) => [element("dt", {}, name), element("dd", { "data-value": String(value) }, minus(String(value)))]));
+      ...[...known, ...smin].flatMap(([name, value]) => [element("dt", {}, name), element("dd", { "data-value": String(value) }, minus(String(value)))]),
+      ...(code ? [element("dt", {}, "In C++"), element("dd", {}, element("code", {}, code))] : []));
   }
 }
