@@ -5,25 +5,20 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/model/placed_loads.hpp"
 #include "contct/number/rational.hpp"
 
 using namespace contct;
 
 namespace {
 
-struct visited {
-  int element;
+/// The coefficients of the load on an element that it does not break.
+std::vector<double> load_on(const beam& b, const load& l, int element) {
+  const std::vector<element_piece> pieces = pieces_of(b, l).at(element);
+  REQUIRE(pieces.size() == 1);
   std::vector<double> q;
-  double size;
-};
-
-std::vector<visited> visits(const beam& b, const load& l) {
-  std::vector<visited> all;
-  contct::for_each_polynomial<double_double>(b, l, [&](int e, const auto& on) {
-    visited& v = all.emplace_back(visited{e, {}, on.size});
-    for (const auto& coefficient : on.q) v.q.push_back(coefficient.hi);
-  });
-  return all;
+  for (const double_double& coefficient : pieces[0].q) q.push_back(coefficient.hi);
+  return q;
 }
 
 double_double decimal(double x) {
@@ -115,21 +110,19 @@ TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts"
 
 TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element that begins there") {
   const beam b{{1000.0, 1001.0, 1003.0}, {1, 1}};
-  const auto all = visits(b, {{}, {{sixth_power, {}}}});
-  REQUIRE(all.size() == 2);
-  CHECK(all[0].q == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
-  CHECK(all[1].q == std::vector<double>{1, 12, 60, 160, 240, 192, 64});  // (1 + 2 t)^6
-  CHECK(all[0].size == 1.0);
-  CHECK(all[1].element == 1);
+  const load l{{}, {{sixth_power, {}}}};
+  CHECK(load_on(b, l, 0) == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
+  CHECK(load_on(b, l, 1) == std::vector<double>{1, 12, 60, 160, 240, 192, 64});  // (1 + 2 t)^6
+  CHECK(pieces_of(b, l).at(0)[0].size == 1.0);
 }
 
 TEST_CASE("Parts of a load add up exactly before they are shifted to an element") {
   const beam b{{0.0, 1.0, 2.0}, {1, 1}};
-  const auto all =
-      visits(b, {{}, {{{0.1 + 0.2 - 0.3}, {1}, {{{0.1}}, {{0.2}}, {{-0.3}}}}, {{4.0, 2.0}, {}}}});
-  REQUIRE(all.size() == 3);
-  CHECK(all[0].element == 1);
-  CHECK(all[0].q == std::vector<double>{0.0});
-  CHECK(all[0].size == 0.0);
-  CHECK(all[2].q == std::vector<double>{6.0, 2.0});
+  load l{{}, {{{0.1 + 0.2 - 0.3}, {1}, {{{0.1}}, {{0.2}}, {{-0.3}}}}}};
+  CHECK(load_on(b, l, 1) == std::vector<double>{0.0});
+  CHECK(pieces_of(b, l).size() == 1);
+  CHECK(pieces_of(b, l).at(1)[0].size == 0.0);
+  l.distributed.push_back({{4.0, 2.0}, {}});
+  CHECK(load_on(b, l, 0) == std::vector<double>{4.0, 2.0});
+  CHECK(load_on(b, l, 1) == std::vector<double>{6.0, 2.0});
 }

@@ -9,24 +9,6 @@
 namespace contct {
 namespace {
 
-rational dot(const rational_vector& a, const rational_vector& b) {
-  rational sum;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (a[i] != 0 && b[i] != 0) sum += a[i] * b[i];
-  return sum;
-}
-
-/// sum += share * part.
-void add(rational_vector& sum, const rational_vector& part, const rational& share) {
-  if (share == 0) return;
-  for (std::size_t i = 0; i < sum.size(); ++i)
-    if (part[i] != 0) sum[i] += share * part[i];
-}
-
-bool is_zero(const rational_vector& v) {
-  return std::all_of(v.begin(), v.end(), [](const rational& x) { return x == 0; });
-}
-
 /// The response of the structure to the step's load on a ground of stiffness epsilon M, for epsilon to 0:
 ///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
 /// With rigid-body motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later one

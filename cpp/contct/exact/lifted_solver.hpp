@@ -13,8 +13,6 @@
 
 namespace contct {
 
-using rational_vector = std::vector<rational>;
-
 /// All entries of a symmetric matrix, row by row.
 using rational_rows = sparse_rows<rational>;
 

@@ -24,13 +24,6 @@ template <>
   return std::abs(x.hi);
 }
 
-/// A distributed load on an element: a polynomial in t = (x - left) / h, from 0 to 1, constant first.
-template <class Number>
-struct load_on_element {
-  std::vector<Number> q;
-  double size = 0.0;  ///< each of q is off by at most 2^-89 of it
-};
-
 }  // namespace contct
 
 namespace contct::formulas {
@@ -178,21 +171,6 @@ template <class Number>
 std::array<Number, 4> released_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
   const Number moment = 3 * EI / h * (u[1] - (u[2] - u[0]) / h);
   return {moment / h, moment / h, -moment, Number(0)};
-}
-
-/// Work of the load q(t) = q0 + q1 t + .. on the shape functions of an element of length h.
-template <class Number>
-std::array<Number, 4> beam_load(std::span<const Number> q, const Number& h) {
-  std::array<Number, 4> f{};
-  for (std::size_t m = 0; m < q.size(); ++m) {
-    // The integral of t^m times 1 - 3 t^2 + 2 t^3, t - 2 t^2 + t^3, 3 t^2 - 2 t^3 and t^3 - t^2.
-    const auto power = [m](int n) { return Number(1) / Number(static_cast<int>(m) + n + 1); };
-    f[0] += q[m] * h * (power(0) - 3 * power(2) + 2 * power(3));
-    f[1] += q[m] * h * h * (power(1) - 2 * power(2) + power(3));
-    f[2] += q[m] * h * (3 * power(2) - 2 * power(3));
-    f[3] += q[m] * h * h * (power(3) - power(2));
-  }
-  return f;
 }
 
 /// Work of the load a0 + a1 x + .. on the shape functions of the element from `left` to left + h in doubles,

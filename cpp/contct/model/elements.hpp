@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 #include "contct/model/element_formulas.hpp"
@@ -28,7 +29,7 @@ class beam_elements {
   /// `b` must outlive this object.
   explicit beam_elements(const beam& b) : beam_(b), h_(line<Number>(b.x, b.runs).lengths()) {
     for (int e = 0; e < b.elements(); ++e)  // most beams have one stiffness
-      EI_.push_back(e > 0 && has_stiffness_of(e, e - 1) ? EI_.back() : stiffness_of<Number>(b, e));
+      EI_.push_back(e > 0 && b.is_alike(e, e - 1) ? EI_.back() : stiffness_of<Number>(b, e));
   }
 
   [[nodiscard]] int count() const { return beam_.elements(); }
@@ -37,7 +38,7 @@ class beam_elements {
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
   /// Have two elements the same stiffness?
   [[nodiscard]] bool are_alike(int e, int other) const {
-    return h_[e] == h_[other] && has_stiffness_of(e, other) && is_released(e) == is_released(other);
+    return h_[e] == h_[other] && beam_.is_alike(e, other) && is_released(e) == is_released(other);
   }
   /// Is there a hinge at its right end?
   [[nodiscard]] bool is_released(int e) const { return beam_.has_hinge(e + 1); }
@@ -46,30 +47,22 @@ class beam_elements {
                           : formulas::beam_stiffness(EI(e), h_[e]);
   }
 
-  /// Call visit(element, work) for every load on every element, or for all those on an element together.
+  /// Call visit(element, work) for all loads on every element together; in doubles for each that follows the
+  /// mesh, where no other does.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
-    if (are_summed_exactly<Number>(l)) {
-      for_each_exact_work<Number>(beam_, l, [&](int e, const std::array<Number, 4>& force) {
-        element_work<Number, 4> work{dofs_of(e), force, {}};
-        for (std::size_t i = 0; i < 4; ++i) work.size[i] = size_of(force[i]);
-        visit(e, condensed(e, work));
-      });
-      return;
-    }
     if constexpr (std::is_same_v<Number, double>) {
-      for_each_loaded_element(l, count(), [&](int e, std::span<const double> polynomial) {
-        const auto force = formulas::beam_load_between(polynomial, beam_.x[e], h_[e]);
-        visit(e, condensed(e, {dofs_of(e), force, {}}));
-      });
-    } else {
-      for_each_polynomial<Number>(beam_, l, [&](int e, const load_on_element<Number>& on) {
-        element_work<Number, 4> work{dofs_of(e), formulas::beam_load<Number>(on.q, h_[e]), {}};
-        const double size = on.size * size_of(h_[e]);
-        for (std::size_t i = 0; i < 4; ++i) work.size[i] = size * (i % 2 == 0 ? 1.0 : size_of(h_[e]));
-        visit(e, condensed(e, work));
-      });
+      if (l.placed.empty())
+        return for_each_loaded_element(l, count(), [&](int e, std::span<const double> polynomial) {
+          const auto force = formulas::beam_load_between(polynomial, beam_.x[e], h_[e]);
+          visit(e, condensed(e, {dofs_of(e), force, {}}));
+        });
     }
+    for_each_exact_work<Number>(beam_, l, [&](int e, const std::array<Number, 4>& force) {
+      element_work<Number, 4> work{dofs_of(e), force, {}};
+      for (std::size_t i = 0; i < 4; ++i) work.size[i] = size_of(force[i]);
+      visit(e, condensed(e, work));
+    });
   }
 
   /// Of each element: shear at its left and right ends, moment there.
@@ -111,10 +104,6 @@ class beam_elements {
   [[nodiscard]] std::vector<Number> shares() const { return tributary_lengths<Number>(h_); }
 
  private:
-  [[nodiscard]] bool has_stiffness_of(int e, int other) const {
-    return beam_.EI[e] == beam_.EI[other] &&
-           (beam_.sections.empty() || beam_.sections[e] == beam_.sections[other]);
-  }
   [[nodiscard]] std::array<Number, 4> forces_of(int e, std::span<const Number, 4> u) const {
     return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], u)
                           : formulas::beam_end_forces<Number>(EI(e), h_[e], u);
@@ -181,16 +170,12 @@ class plate_elements {
 
   /// On every element: all the distributed loads together.
   [[nodiscard]] std::vector<summed_pressure<Number>> pressures(const load& l) const {
-    if (are_summed_exactly<Number>(l)) return exact_pressures<Number>(plate_, l);
+    if (!std::is_same_v<Number, double> || !l.placed.empty()) return exact_pressures<Number>(plate_, l);
     std::vector<summed_pressure<Number>> sums(count());
-    for (const distributed_load& d : l.distributed) {
-      const std::vector<Number> q = coefficients_of<Number>(d);
+    for_each_loaded_element(l, count(), [&](int e, std::span<const double> q) {
       if (q.size() != 1) throw std::invalid_argument("the pressure on a plate's element is constant");
-      for_each_loaded_element(d, count(), [&](int e) {
-        sums[e].value += q[0];
-        sums[e].size += size_of(q[0]);
-      });
-    }
+      sums[e].value += q[0];
+    });
     return sums;
   }
 

@@ -15,12 +15,6 @@ namespace {
 /// Polynomials, constant first.
 using poly = std::vector<double>;
 
-poly derivative(const poly& p) {
-  poly d;
-  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(static_cast<double>(i) * p[i]);
-  return d;
-}
-
 /// A zero of p between a and b, where it has different signs.
 double zero_between(const poly& p, double a, double b) {
   const bool rises = polynomial_at(p, a) < 0.0;
@@ -198,25 +192,14 @@ value_range deflections_between(const beam& b, const beam_lines& lines, std::spa
 
 beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
                        std::span<const double> element_values)
-    : beam_(b), u_(u), ends_(results_in_elements(model{b}, l, u)), loads_(b.elements()) {
+    : beam_(b), u_(u), ends_(results_in_elements(model{b}, l, u)), pieces_(pieces_of(b, l)) {
   if (!element_values.empty()) ends_.values.assign(element_values.begin(), element_values.end());
   for (const auto& h : line<double_double>(b.x, b.runs).lengths()) h_.push_back(h.hi);
-  if (!l.placed.empty()) {
-    for (auto& [e, pieces] : pieces_of(b, l)) {
-      if (pieces.size() == 1 && pieces[0].is_plain()) {
-        loads_[e] = {std::move(pieces[0].q), pieces[0].size};
-      } else {
-        pieces_.emplace(e, std::move(pieces));
-      }
-    }
-    return;
-  }
-  for_each_polynomial<double_double>(b, l, [&](int e, const auto& on) {
-    auto& sum = loads_[e];
-    sum.q.resize(std::max(sum.q.size(), on.q.size()));
-    for (std::size_t i = 0; i < on.q.size(); ++i) sum.q[i] += on.q[i];
-    sum.size += on.size;
-  });
+}
+
+bool beam_lines::is_broken(int e) const {
+  const auto found = pieces_.find(e);
+  return found != pieces_.end() && (found->second.size() > 1 || !found->second[0].is_plain());
 }
 
 namespace {
@@ -284,21 +267,30 @@ double sum_of_sizes(const poly& p) {
 
 element_line beam_lines::at(int e) const {
   const double h = h_[e];
-  const poly q = in_doubles(loads_[e].q);
+  const auto found = pieces_.find(e);
+  const bool is_loaded = found != pieces_.end() && !is_broken(e);
+  const poly q = is_loaded ? in_doubles(found->second[0].q) : poly{};
   const line_of<double> line({w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]}, q, h,
                              beam_.EI[e], 0.0);
-  return completed({beam_.x[e], h, beam_.x[e] + h, line.w, {}, line.moment, line.shear, q, loads_[e].size});
+  return completed({beam_.x[e],
+                    h,
+                    beam_.x[e] + h,
+                    line.w,
+                    {},
+                    line.moment,
+                    line.shear,
+                    q,
+                    is_loaded ? found->second[0].size : 0.0});
 }
 
 /// From the left in 32 digits: each coefficient is then rounded once. What that is off by is below 2^-80 of
 /// the loads and the largest shear and moment, which load_size has.
 std::vector<element_line> beam_lines::pieces(int e) const {
-  const auto broken = pieces_.find(e);
-  if (broken == pieces_.end()) return {at(e)};
+  if (!is_broken(e)) return {at(e)};
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
   std::vector<element_line> all;
   double size = 0.0;
-  for (const element_piece& p : broken->second) {
+  for (const element_piece& p : pieces_.at(e)) {
     left.shear += p.force;
     left.moment -= p.moment;  // of a moment that works on the slope
     const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);

@@ -19,7 +19,7 @@ namespace contct {
 struct element_line {
   double left = 0.0, h = 0.0, right = 0.0;
   std::vector<double> w, slope, moment, shear, load;
-  double load_size = 0.0;  ///< see load_on_element
+  double load_size = 0.0;  ///< the magnitudes of `load`, each of which is off by at most 2^-89 of it
   double curvature = 0.0;  ///< imposed
 };
 
@@ -37,7 +37,7 @@ class beam_lines {
   /// none. A load at a place makes the shear or the moment jump there.
   [[nodiscard]] std::vector<element_line> pieces(int e) const;
   /// Has element `e` more than one, or an imposed curvature?
-  [[nodiscard]] bool is_broken(int e) const { return pieces_.contains(e); }
+  [[nodiscard]] bool is_broken(int e) const;
   /// Shear and moment at the ends of the elements.
   [[nodiscard]] const element_results& ends() const { return ends_; }
 
@@ -45,9 +45,8 @@ class beam_lines {
   const beam& beam_;
   std::span<const double> u_;
   element_results ends_;
-  std::vector<double> h_;                              // of each element
-  std::vector<load_on_element<double_double>> loads_;  // likewise; without coefficients: none
-  std::map<int, std::vector<element_piece>> pieces_;   // of those that loads break, or curve
+  std::vector<double> h_;                             // of each element
+  std::map<int, std::vector<element_piece>> pieces_;  // of those that something acts on
 };
 
 /// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the

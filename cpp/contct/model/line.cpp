@@ -7,14 +7,6 @@
 namespace contct {
 namespace {
 
-template <class Number>
-std::vector<Number> nearest(std::span<const rational> exactly) {
-  std::vector<Number> all;
-  all.reserve(exactly.size());
-  for (const rational& x : exactly) all.push_back(contct::nearest<Number>(x));
-  return all;
-}
-
 /// A whole number that is a sum or difference of two such ones is a double, too.
 bool is_whole(double x) {
   return x == std::trunc(x) && std::abs(x) < 0x1p52;
@@ -30,13 +22,6 @@ rational exact_sum_of(std::span<const point_load> all) {
   return sum;
 }
 
-/// A polynomial at a point.
-rational value_at(std::span<const rational> polynomial, const rational& x) {
-  rational sum;
-  for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * x + polynomial[i];
-  return sum;
-}
-
 std::vector<rational> exact_coefficients(const distributed_load& d) {
   std::vector<rational> sum(d.polynomial.size());
   const auto add = [&sum](std::span<const double> part, double factor, double times) {
@@ -46,13 +31,6 @@ std::vector<rational> exact_coefficients(const distributed_load& d) {
   if (d.parts.empty()) add(d.polynomial, 1.0, 1.0);
   for (const scaled_polynomial& part : d.parts) add(part.coefficients, part.factor, part.times);
   return sum;
-}
-
-template <class Number>
-load_on_element<Number> rounded_load(std::span<const rational> q) {
-  load_on_element<Number> on{nearest<Number>(q), 0.0};
-  for (const Number& coefficient : on.q) on.size += size_of(coefficient);
-  return on;
 }
 
 }  // namespace
@@ -89,7 +67,16 @@ double sum_of(std::span<const point_load> all) {
 template <class Number>
 std::vector<Number> coefficients_of(const distributed_load& d) {
   if constexpr (std::is_same_v<Number, double>) return d.polynomial;
-  return nearest<Number>(exact_coefficients(d));
+  std::vector<Number> all;
+  for (const rational& x : exact_coefficients(d)) all.push_back(nearest<Number>(x));
+  return all;
+}
+
+template <class Number>
+std::vector<Number> coefficients_of(const placed_load& p) {
+  std::vector<Number> all;
+  for (const double a : p.polynomial) all.push_back(product_of<Number>(a, p.factor));
+  return all;
 }
 
 template <class Number>
@@ -111,21 +98,8 @@ std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
   const line<rational> x(b.x, b.runs);
   const std::vector<rational> a = exact_coefficients({{polynomial.begin(), polynomial.end()}, {}});
   std::vector<Number> values;
-  for (const int node : nodes) values.push_back(nearest<Number>(value_at(a, x.at(node))));
+  for (const int node : nodes) values.push_back(nearest<Number>(polynomial_at(a, x.at(node))));
   return values;
-}
-
-template <class Number>
-void for_each_polynomial(const beam& b, const load& l, const load_visitor<Number>& visit) {
-  const line<rational> x(b.x, b.runs);
-  for (const distributed_load& d : l.distributed) {
-    const std::vector<rational> a = exact_coefficients(d);
-    const load_on_element<Number> uniform = rounded_load<Number>(a);
-    for_each_loaded_element(d, b.elements(), [&](int e) {
-      if (a.size() == 1) return visit(e, uniform);
-      visit(e, rounded_load<Number>(formulas::in_element<rational>(a, x.at(e), x.length(e))));
-    });
-  }
 }
 
 template double number_of(double x);
@@ -142,6 +116,7 @@ template rational sum_of(std::span<const point_load> all);
 template std::vector<double> coefficients_of(const distributed_load& d);
 template std::vector<double_double> coefficients_of(const distributed_load& d);
 template std::vector<rational> coefficients_of(const distributed_load& d);
+template std::vector<rational> coefficients_of(const placed_load& p);
 template double stiffness_of(const plate& p);
 template double_double stiffness_of(const plate& p);
 template rational stiffness_of(const plate& p);
@@ -151,7 +126,5 @@ template rational stiffness_of(const beam& b, int element);
 template std::vector<double> values_at(const beam&, std::span<const double>, std::span<const int>);
 template std::vector<double_double> values_at(const beam&, std::span<const double>, std::span<const int>);
 template std::vector<rational> values_at(const beam&, std::span<const double>, std::span<const int>);
-template void for_each_polynomial(const beam&, const load&, const load_visitor<double_double>&);
-template void for_each_polynomial(const beam&, const load&, const load_visitor<rational>&);
 
 }  // namespace contct

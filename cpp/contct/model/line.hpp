@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -40,6 +39,8 @@ template <>
 /// has any.
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
+template <class Number>
+[[nodiscard]] std::vector<Number> coefficients_of(const placed_load& p);
 
 /// D of a plate, or E t^3 / 12 (1 - nu^2) where the file has these.
 template <class Number>
@@ -53,14 +54,6 @@ template <class Number>
 template <class Number>
 [[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
                                             std::span<const int> nodes);
-
-/// Visit every element, from 0, for every load that acts on it.
-template <class Number>
-using load_visitor = std::function<void(int element, const load_on_element<Number>&)>;
-
-/// Distributed loads on a beam, about its elements, in pairs of doubles and in rational numbers.
-template <class Number>
-void for_each_polynomial(const beam& b, const load& l, const load_visitor<Number>& visit);
 
 /// Equal elements from a point on.
 struct even_part {

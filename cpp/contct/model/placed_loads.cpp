@@ -11,36 +11,7 @@
 namespace contct {
 namespace {
 
-/// Polynomials, constant first.
-using exact_poly = std::vector<rational>;
-
-rational polynomial_value(const exact_poly& p, const rational& t) {
-  rational sum;
-  for (std::size_t i = p.size(); i-- > 0;) sum = sum * t + p[i];
-  return sum;
-}
-
-exact_poly slope_of(const exact_poly& p) {
-  exact_poly d;
-  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
-  return d;
-}
-
-/// Of the product of two polynomials, between these ends.
-rational integral_of_product(const exact_poly& p, const exact_poly& q, const rational& from,
-                             const rational& to) {
-  exact_poly primitive(p.size() + q.size());
-  for (std::size_t i = 0; i < p.size(); ++i)
-    for (std::size_t k = 0; k < q.size(); ++k)
-      primitive[i + k + 1] += p[i] * q[k] / static_cast<int>(i + k + 1);
-  return polynomial_value(primitive, to) - polynomial_value(primitive, from);
-}
-
-exact_poly exactly(const placed_load& p) {
-  exact_poly values;
-  for (const double a : p.polynomial) values.push_back(decimal_of(p.factor) * decimal_of(a));
-  return values;
-}
+using exact_poly = rational_vector;
 
 /// The first and the last of a line's intervals that a load from `from` to `to` acts on; a place has the one
 /// in which it is.
@@ -76,7 +47,8 @@ struct acting {
 /// All loads on a beam, element by element.
 class beam_sources {
  public:
-  beam_sources(const beam& b, const load& l) : beam_(b), points_(b.x, b.runs), on_(b.elements()) {
+  beam_sources(const beam& b, const load& l)
+      : beam_(b), points_(b.x, b.runs), h_(points_.lengths()), on_(b.elements()) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
     for (const distributed_load& d : l.distributed) {
       for_each_loaded_element(d, b.elements(), [this](int e) { on_[e].push_back(all_.size()); });
@@ -85,12 +57,12 @@ class beam_sources {
     for (const placed_load& p : l.placed) {
       const auto [first, last] = intervals_of(b.x, p.from, p.to);
       for (int e = first; e <= last; ++e) on_[e].push_back(all_.size());
-      all_.push_back({p.what, p.from, p.to, exactly(p)});
+      all_.push_back({p.what, p.from, p.to, coefficients_of<rational>(p)});
     }
   }
 
   [[nodiscard]] bool acts_on(int e) const { return !on_[e].empty(); }
-  [[nodiscard]] rational h(int e) const { return points_.length(e); }
+  [[nodiscard]] const rational& h(int e) const { return h_[e]; }
   [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
   /// The coordinate of a place in an element.
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
@@ -107,20 +79,22 @@ class beam_sources {
     return all;
   }
 
-  /// Do the same constant loads act on all of both elements, which are equal? Not always noticed.
+  /// Do the same constant loads act on all of both elements, which are equal? Both then have one piece. Not
+  /// always noticed.
   [[nodiscard]] bool are_alike(int e, int other) const {
     const auto is_same_on_both = [&](std::size_t i) {
       const source& s = all_[i];
       return s.values.size() == 1 && s.from <= beam_.x[std::min(e, other)] &&
              s.to >= beam_.x[std::max(e, other) + 1];
     };
-    return on_[e] == on_[other] && EI(e) == EI(other) && h(e) == h(other) &&
+    return on_[e] == on_[other] && beam_.is_alike(e, other) && h_[e] == h_[other] &&
            std::all_of(on_[e].begin(), on_[e].end(), is_same_on_both);
   }
 
  private:
   const beam& beam_;
   line<rational> points_;
+  rational_vector h_;
   std::vector<source> all_;
   std::vector<std::vector<std::size_t>> on_;  // [elements] which of them
 };
@@ -132,13 +106,13 @@ void add_work(const acting& a, const rational& h, const rational& EI, std::array
       {{1, 0, -3, 2}, {0, 1, -2, 1}, {0, 0, 3, -2}, {0, 0, -1, 1}}};
   const auto& [from, to] = a.part;
   for (std::size_t i = 0; i < 4; ++i) {
-    const exact_poly slope = slope_of(shapes[i]);
+    const exact_poly slope = derivative(shapes[i]);
     rational work;
-    if (a.what == load_kind::force) work = h * integral_of_product(a.values, shapes[i], from, to);
-    if (a.what == load_kind::point) work = a.values[0] * polynomial_value(shapes[i], from);
-    if (a.what == load_kind::moment) work = a.values[0] * polynomial_value(slope, from) / h;
+    if (a.what == load_kind::force) work = h * integral_of(a.values, shapes[i], from, to);
+    if (a.what == load_kind::point) work = a.values[0] * polynomial_at(shapes[i], from);
+    if (a.what == load_kind::moment) work = a.values[0] * polynomial_at(slope, from) / h;
     if (a.what == load_kind::curvature)
-      work = EI * a.values[0] * (polynomial_value(slope, to) - polynomial_value(slope, from)) / h;
+      work = EI * a.values[0] * (polynomial_at(slope, to) - polynomial_at(slope, from)) / h;
     force[i] += i % 2 == 0 ? work : work * h;
   }
 }
@@ -186,7 +160,7 @@ void add_rectangle(const plate& p, const placed_load& l, std::vector<rational>& 
                    std::map<int, std::array<rational, 12>>& part) {
   const line<rational> along_x(p.x, p.x_runs);
   const line<rational> along_y(p.y, p.y_runs);
-  const rational pressure = exactly(l)[0];
+  const rational pressure = coefficients_of<rational>(l)[0];
   const auto [left, right] = intervals_of(p.x, l.from, l.to);
   const auto [below, above] = intervals_of(p.y, l.across[0], l.across[1]);
   const auto from_middle = [](const std::array<rational, 2>& shares) {
@@ -262,6 +236,13 @@ std::map<int, std::vector<element_piece>> pieces_of(const beam& b, const load& l
   const beam_sources sources(b, l);
   for (int e = 0; e < b.elements(); ++e) {
     if (!sources.acts_on(e)) continue;
+    std::vector<element_piece>& pieces = all[e];
+    if (e > 0 && sources.are_alike(e, e - 1)) {
+      pieces = all[e - 1];
+      pieces[0].left = b.x[e];
+      pieces[0].right = b.x[e + 1];
+      continue;
+    }
     const std::vector<acting> on = sources.on(e);
     const std::vector<rational> cuts = cuts_of(on);
     const auto x_at = [&](std::size_t cut) {
@@ -269,9 +250,9 @@ std::map<int, std::vector<element_piece>> pieces_of(const beam& b, const load& l
       return cut + 1 == cuts.size() ? b.x[e + 1] : contct::rounded(sources.x_at(e, cuts[cut]));
     };
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-      all[e].push_back(piece_between(on, cuts[i], cuts[i + 1], sources.h(e), sources.EI(e)));
-      all[e].back().left = x_at(i);
-      all[e].back().right = x_at(i + 1);
+      pieces.push_back(piece_between(on, cuts[i], cuts[i + 1], sources.h(e), sources.EI(e)));
+      pieces.back().left = x_at(i);
+      pieces.back().right = x_at(i + 1);
     }
   }
   return all;

@@ -6,20 +6,12 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 #include "contct/model/problem.hpp"
 #include "contct/number/double_double.hpp"
 
 namespace contct {
-
-/// Are all loads on an element summed before they are rounded? In doubles only where the sums are needed
-/// anyway; in longer numbers wherever nothing may be left of several.
-template <class Number>
-[[nodiscard]] bool are_summed_exactly(const load& l) {
-  return !l.placed.empty() || (!std::is_same_v<Number, double> && l.distributed.size() > 1);
-}
 
 /// Call visit(element, force) for every element of a beam that something acts on, with the work of all loads
 /// together on its shape functions, each number rounded once.
@@ -39,7 +31,7 @@ struct summed_pressure {
 template <class Number>
 [[nodiscard]] std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load& l);
 
-/// A part of a beam's element along which everything that acts is one polynomial.
+/// A part of a beam's element along which everything that acts is one polynomial, rounded once.
 struct element_piece {
   double left, right;               ///< x of its ends
   double_double h, EI;              ///< its length and its stiffness

@@ -54,6 +54,10 @@ struct beam {
   [[nodiscard]] int elements() const { return nodes() - 1; }
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
   [[nodiscard]] double length_of(std::size_t element) const { return x[element + 1] - x[element]; }
+  /// Have two elements the same section?
+  [[nodiscard]] bool is_alike(int element, int other) const {
+    return EI[element] == EI[other] && (sections.empty() || sections[element] == sections[other]);
+  }
 };
 
 /// A rectangular Kirchhoff plate of Adini-Clough-Melosh elements: three dofs a node, the deflection w (up)

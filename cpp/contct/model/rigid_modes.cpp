@@ -24,7 +24,7 @@ constexpr int most_iterations = 40;
 
 using numbers = std::vector<double>;
 
-double dot(const numbers& a, const numbers& b) {
+double long_dot(const numbers& a, const numbers& b) {
   long double sum = 0.0L;
   for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<long double>(a[i]) * b[i];
   return static_cast<double>(sum);
@@ -87,10 +87,10 @@ class subspace {
   void make_orthonormal() {
     for (std::size_t i = 0; i < vectors.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        const double share = dot(vectors[i], vectors[j]);
+        const double share = long_dot(vectors[i], vectors[j]);
         for (std::size_t r = 0; r < vectors[i].size(); ++r) vectors[i][r] -= share * vectors[j][r];
       }
-      const double length = std::sqrt(dot(vectors[i], vectors[i]));
+      const double length = std::sqrt(long_dot(vectors[i], vectors[i]));
       for (double& entry : vectors[i]) entry /= length;
     }
   }

@@ -107,57 +107,41 @@ struct rigid_shape {
 
 namespace {
 
-using motion_numbers = rigid_shape<rational>::row;
-
-rational dot(const motion_numbers& a, const motion_numbers& b) {
-  rational sum;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-void subtract(motion_numbers& from, const motion_numbers& part, const rational& share) {
-  for (std::size_t i = 0; i < from.size(); ++i) from[i] -= share * part[i];
-}
-
 /// What is left of `row` beside all of `orthogonal`.
-motion_numbers rest_of(motion_numbers row, std::span<const motion_numbers> orthogonal) {
-  for (const motion_numbers& b : orthogonal) subtract(row, b, dot(row, b) / dot(b, b));
+rational_vector rest_of(rational_vector row, std::span<const rational_vector> orthogonal) {
+  for (const rational_vector& b : orthogonal) add(row, b, -dot(row, b) / dot(b, b));
   return row;
 }
 
-bool is_zero(const motion_numbers& row) {
-  return std::ranges::all_of(row, [](const rational& x) { return x == 0; });
-}
-
 /// Rows at right angles to each other that span what these do.
-std::vector<motion_numbers> orthogonal_of(std::span<const motion_numbers> rows) {
-  std::vector<motion_numbers> all;
-  for (const motion_numbers& row : rows)
-    if (motion_numbers rest = rest_of(row, all); !is_zero(rest)) all.push_back(std::move(rest));
+std::vector<rational_vector> orthogonal_of(std::span<const rational_vector> rows) {
+  std::vector<rational_vector> all;
+  for (const rational_vector& row : rows)
+    if (rational_vector rest = rest_of(row, all); !is_zero(rest)) all.push_back(std::move(rest));
   return all;
 }
 
 /// Is the point nearest to `sum` that `parts` span a sum of them with shares of which none is negative? No
 /// where they are not independent.
-bool has_positive_shares(const motion_numbers& sum, std::span<const motion_numbers> parts) {
+bool has_positive_shares(const rational_vector& sum, std::span<const rational_vector> parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::vector<motion_numbers> others(parts.begin(), parts.end());
+    std::vector<rational_vector> others(parts.begin(), parts.end());
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const motion_numbers own = rest_of(parts[i], orthogonal_of(others));
+    const rational_vector own = rest_of(parts[i], orthogonal_of(others));
     if (is_zero(own) || dot(sum, own) < 0) return false;
   }
   return true;
 }
 
 /// Those of a few `parts` whose sum with shares of which none is negative comes nearest to `sum`.
-std::vector<motion_numbers> nearest_of(const motion_numbers& sum, std::span<const motion_numbers> parts) {
-  std::vector<motion_numbers> nearest;
+std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<const rational_vector> parts) {
+  std::vector<rational_vector> nearest;
   rational least = dot(sum, sum);
   for (unsigned chosen = 1; chosen < 1U << parts.size(); ++chosen) {
-    std::vector<motion_numbers> some;
+    std::vector<rational_vector> some;
     for (std::size_t i = 0; i < parts.size(); ++i)
       if ((chosen >> i & 1U) != 0) some.push_back(parts[i]);
-    const motion_numbers rest = rest_of(sum, orthogonal_of(some));
+    const rational_vector rest = rest_of(sum, orthogonal_of(some));
     if (const rational far = dot(rest, rest); far < least && has_positive_shares(sum, some)) {
       nearest = some;
       least = far;
@@ -169,14 +153,14 @@ std::vector<motion_numbers> nearest_of(const motion_numbers& sum, std::span<cons
 /// Is `sum` a sum of `parts` with shares of which none is negative? No more parts than motions carry the
 /// point of their cone that is nearest to it. A part that leads nearer takes the place of one of these, or
 /// joins them: every choice is nearer than the last, so this ends.
-bool is_in_cone(const motion_numbers& sum, std::span<const motion_numbers> parts) {
-  std::vector<motion_numbers> carrying;
+bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> parts) {
+  std::vector<rational_vector> carrying;
   for (;;) {
-    const motion_numbers rest = rest_of(sum, orthogonal_of(carrying));
+    const rational_vector rest = rest_of(sum, orthogonal_of(carrying));
     if (is_zero(rest)) return true;
-    const motion_numbers* leads_nearer = nullptr;
+    const rational_vector* leads_nearer = nullptr;
     rational most = 0;
-    for (const motion_numbers& part : parts) {
+    for (const rational_vector& part : parts) {
       if (rational gain = dot(part, rest); gain > most) {
         most = std::move(gain);
         leads_nearer = &part;
@@ -186,24 +170,6 @@ bool is_in_cone(const motion_numbers& sum, std::span<const motion_numbers> parts
     carrying.push_back(*leads_nearer);
     carrying = nearest_of(sum, carrying);
   }
-}
-
-/// sum of coefficients[i] (b^(i+1) - a^(i+1)) / (i+1) and the same of x times the polynomial.
-struct integrals {
-  rational plain, by_x;
-};
-integrals integrate(std::span<const rational> coefficients, const rational& a, const rational& b) {
-  integrals sum;
-  rational power_a = a;
-  rational power_b = b;
-  for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    const int next = static_cast<int>(i) + 1;
-    sum.plain += coefficients[i] * (power_b - power_a) / next;
-    power_a *= a;
-    power_b *= b;
-    sum.by_x += coefficients[i] * (power_b - power_a) / (next + 1);
-  }
-  return sum;
 }
 
 /// Call visit(first, last) for each run of elements that follow each other, from 0.
@@ -224,8 +190,8 @@ struct rigid_truth::shape : rigid_shape<rational> {
   using rigid_shape<rational>::rigid_shape;
 
   /// At right angles to each other, what the rows of these dofs span.
-  [[nodiscard]] std::vector<motion_numbers> orthogonal_rows(std::span<const int> dofs) const {
-    std::vector<motion_numbers> rows;
+  [[nodiscard]] std::vector<rational_vector> orthogonal_rows(std::span<const int> dofs) const {
+    std::vector<rational_vector> rows;
     for (const int dof : dofs) rows.push_back(row_of(dof));
     return orthogonal_of(rows);
   }
@@ -249,8 +215,8 @@ struct rigid_truth::shape : rigid_shape<rational> {
     return std::nullopt;
   }
 
-  void add_distributed(const distributed_load& d, motion_numbers& work) const {
-    const std::vector<rational> q = coefficients_of<rational>(d);
+  void add_distributed(const distributed_load& d, rational_vector& work) const {
+    const rational_vector q = coefficients_of<rational>(d);
     const int columns = along_x.points().intervals();
     if (!along_y) {
       for_each_run(d.elements, columns, [&](int first, int last) {
@@ -263,9 +229,8 @@ struct rigid_truth::shape : rigid_shape<rational> {
   }
 
   /// A curvature does no work.
-  void add_placed(const placed_load& p, motion_numbers& work) const {
-    std::vector<rational> q;
-    for (const double a : p.polynomial) q.push_back(decimal_of(p.factor) * decimal_of(a));
+  void add_placed(const placed_load& p, rational_vector& work) const {
+    const rational_vector q = coefficients_of<rational>(p);
     const line<rational>& x = along_x.points();
     if (along_y) {
       const line<rational>& y = along_y->points();
@@ -277,27 +242,26 @@ struct rigid_truth::shape : rigid_shape<rational> {
       const rational at = x.place(p.from);
       std::size_t part = 0;
       while (part + 2 < corner_x.size() && corner_x[part + 1] <= at) ++part;
-      subtract(work, along_beam(at, part, p.what == load_kind::moment), -q[0]);
+      add(work, along_beam(at, part, p.what == load_kind::moment), q[0]);
     }
   }
 
  private:
-  void add_strip(std::span<const rational> q, const rational& from, const rational& to,
-                 motion_numbers& work) const {
+  void add_strip(const rational_vector& q, const rational& from, const rational& to,
+                 rational_vector& work) const {
     if (corners.empty()) {
-      const integrals over = integrate(q, from, to);
-      work[0] += over.plain;
-      work[1] += over.by_x / along_x.half() + over.plain * along_x.across(0);
+      const rational force = integral_of<rational>({1}, q, from, to);
+      work[0] += force;
+      work[1] += integral_of<rational>({0, 1}, q, from, to) / along_x.half() + force * along_x.across(0);
       return;
     }
     for (std::size_t part = 0; part + 1 < corners.size(); ++part) {
       const rational& left = std::max(from, corner_x[part]);
       const rational& right = std::min(to, corner_x[part + 1]);
       if (left >= right) continue;
-      const integrals over = integrate(q, left, right);
       const rational at_right =
-          (over.by_x - over.plain * corner_x[part]) / (corner_x[part + 1] - corner_x[part]);
-      work[part] += over.plain - at_right;
+          integral_of<rational>({-corner_x[part], 1}, q, left, right) / (corner_x[part + 1] - corner_x[part]);
+      work[part] += integral_of<rational>({1}, q, left, right) - at_right;
       work[part + 1] += at_right;
     }
   }
@@ -305,7 +269,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
   using ends = std::pair<rational, rational>;
 
   /// A uniform pressure acts at the middle of its rectangle.
-  void add_rectangle(const rational& pressure, const ends& x, const ends& y, motion_numbers& work) const {
+  void add_rectangle(const rational& pressure, const ends& x, const ends& y, rational_vector& work) const {
     const rational force = pressure * (x.second - x.first) * (y.second - y.first);
     work[0] += force;
     work[1] += force * along_x.across((x.first + x.second) / 2);
@@ -314,7 +278,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
 
   /// On so many elements beside and above that one.
   void add_elements(const rational& pressure, int left, int below, int beside, int above,
-                    motion_numbers& work) const {
+                    rational_vector& work) const {
     const auto of = [](const centred_line<rational>& l, int first, int count) {
       return ends(l.points().at(first), l.points().at(first + count));
     };
@@ -340,7 +304,7 @@ template std::vector<rigid_row> rigid_rows_of(const plate& p);
 rigid_work rigid_work::less(const rigid_work& other) const {
   if (!is_known() || !other.is_known()) return {};
   auto difference = std::make_shared<numbers>(*exactly_);
-  subtract(difference->all, other.exactly_->all, 1);
+  add(difference->all, other.exactly_->all, -1);
   return rigid_work(std::move(difference));
 }
 
@@ -360,15 +324,15 @@ rigid_work rigid_truth::work_of(const load& l) const {
   auto work = std::make_shared<rigid_work::numbers>();
   work->all.resize(motions());
   for (const point_load& p : l.points)
-    subtract(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof),
-             -product_of<rational>(p.value, p.factor));
+    add(work->all, shape_->row_of(p.node * shape_->dofs_per_node() + p.dof),
+        product_of<rational>(p.value, p.factor));
   for (const distributed_load& d : l.distributed) shape_->add_distributed(d, work->all);
   for (const placed_load& p : l.placed) shape_->add_placed(p, work->all);
   return rigid_work(std::move(work));
 }
 
 resultant rigid_truth::resultant_of(const load& l) const {
-  const motion_numbers work = work_of(l).exactly().all;
+  const rational_vector work = work_of(l).exactly().all;
   if (!shape_->corners.empty()) {
     rational force;
     rational moment;
@@ -388,16 +352,16 @@ resultant rigid_truth::resultant_of(const load& l) const {
 
 bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> supported,
                              std::span<const contact_pair> pairs) const {
-  std::vector<motion_numbers> stopped;
+  std::vector<rational_vector> stopped;
   for (const int dof : supported) {
-    if (motion_numbers rest = rest_of(shape_->row_of(dof), stopped); !is_zero(rest))
+    if (rational_vector rest = rest_of(shape_->row_of(dof), stopped); !is_zero(rest))
       stopped.push_back(std::move(rest));
     if (static_cast<int>(stopped.size()) == motions()) return true;
   }
   // What supports leave. A pair with a face above takes loads that push it up.
-  std::vector<motion_numbers> presses;
+  std::vector<rational_vector> presses;
   for (const contact_pair& p : pairs) {
-    motion_numbers& part = presses.emplace_back(shape_->row_of(p.node * shape_->dofs_per_node()));
+    rational_vector& part = presses.emplace_back(shape_->row_of(p.node * shape_->dofs_per_node()));
     for (rational& x : part) x *= p.surface;
     part = rest_of(part, stopped);
   }
@@ -406,7 +370,7 @@ bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> suppor
 
 std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::span<const int> held,
                                                   std::span<const rigid_row> rows) const {
-  motion_numbers steepest = rest_of(work.exactly().all, shape_->orthogonal_rows(held));
+  rational_vector steepest = rest_of(work.exactly().all, shape_->orthogonal_rows(held));
   if (is_zero(steepest)) return std::nullopt;
   rational largest;
   for (const rational& part : steepest) largest = std::max(largest, rational(abs(part)));

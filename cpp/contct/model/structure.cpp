@@ -14,34 +14,29 @@ namespace contct {
 
 load mix(const load& before, const load& after, double fraction) {
   if (fraction == 1.0) return after;
-  std::map<std::pair<int, int>, double> points;
+  load sum;
+  sum.name = after.name;
+  const std::array shares = {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)};
+  for (const auto values : nodal_values) {
+    std::map<std::pair<int, int>, double> at;
+    for (const auto& [part, share] : shares)
+      for (const nodal_value& v : part->*values)
+        at[{v.node, v.dof}] += share * product_of<double>(v.value, v.factor);
+    for (const auto& [place, value] : at) (sum.*values).push_back({place.first, place.second, value});
+  }
   std::map<std::vector<int>, std::vector<double>> distributed;
-  std::map<std::pair<int, int>, double> settlements;
   std::map<std::tuple<load_kind, double, double, std::array<double, 2>>, std::vector<double>> placed;
-  std::map<std::pair<int, int>, double> moves;
-  for (const auto& [part, share] : {std::pair(&before, 1.0 - fraction), std::pair(&after, fraction)}) {
-    for (const point_load& p : part->points)
-      points[{p.node, p.dof}] += share * product_of<double>(p.value, p.factor);
+  for (const auto& [part, share] : shares) {
     for (const distributed_load& d : part->distributed)
       add_polynomial(distributed[d.elements], d.polynomial, share);
-    for (const prescribed_displacement& g : part->settlements)
-      settlements[{g.node, g.dof}] += share * product_of<double>(g.value, g.factor);
     for (const placed_load& p : part->placed)
       add_polynomial(placed[{p.what, p.from, p.to, p.across}], values_of(p), share);
-    for (const face_move& m : part->moves)
-      moves[{m.node, m.dof}] += share * product_of<double>(m.value, m.factor);
   }
-  load sum;
-  for (const auto& [place, value] : points) sum.points.push_back({place.first, place.second, value});
   for (const auto& [elements, polynomial] : distributed) sum.distributed.push_back({polynomial, elements});
-  for (const auto& [place, value] : settlements)
-    sum.settlements.push_back({place.first, place.second, value});
   for (const auto& [at, polynomial] : placed) {
     const auto& [what, from, to, across] = at;
     sum.placed.push_back({what, from, to, polynomial, across});
   }
-  for (const auto& [place, value] : moves) sum.moves.push_back({place.first, place.second, value});
-  sum.name = after.name;
   return sum;
 }
 

@@ -17,13 +17,16 @@
 
 namespace contct {
 
-/// A force or moment at one dof of one node, work-conjugate to the dof.
-struct point_load {
+/// What a load says of one dof of one node.
+struct nodal_value {
   int node = 0;         ///< from 0
   int dof = 0;          ///< within the node, from 0
   double value = 0.0;   ///< positive as the dof
   double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
 };
+using point_load = nodal_value;               ///< a force or moment, work-conjugate to the dof
+using prescribed_displacement = nodal_value;  ///< what a support, which fixes the dof, moves it to
+using face_move = nodal_value;                ///< how far the faces of all pairs there are moved
 
 /// A polynomial of a file, times factors: the product of the decimals.
 struct scaled_polynomial {
@@ -57,22 +60,6 @@ struct placed_load {
 /// Its polynomial times its factor, in doubles.
 [[nodiscard]] std::vector<double> values_of(const placed_load& p);
 
-/// What a support moves one dof of one node to.
-struct prescribed_displacement {
-  int node = 0;         ///< from 0
-  int dof = 0;          ///< within the node, from 0; a support fixes it
-  double value = 0.0;   ///< positive as the dof
-  double factor = 1.0;  ///< as a point load's
-};
-
-/// Moves the faces of all pairs at one dof of one node.
-struct face_move {
-  int node = 0;         ///< from 0
-  int dof = 0;          ///< within the node, from 0
-  double value = 0.0;   ///< positive as the dof
-  double factor = 1.0;  ///< as a point load's
-};
-
 /// Everything that acts on the structure at one moment.
 struct load {
   std::vector<point_load> points;
@@ -83,6 +70,8 @@ struct load {
   std::vector<placed_load> placed = {};
   bool from_zero = false;  ///< its step starts from the unloaded structure, whatever stands before it
 };
+/// The values at nodes that a load has.
+inline constexpr std::array nodal_values = {&load::points, &load::settlements, &load::moves};
 
 /// The load at share `fraction` of the way from `before` to `after`, with equal places merged.
 /// Exactly `after` at 1.
@@ -98,11 +87,28 @@ struct load {
 /// sum += share * part, for polynomials from the constant on.
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share);
 
-/// The value of a polynomial at x; `coefficients` from the constant on.
-[[nodiscard]] inline double polynomial_at(std::span<const double> coefficients, double x) {
-  double sum = 0.0;
-  for (std::size_t i = coefficients.size(); i-- > 0;) sum = sum * x + coefficients[i];
+/// The value of a polynomial at x; `p` from the constant on.
+template <class Polynomial, class Number>
+[[nodiscard]] Number polynomial_at(const Polynomial& p, const Number& x) {
+  Number sum(0);
+  for (std::size_t i = p.size(); i-- > 0;) sum = sum * x + p[i];
   return sum;
+}
+template <class Number>
+[[nodiscard]] std::vector<Number> derivative(const std::vector<Number>& p) {
+  std::vector<Number> d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * Number(static_cast<int>(i)));
+  return d;
+}
+/// Of the product of two polynomials.
+template <class Number>
+[[nodiscard]] Number integral_of(const std::vector<Number>& p, const std::vector<Number>& q,
+                                 const Number& from, const Number& to) {
+  std::vector<Number> primitive(p.size() + q.size());
+  for (std::size_t i = 0; i < p.size(); ++i)
+    for (std::size_t k = 0; k < q.size(); ++k)
+      primitive[i + k + 1] += p[i] * q[k] / static_cast<int>(i + k + 1);
+  return polynomial_at(primitive, to) - polynomial_at(primitive, from);
 }
 
 /// Call visit(element) for every element, from 0, that a distributed load acts on.

@@ -118,6 +118,23 @@ double_double long_rounded(const rational& x) {
   return std::isfinite(high) ? double_double(high, rounded(x - binary_value(high))) : double_double(high);
 }
 
+rational dot(const rational_vector& a, const rational_vector& b) {
+  rational sum;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i] != 0 && b[i] != 0) sum += a[i] * b[i];
+  return sum;
+}
+
+void add(rational_vector& sum, const rational_vector& part, const rational& share) {
+  if (share == 0) return;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (part[i] != 0) sum[i] += share * part[i];
+}
+
+bool is_zero(const rational_vector& v) {
+  return std::all_of(v.begin(), v.end(), [](const rational& x) { return x == 0; });
+}
+
 std::string fraction_words(const rational& x) {
   return denominator(x) == 1 ? numerator(x).str() : numerator(x).str() + "/" + denominator(x).str();
 }

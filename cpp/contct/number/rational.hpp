@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "contct/number/double_double.hpp"
 
@@ -55,6 +56,13 @@ template <class Number>
   if constexpr (std::is_same_v<Number, double_double>) return long_rounded(x);
   if constexpr (std::is_same_v<Number, rational>) return x;
 }
+
+using rational_vector = std::vector<rational>;
+
+[[nodiscard]] rational dot(const rational_vector& a, const rational_vector& b);
+/// sum += share * part.
+void add(rational_vector& sum, const rational_vector& part, const rational& share);
+[[nodiscard]] bool is_zero(const rational_vector& v);
 
 /// "p/q" in lowest terms, or "p".
 [[nodiscard]] std::string fraction_words(const rational& x);
