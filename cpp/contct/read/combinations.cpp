@@ -1,5 +1,3 @@
-#include "contct/read/combinations.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,13 +15,11 @@ namespace {
 
 /// sum += factor * part. Exact arithmetic multiplies the decimals of both.
 void add(load& sum, const load& part, double factor) {
-  for (point_load p : part.points) {
-    p.factor = factor;
-    sum.points.push_back(p);
-  }
-  for (prescribed_displacement g : part.settlements) {
-    g.factor = factor;
-    sum.settlements.push_back(g);
+  for (const auto values : nodal_values) {
+    for (nodal_value v : part.*values) {
+      v.factor = factor;
+      (sum.*values).push_back(v);
+    }
   }
   for (distributed_load d : part.distributed) {
     if (d.parts.empty()) d.parts = {{d.polynomial}};
@@ -31,10 +27,6 @@ void add(load& sum, const load& part, double factor) {
     const std::vector<rational> exactly = coefficients_of<rational>(d);
     for (std::size_t i = 0; i < exactly.size() && factor != 1.0; ++i) d.polynomial[i] = rounded(exactly[i]);
     sum.distributed.push_back(std::move(d));
-  }
-  for (face_move m : part.moves) {
-    m.factor = factor;
-    sum.moves.push_back(m);
   }
   for (placed_load p : part.placed) {
     p.factor = factor;
@@ -53,8 +45,7 @@ std::string unique_name(const toml_value& t, std::set<std::string>& names) {
 /// Makes a step of each combination, and of each place of a train.
 class combination_reader {
  public:
-  combination_reader(const node_reader& nodes, std::vector<load> cases)
-      : model_(nodes.structure()), cases_(std::move(cases)) {}
+  combination_reader(const model& m, std::vector<load> cases) : model_(m), cases_(std::move(cases)) {}
 
   void read_combination(const toml_value& t) {
     t.allow_only({"name", "terms"});
@@ -172,18 +163,14 @@ void refuse_mixed(const toml_value& top) {
 
 }  // namespace
 
-std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
-                             const std::vector<support>& supports, const std::vector<contact_pair>& pairs,
-                             const named_files& files, std::vector<std::string>& warnings) {
+std::vector<load> read_steps(const toml_value& top, const node_reader& nodes, const named_files& files,
+                             problem& p) {
   refuse_mixed(top);
-  const auto read = [&](const std::vector<toml_value>& tables) {
-    return read_loads(tables, nodes, supports, pairs, files, warnings);
-  };
-  if (!top.has("combination") && !top.has("train")) return read(top["step"].tables());
+  if (!top.has("combination") && !top.has("train")) return read_loads(top["step"].tables(), nodes, files, p);
   const std::vector<toml_value> cases = top["case"].optional_tables();
   std::set<std::string> names;
   for (const toml_value& t : cases) (void)unique_name(t, names);
-  combination_reader reader(nodes, read(cases));
+  combination_reader reader(p.geometry, read_loads(cases, nodes, files, p));
   for (const toml_value& t : top["combination"].optional_tables()) reader.read_combination(t);
   for (const toml_value& t : top["train"].optional_tables()) reader.read_train(t);
   return std::move(reader.steps);

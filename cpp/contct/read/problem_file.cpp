@@ -10,7 +10,6 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/model/line.hpp"
-#include "contct/read/combinations.hpp"
 #include "contct/read/model_tables.hpp"
 #include "contct/read/node_reader.hpp"
 #include "contct/read/step_tables.hpp"
@@ -63,7 +62,7 @@ class problem_reader {
     if (auto* a = std::get_if<assembled>(&problem_.geometry.kind))
       make_room_for_pairs(top_, problem_.pairs, *a);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
-    problem_.steps = read_steps(top_, *nodes_, problem_.supports, problem_.pairs, files_, problem_.warnings);
+    problem_.steps = read_steps(top_, *nodes_, files_, problem_);
     problem_.files = files_.all();
     return std::move(problem_);
   }

@@ -19,15 +19,13 @@ namespace {
 /// Reads one table after the other.
 class step_reader {
  public:
-  step_reader(const node_reader& nodes, const std::vector<support>& supports,
-              const std::vector<contact_pair>& pairs, const named_files& files,
-              std::vector<std::string>& warnings)
-      : nodes_(nodes), files_(files), warnings_(warnings), held_(dofs(nodes.structure()), hold::none) {
-    for (const contact_pair& c : pairs) {
+  step_reader(const node_reader& nodes, const named_files& files, problem& p)
+      : nodes_(nodes), files_(files), warnings_(p.warnings), held_(dofs(p.geometry), hold::none) {
+    for (const contact_pair& c : p.pairs) {
       paired_.insert(c.node);
       if (c.other >= 0) others_.insert(c.other);
     }
-    for (const support& s : supports) {
+    for (const support& s : p.supports) {
       hold& here = held_[s.node * nodes_.dof_names().size() + s.dof];
       here = std::max(here, s.fixed ? hold::fixed : hold::spring);
     }
@@ -349,9 +347,8 @@ std::vector<double> read_polynomial(const toml_value& t, const model& m, std::st
 }
 
 std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
-                             const std::vector<support>& supports, const std::vector<contact_pair>& pairs,
-                             const named_files& files, std::vector<std::string>& warnings) {
-  const step_reader reader(nodes, supports, pairs, files, warnings);
+                             const named_files& files, problem& p) {
+  const step_reader reader(nodes, files, p);
   std::vector<load> loads;
   loads.reserve(tables.size());
   for (const toml_value& t : tables) loads.push_back(reader.read(t));

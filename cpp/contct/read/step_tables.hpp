@@ -1,4 +1,5 @@
-// Tables with the keys of a [[step]], as [[case]]s are: loads and settlements.
+// The steps of a problem file: its [[step]]s, or its [[combination]]s and [[train]]s of [[case]]s, which have
+// the keys of a step.
 #pragma once
 
 #include <vector>
@@ -16,11 +17,14 @@ namespace contct {
 /// Refuse loads of the table `t` whose sums, or settlements, are beyond doubles.
 void refuse_endless_sums(const toml_value& t, const model& m, const load& l);
 
-/// The loads of these tables, on these supports. `files` finds those that a table names; `warnings` gets
-/// those about their numbers.
+/// The loads of these tables on `p`, which has its supports and pairs and gets warnings about numbers of the
+/// files that a table names, which `files` finds.
 [[nodiscard]] std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
-                                           const std::vector<support>& supports,
-                                           const std::vector<contact_pair>& pairs, const named_files& files,
-                                           std::vector<std::string>& warnings);
+                                           const named_files& files, problem& p);
+
+/// Likewise the steps of the document `top`: each [[step]] goes on from the one before it, each combination
+/// and each place of a train starts from the unloaded structure.
+[[nodiscard]] std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
+                                           const named_files& files, problem& p);
 
 }  // namespace contct
