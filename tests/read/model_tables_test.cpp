@@ -1,8 +1,6 @@
 // [beam] and [plate] in their forms, of which what is refused is in bad_inputs.hpp and bad_plates.hpp.
 // [matrix] and [calculix]: the files that they name, how K is stored, and what is refused before it is
 // allocated.
-#include "contct/read/model_tables.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "contct/kernel/call.hpp"
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/read/tables.hpp"
 #include "read/refusals.hpp"
 #include "read/small_matrix.hpp"
 #include "support/scratch_folder.hpp"

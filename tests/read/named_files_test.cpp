@@ -1,5 +1,5 @@
 // A problem file names files below its own folder, and others only where that is allowed.
-#include "contct/read/named_files.hpp"
+#include "contct/read/toml_reader.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,7 @@
 // Steps: names, loads by coordinates, and settlements.
-#include "contct/read/step_tables.hpp"
-
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/read/tables.hpp"
 #include "read/bad_inputs.hpp"
 #include "support/scratch_folder.hpp"
 

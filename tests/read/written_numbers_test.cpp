@@ -1,6 +1,4 @@
 // Where the numbers of a file stand, and which of them doubles cannot tell from others.
-#include "contct/read/written_numbers.hpp"
-
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"

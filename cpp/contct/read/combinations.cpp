@@ -7,7 +7,7 @@
 #include "contct/model/line.hpp"
 #include "contct/number/rational.hpp"
 #include "contct/read/mesh.hpp"
-#include "contct/read/step_tables.hpp"
+#include "contct/read/tables.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {

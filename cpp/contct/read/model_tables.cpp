@@ -1,5 +1,3 @@
-#include "contct/read/model_tables.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "contct/model/line.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/mesh.hpp"
+#include "contct/read/tables.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
 

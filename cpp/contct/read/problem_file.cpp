@@ -10,10 +10,8 @@
 
 #include "contct/kernel/call.hpp"
 #include "contct/model/line.hpp"
-#include "contct/read/model_tables.hpp"
 #include "contct/read/node_reader.hpp"
-#include "contct/read/step_tables.hpp"
-#include "contct/read/written_numbers.hpp"
+#include "contct/read/tables.hpp"
 
 namespace contct {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "contct/model/problem.hpp"
-#include "contct/read/named_files.hpp"
+#include "contct/read/toml_reader.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct {

@@ -1,5 +1,3 @@
-#include "contct/read/step_tables.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "contct/model/line.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/mesh.hpp"
+#include "contct/read/tables.hpp"
 
 namespace contct {
 namespace {

@@ -1,9 +1,11 @@
-// Strict reading of TOML: every key is known, every value in range, or the file is refused.
+// Strict reading of TOML: every key is known, every value in range, or the file is refused; the files that it
+// names, and its numbers as they are written.
 #pragma once
 
 #include <toml++/toml.h>
 
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -111,5 +113,47 @@ class toml_value {
 
 /// Parse a whole document. Throws input_error with line and column.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);
+
+/// Which files a problem file may name. A problem from a stranger must not read what its user can.
+enum class reach { own_folder, anywhere };
+
+/// Finds files relative to the folder of the problem file.
+class named_files {
+ public:
+  /// `problem_file`: its path; without a folder in it, that is where the process runs.
+  named_files(std::string_view problem_file, reach allowed);
+
+  /// The path of the file that is named, with `ending` behind it. Refuses one that is not below the folder,
+  /// symbolic links followed, unless all are allowed.
+  [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
+
+  /// All that path_of has returned, to this object and its copies.
+  [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }
+
+ private:
+  [[nodiscard]] bool is_below(const std::string& path) const;
+
+  std::string folder_;
+  reach allowed_;
+  std::shared_ptr<std::vector<std::string>> all_ = std::make_shared<std::vector<std::string>>();
+};
+
+/// A number in a file, and where it stands.
+struct written_number {
+  std::string key;  ///< "step[1].point[2].w"
+  double value = 0;
+  bool is_whole = false;
+  int line = 0, column = 0, length = 0;  ///< from 1, in code points
+  std::string_view literal = {};         ///< as it stands there
+  bool is_shortest = true;               ///< is the literal the shortest decimal of its double?
+};
+
+/// All finite numbers of a document, in the order in which they stand. `text` is the document's.
+[[nodiscard]] std::vector<written_number> numbers_in(const toml::table& document, std::string_view text);
+
+/// A warning for each number of the document, `text` in the file `file`, that is not the shortest decimal of
+/// its double, in the order in which they stand; of many, for the first ten, and how many there are.
+[[nodiscard]] std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
+                                                         std::string_view file);
 
 }  // namespace contct

@@ -14,7 +14,6 @@
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/toml_reader.hpp"
-#include "contct/read/written_numbers.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
 #include "contct/session/explained_run.hpp"

@@ -1,13 +1,23 @@
-// The steps of a problem file: its [[step]]s, or its [[combination]]s and [[train]]s of [[case]]s, which have
-// the keys of a step.
+// The structure of a problem file, [beam], [plate], [matrix] or [calculix]; and its steps: its [[step]]s, or
+// its
+// [[combination]]s and [[train]]s of [[case]]s, which have the keys of a step.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "contct/read/named_files.hpp"
 #include "contct/read/node_reader.hpp"
 
 namespace contct {
+
+/// Read the one table of the document `top` that describes a structure; refuses a document with none
+/// of them, or with several. `files` finds others that it names; `warnings` gets those about their numbers.
+[[nodiscard]] model read_model(const toml_value& top, const named_files& files,
+                               std::vector<std::string>& warnings);
+
+/// Gives the stiffness of a matrix that `top` names a place, with 0, where pairs between two dofs need one,
+/// and orders and stores it again.
+void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pairs, assembled& a);
 
 /// The coefficients under the key "polynomial", the constant first: a beam's load, or a face along it, in x
 /// as the nodes have it. Of other structures it is refused; allowed is what is said in `elsewhere`.
