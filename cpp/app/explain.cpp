@@ -8,7 +8,7 @@
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/session/explained_run.hpp"
+#include "contct/session/run.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/write/words.hpp"
 

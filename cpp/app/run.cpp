@@ -11,7 +11,6 @@
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/session/path_states.hpp"
-#include "contct/session/refinement.hpp"
 #include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"

@@ -9,7 +9,7 @@
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "contct/exact/path_1989.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/kernel/call.hpp"
 #include "read/bad_inputs.hpp"
 

@@ -1,5 +1,4 @@
 // The listing's decisions where arithmetic is exact: one call, and a path.
-#include "contct/exact/path_1989.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,4 @@
 // Stresses at the extreme fibres, against formulas by hand.
-#include "contct/model/stress.hpp"
-
 #include <cmath>
 
 #include "catch.hpp"

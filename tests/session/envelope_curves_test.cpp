@@ -1,11 +1,10 @@
-#include "contct/session/envelope_curves.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <tuple>
 
 #include "catch.hpp"
+#include "contct/session/step_results.hpp"
 #include "read/bad_plates.hpp"
 #include "support/a_run.hpp"
 

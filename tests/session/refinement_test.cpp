@@ -1,5 +1,3 @@
-#include "contct/session/refinement.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,6 +6,7 @@
 #include "catch.hpp"
 #include "contct/model/line.hpp"
 #include "contct/number/rational.hpp"
+#include "contct/session/run_result.hpp"
 #include "contct/session/step_results.hpp"
 #include "read/good_problem.hpp"
 #include "support/a_run.hpp"

@@ -3,7 +3,6 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "contct/session/envelope_curves.hpp"
 #include "contct/session/step_results.hpp"
 #include "contct/write/outputs.hpp"
 #include "read/bad_plates.hpp"

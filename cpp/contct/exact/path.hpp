@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contct/exact/exact_problem.hpp"
@@ -66,5 +67,24 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 /// What the listing's statements decide, with its constants as the decimals that are printed, in the 1989
 /// driver: springs gather their forces increment by increment. Throws too_long.
 [[nodiscard]] exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell = {});
+
+/// What CONTCT is told of a pair.
+struct listing_pair {
+  rational c;       ///< position of its face
+  rational d;       ///< D there
+  rational d_star;  ///< d* there
+  bool closed;      ///< in contact
+  int surface;      ///< face_above or face_below
+};
+
+/// What CONTCT answers.
+struct listing_answer {
+  rational_vector s;         ///< SS [pairs]
+  rational s_min = 1;        ///< SMIN
+  std::vector<int> toggled;  ///< pairs from 0, in their order
+};
+
+/// One call of CONTCT without rounding. EPSGAP, DELTA and EPSMUL are the decimals that are printed.
+[[nodiscard]] listing_answer answer_exactly(std::span<const listing_pair> pairs);
 
 }  // namespace contct

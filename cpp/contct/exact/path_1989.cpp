@@ -1,4 +1,3 @@
-#include "contct/exact/path_1989.hpp"
 
 #include <string>
 #include <utility>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -83,5 +84,16 @@ struct value_range {
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
                                                  std::span<const int> deflecting,
                                                  std::span<const double> element_values = {});
+
+/// Stresses at the extreme fibres: M / W at both ends of each element of a beam with a section modulus, as
+/// "stress"; of a plate with a thickness "sx", "sy", "txy", principal "s1" >= "s2" and "von_mises" at the
+/// corners of each element, sx = 6 m_x / t^2 and so on. Those of the lower fibre, or face, where sagging is
+/// tension; at the upper one they have the other sign. Nothing where W, or the thickness, is not known.
+/// `forces`: results_in_elements.
+[[nodiscard]] element_results stresses_of(const model& m, const element_results& forces);
+
+/// What each of those stresses may be off by, and any along a beam, where no moment is off by more than
+/// `moment` and no stress is larger than `largest`. Nothing where there are no stresses.
+[[nodiscard]] std::optional<double> stress_error(const model& m, double moment, double largest);
 
 }  // namespace contct

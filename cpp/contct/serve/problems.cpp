@@ -16,7 +16,6 @@
 #include "contct/read/toml_reader.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
-#include "contct/session/explained_run.hpp"
 #include "contct/session/run.hpp"
 #include "contct/solve/engine.hpp"
 #include "contct/write/exact_output.hpp"

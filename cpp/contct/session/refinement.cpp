@@ -1,5 +1,4 @@
-#include "contct/session/refinement.hpp"
-
+// What a finer mesh would change: the same problem with every element halved, and the two results compared.
 #include <algorithm>
 #include <cmath>
 #include <map>

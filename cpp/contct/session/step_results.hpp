@@ -2,7 +2,6 @@
 // envelope.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -126,12 +125,23 @@ struct envelope {
   std::vector<range<double>> reactions;     ///< [supports]
 };
 
-/// Visits the states that an envelope is over, each with the load that acts then, of a run whose recorder
-/// keeps states, or of combinations.
-void for_each_state_of_envelope(const run_result& r,
-                                const std::function<void(const structure_state&, const load&)>& visit);
-
 /// Of a run whose recorder keeps states, or of combinations.
 [[nodiscard]] envelope envelope_of(const run_result& r);
+
+/// The envelope along a beam: how small and how large each quantity gets at each place, and in which state.
+/// Empty for plates and matrices, and where no state is known.
+struct envelope_curves {
+  struct curve {
+    std::string_view name;                    ///< "w", "moment" or "shear"
+    std::vector<envelope::range<double>> at;  ///< [places]
+  };
+  /// Nodes, and places at equal distances in each element where there are fewer than 480 elements. A node
+  /// between two elements is there twice, as the end of one and the start of the other: the shear may jump.
+  std::vector<double> x;
+  std::vector<curve> curves;
+};
+
+/// Over the same states as envelope_of.
+[[nodiscard]] envelope_curves curves_of(const run_result& r);
 
 }  // namespace contct

@@ -9,10 +9,9 @@
 #include <set>
 #include <utility>
 
-#include "contct/model/stress.hpp"
-#include "contct/session/envelope_curves.hpp"
 #include "contct/session/path_states.hpp"
 #include "contct/session/rule_1989.hpp"
+#include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 

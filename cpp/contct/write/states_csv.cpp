@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "contct/session/envelope_curves.hpp"
 #include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
