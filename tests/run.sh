@@ -4,8 +4,8 @@
 # checks), asan (the same with the program), tsan (threads). --full has all of them, and adds what takes longer:
 # certificates against the exact path, the mutants of both kernels, more failing calls of the system, the exact numbers of
 # all reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
-# playground in a browser, grids read back by VTK, a routine of LAPACK beside its port, every reader fuzzed for a minute, Debian packages in a bare Debian,
-# formatting and clang-tidy.
+# playground in a browser, grids read back by VTK, a routine of LAPACK beside its port, every reader fuzzed for a minute, Debian packages
+# and reference/adopt in a bare Debian, the static contct-replay in an empty folder, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -73,6 +73,10 @@ if [ "$full" = yes ]; then
   need_petsc || true  # its tests are skipped where it cannot be had
   need "to compare with another program" calculix-ccx || true  # the same
   need "for the manual pages" mandoc
+  for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
+    command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # its test is skipped
+  done
+  command -v julia >/dev/null 2>&1 || skipped="$skipped; the judge in Julia, which Debian 12 does not have"
   sh tests/tree/format.sh
 fi
 for name in $legs; do
@@ -104,6 +108,7 @@ if [ "$full" = yes ]; then
   with_tool "the harness on a second routine" ../reference/course/second/run.sh
   with_tool "fuzzers" fuzz/run.sh 60
   with_tool "Debian packages" package/debian.sh
+  with_tool "adopting" package/adopt.sh
   sh tests/tree/tidy.sh
   [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"
 fi

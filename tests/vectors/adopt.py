@@ -1,5 +1,8 @@
-"""adopt.py ROOT REPLAY: runs the shell lines of reference/adopt one by one, as their systems do, in a repository of a user's: they end with 0 for a
-kernel that is CONTCT, and one of them with 1 for a kernel with a fault. REPLAY is contct-replay.
+"""adopt.py ROOT REPLAY [BARE]: runs the shell lines of reference/adopt one by one, as their systems do, in a repository of a user's: they end
+with 0 for a kernel that is CONTCT, and one of them with 1 for a kernel with a fault. REPLAY is contct-replay.
+
+With BARE, a folder with a bare Debian, they run in there, where ROOT and REPLAY are too; git is the real one, and the Dockerfile's RUN
+lines run as well.
 """
 import os
 import re
@@ -22,15 +25,16 @@ def steps_of_action(text, adopt, replay):
         yield line, {name: values[key] for name, key in re.findall(r'(\w+): "\$\{\{ ([\w.]+) \}\}"', environment)}
 
 
-def jobs(root, replay):
+def jobs(root, replay, bare):
     """{file: [(line, environment)]}"""
-    adopt, repository = root / "reference/adopt", {"CONTCT_REPOSITORY": str(root)}
-    text = {file.name: file.read_text() for file in adopt.iterdir()}
+    adopt, repository = root / "reference/adopt", {"CONTCT_REPOSITORY": f"file://{root}"}
+    text = {file.name: file.read_text() for file in (HERE.parent.parent / "reference/adopt").iterdir()}
+    installs = re.findall(r"^RUN (.*)$", text["Dockerfile"], re.M) if bare else []
     return {
         "action.yml": list(steps_of_action(text["action.yml"], str(adopt), replay)),
         "gitlab-ci.yml": [(line, repository) for line in re.findall(r"^    - (.*)$", text["gitlab-ci.yml"], re.M)],
         "Jenkinsfile": [(line, repository) for line in re.findall(r"sh '(.*)'", text["Jenkinsfile"])],
-        "Dockerfile": copies(text["Dockerfile"], root),
+        "Dockerfile": [(line, {}) for line in installs] + copies(text["Dockerfile"], root),
     }
 
 
@@ -43,25 +47,30 @@ def copies(text, root):
     return [*lines, (f"sh {entry} mine.c", {})]
 
 
-def statuses(lines, kernel):
-    with tempfile.TemporaryDirectory() as folder:
+def statuses(lines, kernel, bare):
+    with tempfile.TemporaryDirectory(dir=bare) as folder:
         (Path(folder) / "mine.c").write_text(kernel)
-        (Path(folder) / "git").write_text('#!/bin/sh\nexec ln -s "$5" "$6"\n')  # clone, without what is not committed yet
-        (Path(folder) / "git").chmod(0o755)
-        path = f"{folder}:{os.environ['PATH']}"
-        return [subprocess.run(["sh", "-e", "-c", line], cwd=folder, env={**os.environ, "PATH": path, **environment}, capture_output=True,
+        usual, enter = os.environ, ["sh", "-e", "-c"]
+        if bare:
+            usual = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive"}
+            enter = ["chroot", bare, "sh", "-e", "-c", f'cd /{Path(folder).name} && eval "$1"', "sh"]
+        else:
+            (Path(folder) / "git").write_text('#!/bin/sh\nexec ln -s "${5#file://}" "$6"\n')  # clone, without what is not committed yet
+            (Path(folder) / "git").chmod(0o755)
+        path = usual["PATH"] if bare else f"{folder}:{usual['PATH']}"
+        return [subprocess.run([*enter, line], cwd=folder, env={**usual, "PATH": path, **environment}, capture_output=True,
                                check=False, timeout=300).returncode for line, environment in lines]
 
 
-def main(root, replay):
+def main(root, replay, bare=None):
     root, replay = Path(root).resolve(), str(Path(replay).resolve())
-    if not shutil.which("cc"):
+    if not bare and not shutil.which("cc"):
         return 77
-    good = (root / "reference/kernels/contct_kernel.c").read_text()
+    good = (HERE.parent.parent / "reference/kernels/contct_kernel.c").read_text()
     bad = edited(good, [("epsgap = 1e-10", "epsgap = 1e-9")])
     count = 0
-    for name, lines in jobs(root, replay).items():
-        found, faulty = statuses(lines, good), statuses(lines, bad)
+    for name, lines in jobs(root, replay, bare).items():
+        found, faulty = statuses(lines, good, bare), statuses(lines, bad, bare)
         print(name, found, faulty)
         if len(lines) < 2 or any(found) or 1 not in faulty or set(faulty) - {0, 1}:
             return f"{name}: found {found} for a kernel that is CONTCT, {faulty} for one that is not"

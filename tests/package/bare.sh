@@ -1,0 +1,52 @@
+# Sourced by debian.sh and adopt.sh, which set $title: a bare Debian like this one, as a folder $root.
+# What is mounted is mounted in a namespace of the script's own, and is gone when it ends, however it ends.
+if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
+  # In a chroot, whose root is not a mount, nothing can be made private; what is mounted is unmounted at the end anyway.
+  for propagation in private unchanged; do
+    ! unshare --mount --propagation $propagation true 2>/dev/null ||
+      CONTCT_NAMESPACE=own exec unshare --mount --propagation $propagation sh "$0" "$@"
+  done
+  echo "$title: SKIPPED: mounts of our own are not allowed"
+  exit 77
+fi
+sources=/etc/apt/sources.list.d/debian.sources
+
+skip() { echo "$title: SKIPPED: $1"; exit 77; }
+fail() { echo "$title: $1" >&2; exit 1; }
+# value NAME: of what the system says of itself
+value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
+can_be_bare() {
+  [ "$(value ID)" = debian ] || skip "this is no Debian, and has packages for itself only"
+  [ "$(id -u)" = 0 ] || skip "only root can make a bare Debian"
+  [ -f $sources ] || skip "$sources is not there"
+}
+remove_root() {
+  umount "$root/proc" "$root/dev" 2>/dev/null
+  rm -rf --one-file-system "$root"
+}
+
+# make_bare TAR: its base is kept in TAR for the next time, what is done in it is not. What debootstrap says goes to $log.
+make_bare() {
+  remove_root
+  if [ ! -s "$1" ]; then
+    mirror=$(sed -n 's/^URIs: *//p' $sources | head -n 1)
+    debootstrap --variant=minbase --include=ca-certificates "$(value VERSION_CODENAME)" "$root" "$mirror" >"$log" 2>&1 ||
+      { tail -n 5 "$log"; skip "debootstrap finds no Debian at $mirror"; }
+    umount "$root/proc" "$root/sys" 2>/dev/null  # what debootstrap leaves
+    tar -C "$root" --one-file-system -cf "$1.part" . && mv "$1.part" "$1" || exit 1
+  else
+    mkdir -p "$root" && tar -C "$root" -xf "$1" || exit 1
+  fi
+  # The network and apt are set up as they are here.
+  cp /etc/hosts /etc/resolv.conf "$root/etc/" && rm -f "$root/etc/apt/sources.list" &&
+    cp $sources "$root/etc/apt/sources.list.d/" && cp -r /etc/apt/apt.conf.d "$root/etc/apt/" || exit 1
+  [ ! -d /usr/local/share/ca-certificates ] || cp -r /usr/local/share/ca-certificates "$root/usr/local/share/"
+  mount -t proc proc "$root/proc" && mount -t tmpfs tmpfs "$root/dev" || exit 1
+  for device in null zero full random urandom tty; do cp -a "/dev/$device" "$root/dev/$device"; done
+  ln -s /proc/self/fd "$root/dev/fd"
+}
+
+# in_bare COMMAND..
+in_bare() {
+  env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"
+}
