@@ -1,8 +1,8 @@
 """commands.py ROOT PROGRAMS NOT_RUN LEAST: runs every command that the pages outside the course show, and compares what
 comes out where a page shows that.
 
-A command stands in a block fenced as `sh` (the `text` block behind it is its output), in a CI job fenced as `yaml`, in an indented line, or
-in a code span. One that a page has twice runs once. FILE
+A command stands in a block fenced as `sh` (the `text` block behind it is its output), in a CI job fenced as `yaml` or in a file of
+reference/adopt, in an indented line, or in a code span. One that a page has twice runs once. FILE
 and other names in capitals stand for the files in NAMES. Every command ends with 0, or is in NOT_RUN with the reason why it is not
 run, "PAGE: COMMAND -> reason", or with the exit status with which it ends instead, "PAGE: COMMAND -> exit 1: reason". A code span that only names a command, as in "see `contct run`", is none. PROGRAMS is the release
 build. There must be LEAST commands or more that ran.
@@ -111,9 +111,11 @@ def main(root, programs, not_run, least):
     root, programs = Path(root).resolve(), Path(programs).resolve()
     excused, used, ran = reasons(Path(not_run)), set(), 0
     pages = [root / "README.md", *sorted((root / "reference").rglob("*.md"))]
-    for page in (page for page in pages if page.parent.name != "course"):
+    jobs = [*(root / "reference/adopt").glob("*.git???.yml")]
+    for page in (page for page in pages + jobs if page.parent.name != "course"):
         here, name = work_place(root, programs), str(page.resolve().relative_to(root))
-        for line, command, shown in commands_of(page.read_text()):
+        text = page.read_text()
+        for line, command, shown in commands_of(text if page.suffix == ".md" else f"```yaml\n{text}```\n"):
             reason = excused.get((name, command), "")
             again = (name, command) in used
             used.add((name, command))

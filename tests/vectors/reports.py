@@ -1,5 +1,5 @@
-"""reports.py ROOT PROGRAM: the reports of reference/vectors/reports of kernels that are built in are verified by replaying them, a
-report of `fuzz` is too; a report in which a number, the kernel or a trace is another is refused.
+"""reports.py ROOT PROGRAM: the reports of reference/vectors/reports are as their schema says, those of kernels that are built in are verified
+by replaying them, and a report of `fuzz` is both; a report in which a number, the kernel or a trace is another is refused.
 """
 import hashlib
 import json
@@ -8,16 +8,22 @@ import sys
 import tempfile
 from pathlib import Path
 
+import jsonschema
+
 
 def main(root, program):
     root = Path(root).resolve()
     script, reports = root / "reference/vectors/verify_report.py", sorted((root / "reference/vectors/reports").glob("*.json"))
+
+    schema = jsonschema.Draft202012Validator(json.loads((root / "reference/vectors/contct-report-1.schema.json").read_text()))
 
     def verified(file, kernel):
         line = [sys.executable, script, file, "--kernel", kernel, "--contct", program]
         return subprocess.run(line, capture_output=True, text=True, check=False).returncode
 
     built_in = [r for r in reports if r.stem in ("fortran", "cpp", "fortran-r4", "cpp-r4")]
+    if len(reports) < 8 or not all(schema.is_valid(json.loads(report.read_text())) for report in reports):
+        return "a report of reference/vectors/reports is not as contct-report-1.schema.json says"
     if len(built_in) != 4 or any(verified(report, report.stem) != 0 for report in built_in):
         return "a report of reference/vectors/reports is not verified"
     traces = json.loads(built_in[0].read_text())["traces"]
@@ -26,8 +32,8 @@ def main(root, program):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "fuzz.json"
         subprocess.run([program, "fuzz", "--quiet", "--calls", "1500", "--report", file], check=True)
-        if verified(file, "cpp") != 0:
-            return "a report of fuzz is not verified"
+        if verified(file, "cpp") != 0 or not schema.is_valid(json.loads(file.read_text())):
+            return "a report of fuzz is not verified, or not as contct-report-1.schema.json says"
         good = json.loads(built_in[0].read_text())
         for change in ({"calls": good["calls"] + 1}, {"mismatches": 1}, {"rung": "ulps"}, {"kernel": {**good["kernel"], "sha256": "0" * 64}},
                        {"traces": traces[1:]}, {"traces": [{**traces[0], "sha256": "0" * 64}, *traces[1:]]}, {"command": "replay; true"}):
