@@ -44,6 +44,13 @@ readelf -lW $program >"$log" || exit 1
 ends 0 "50 passed, 0 failed" $program --kernel fortran,cpp,fortran-r4,cpp-r4 reference/traces/*.trace
 echo "$size bytes; built in another folder it is the same to the byte"
 
+began=$(date +%s)
+for language in c fortran python; do
+  quietly python3 tests/vectors/consumers.py . $language "" $program
+  [ "$(grep -c "{'vectors': 1, 'static replay': 1}" "$log")" = 12 ] || { cat "$log"; fail "$language: of twelve faults not all are found"; }
+done
+echo "twelve faults each in C, Fortran and Python are found by it and by the vectors, in $(($(date +%s) - began)) s"
+
 echo "-- in an empty root folder"
 empty=$work/empty
 mkdir "$empty" && cp $program reference/traces/*.trace "$empty" || exit 1

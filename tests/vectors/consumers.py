@@ -1,6 +1,6 @@
-"""consumers.py ROOT LANGUAGE [PROGRAM]: the consumer of reference/vectors/consumers in that language finds the kernel that is
+"""consumers.py ROOT LANGUAGE [PROGRAM [REPLAY]]: the consumer of reference/vectors/consumers in that language finds the kernel that is
 CONTCT equal, and finds each fault of faults.toml. With PROGRAM, which is contct, `replay` and `fuzz` judge the same kernels, and
-have to agree. Exit status 77: the language is not installed.
+have to agree; with REPLAY, which is the static contct-replay, it judges them as commands, and has to agree too. Exit status 77: the language is not installed.
 """
 import json
 import os
@@ -32,6 +32,11 @@ OUTSIDE = {
     "fortran": (f"gfortran {STRICT} -shared -fPIC -o kernel.so contct_kernel.f90", "plugin:./kernel.so", 20000),
     "python": ("", "pipe:python3 contct_kernel.py", 5000),
 }
+PIPES = {
+    "c": (f"cc {STRICT} -I ROOT/cpp -o mine ROOT/reference/adopt/pipe_main.c contct_kernel.c -lm", "./mine"),
+    "fortran": (f"gfortran {STRICT} -o mine ROOT/reference/adopt/pipe_main.c contct_kernel.f90 -lm", "./mine"),
+    "python": ("", "python3 contct_kernel.py"),
+}
 
 
 def run(command, folder):
@@ -46,7 +51,7 @@ def built(command, root, folder):
         raise ValueError(f"{command}: {said}")
 
 
-def judgements(root, language, folder, program):
+def judgements(root, language, folder, program, replay):
     """{who judges: (exit status, what is said)}"""
     _, _, build, judge, kind = LANGUAGES[language]
     built(build, root, folder)
@@ -56,12 +61,16 @@ def judgements(root, language, folder, program):
         built(build, root, folder)
         found["replay"] = run(f"{program} replay --quiet --kernel '{kernel}' {root}/reference/traces/*.trace", folder)
         found["fuzz"] = run(f"{program} fuzz --quiet --problems 0 --calls {calls} --kernels 'fortran,{kernel}'", folder)
+    if replay and language in PIPES:
+        build, kernel = PIPES[language]
+        built(build, root, folder)
+        found["static replay"] = run(f"{replay} --quiet --kernel 'pipe:{kernel}' {root}/reference/traces/*.trace", folder)
     return found
 
 
-def main(root, language, program=None):
+def main(root, language, program=None, replay=None):
     root, (tool, kernel, *_) = Path(root).resolve(), LANGUAGES[language]
-    program = program and Path(program).resolve()
+    program, replay = program and Path(program).resolve(), replay and Path(replay).resolve()
     if not shutil.which(tool):
         print(f"{tool} is not installed")
         return 77
@@ -74,7 +83,7 @@ def main(root, language, program=None):
         with tempfile.TemporaryDirectory() as work:
             shutil.copytree(folders[0], work, dirs_exist_ok=True)
             (Path(work) / kernel).write_text(edited(source, [edit] if edit else []))
-            found = judgements(root, language, Path(work), program)
+            found = judgements(root, language, Path(work), program, replay)
         print(name, {who: status for who, (status, _) in found.items()}, flush=True)
         for who, (status, said) in found.items():
             if status != (1 if edit else 0) or (not edit and who == "vectors" and f"{calls} calls" not in said):
