@@ -385,7 +385,8 @@ class ContactScene {
     item.classList.add("ran");
     this.lines.scrollTop = item.offsetTop - 80;
     const { pair } = now;
-    const known = pair ? [["GAP", pair.gap, 30], ["DTEST", pair.d_star, 31], ["SS", pair.s, 34], ["DIFF", pair.diff, 51]].filter(([, value, from]) => value !== undefined && value !== null && now.line >= from) : [];
+    const setBy = pair?.s_chk !== undefined ? 36 : pair?.d_star === 0 ? 32 : 38; // the line after which SS is what it stays
+    const known = pair ? [["GAP", pair.gap, 30], ["DTEST", pair.d_star, 31], ["SSCHK", pair.s_chk, 35], ["SS", pair.s, setBy], ["DIFF", pair.diff, 51]].filter(([, value, from]) => value !== undefined && value !== null && now.line >= from) : [];
     const smin = now.line >= 42 ? [["SMIN", this.told[this.k].s]] : [];
     const code = this.beside?.[now.line];
     this.values.replaceChildren(element("dt", {}, pair ? `I = ${pair.pair}` : ""), element("dd", {}, `Line ${now.line}: ${now.words}`),
