@@ -15,7 +15,7 @@
 namespace contct {
 namespace {
 
-/// All of `text` as a number from 1; 0 where it is no number.
+/// All of `text` as a number from 1; 0 if it is not a number.
 int number_from_1(std::string_view text) {
   return std::max(0, number_in<int>(text).value_or(0));
 }

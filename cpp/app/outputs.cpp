@@ -137,7 +137,7 @@ std::string utc_now() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
   const char* const given = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
-  // A clock that was never set may say any year: that is no reason to lose a page.
+  // A clock that was never set may show any year. The page is written all the same.
   const auto seconds = given == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most)
                                         : number_in<std::int64_t>(given);
   if (!seconds || *seconds < 0 || *seconds > most)

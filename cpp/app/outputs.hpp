@@ -80,7 +80,7 @@ struct check_report {
 [[nodiscard]] std::vector<std::string> common_facts();
 
 /// "2026-11-22 13:16 UTC": now, or the time that SOURCE_DATE_EPOCH in the environment names in seconds since
-/// 1970, so that the same input gives the same file. Throws std::invalid_argument where that is no such
+/// 1970, so that the same input gives the same file. Throws std::invalid_argument if it is not such a
 /// number.
 [[nodiscard]] std::string utc_now();
 

@@ -90,7 +90,8 @@ TEST_CASE("way 2: in a small unit of length a separated pair comes into contact 
   says(text, "-4.8372e-11", w(truth, 2, 3));
 }
 
-TEST_CASE("way 2: a pair pressed by less than EPSGAP opens with its force as soon as the load goes back") {
+TEST_CASE(
+    "way 2: a pair pressed by less than EPSGAP separates with its force as soon as the load goes back") {
   const std::string text = section("2. ");
   const json wrong = run("stiff-stop.toml", "fortran", uncertified);
   const json truth = run("stiff-stop.toml", "corrected", right);

@@ -65,7 +65,8 @@ TEST_CASE("a beam that balances on its one pair makes contact once, in the table
   CHECK(events == 1);
 }
 
-TEST_CASE("a path of the 1989 rule that loses its hold is no mechanism where the load has an equilibrium") {
+TEST_CASE(
+    "a path of the 1989 rule that loses its hold is not called a mechanism if the load has an equilibrium") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--kernels", "fortran,cpp", "--json", "out.json"}, dir);
   CHECK(f.exit == 5);
@@ -90,7 +91,7 @@ TEST_CASE("a path of the 1989 rule that is lost leaves the answer as it is: exit
   CHECK(result_in(dir)["rule_1989"]["status"] == "path-ended");
 }
 
-TEST_CASE("of a matrix with a spring softer than rounding nobody says that it has no equilibrium") {
+TEST_CASE("a matrix with a spring softer than rounding is not said to have no equilibrium") {
   const scratch_folder dir;
   write_soft_matrix(dir);
   int solved = 0;

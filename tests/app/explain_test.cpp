@@ -52,7 +52,7 @@ Real ulp_of(Real x) {
 
 }  // namespace
 
-TEST_CASE("an increment is told pair by pair, with the listing's lines and the paper's equations") {
+TEST_CASE("an increment is explained pair by pair, with the listing's lines and the paper's equations") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"explain", "pb.toml"});
@@ -95,7 +95,7 @@ TEST_CASE("the lines of an explanation fit their terminal, from 40 columns to 16
   }
 }
 
-TEST_CASE("step, increment and pair narrow what is told, and STEP.INCREMENT is as the table has it") {
+TEST_CASE("step, increment and pair narrow the explanation, and STEP.INCREMENT is as the table has it") {
   const auto count = [](const std::string& text, const char* piece) {
     std::size_t n = 0;
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;
@@ -148,7 +148,7 @@ TEST_CASE("what is out of range is exit 2, says what is allowed, and writes noth
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
 }
 
-TEST_CASE("a second kernel that rounds otherwise is told by its ULP, and is exit 1") {
+TEST_CASE("a second kernel that rounds otherwise is reported with its ULP, and exits with 1") {
   const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
   const finished f =
@@ -188,8 +188,9 @@ TEST_CASE("a long run is explained as it goes: memory does not grow with it") {
 #endif
 }
 
-TEST_CASE("an event so near to full load that only rounding is left is told, and that the driver undoes it") {
-  // Unloading to nothing opens the pairs exactly at the end: computed, now and then just before it.
+TEST_CASE(
+    "an event so near to full load that only rounding is left is reported, and that the driver undoes it") {
+  // Unloading to zero separates the pairs exactly at the end, or by rounding just before it.
   const scratch_folder dir;
   int undone = 0;
   for (int elements = 4; elements <= 30; elements += 2) {

@@ -27,7 +27,7 @@ TEST_CASE(
   CHECK_THAT(f.err, !Contains("--kernels corrected"));
 }
 
-TEST_CASE("a matrix is solved by its entries where it is told to be, and certified") {
+TEST_CASE("a matrix in sparse storage is solved by every engine, and certified") {
   const scratch_folder here;
   std::filesystem::copy(root / "reference/structures", here.path());
   std::string text = here.read("frame.toml");

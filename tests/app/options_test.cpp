@@ -89,7 +89,7 @@ TEST_CASE("a final state has no path, so --final-only excludes what belongs to o
   }
 }
 
-TEST_CASE("numbers that are not given are told from numbers that are") {
+TEST_CASE("a number that is not given differs from one that is") {
   CHECK_FALSE(parsed<explain_options>({"explain", "f"}).step.has_value());
   CHECK(parsed<explain_options>({"explain", "f", "--step", "0"}).step == 0);
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");

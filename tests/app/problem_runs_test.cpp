@@ -40,7 +40,7 @@ step_state state_with(double rcond, int step) {
 
 }  // namespace
 
-TEST_CASE("every other end is told with its step, its share, and its pairs by number, node and surface") {
+TEST_CASE("every other end names its step, its share, and its pairs by number, node and surface") {
   const problem p = ten_pairs();
   for (const path_status status :
        {path_status::mechanism, path_status::cycle, path_status::iteration_limit, path_status::not_factored})
@@ -75,7 +75,7 @@ TEST_CASE("a path that ended early says whether there is an equilibrium, and nam
   CHECK_THAT(end_words(ten_pairs(), cycle), EndsWith("There is no equilibrium under the load of this step"));
 }
 
-TEST_CASE("a structure that nothing holds is told what is missing, and no kernel that would not help") {
+TEST_CASE("for a structure that nothing holds, the message names what is missing, and no kernel") {
   CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism)),
              Contains("a rigid-body motion") && Contains("Add a support") && !Contains("--kernels"));
 }

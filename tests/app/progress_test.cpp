@@ -59,7 +59,7 @@ TEST_CASE("whatever takes long shows its progress on a terminal, and erases it i
   }
 }
 
-TEST_CASE("quiet takes the progress away, and so does a standard error that is no terminal") {
+TEST_CASE("no progress is shown with --quiet, nor on a standard error that is not a terminal") {
   const plate_directory dir;
   for (const long_work& w : long_works()) {
     INFO(w.name);
@@ -94,7 +94,7 @@ TEST_CASE("where table and progress share a terminal, every row of the table beg
   CHECK(screen == plain.out);
 }
 
-TEST_CASE("a wait that is no time is refused") {
+TEST_CASE("a wait that is not a number of seconds is refused") {
   const plate_directory dir;
   for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {
     const finished f = at_terminal(dir, {"run", "plate.toml"}, wrong);

@@ -65,7 +65,7 @@ TEST_CASE("a trace whose answer differs is exit 1, told with its margin and in t
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
 }
 
-TEST_CASE("a file that is no trace is refused with file and line") {
+TEST_CASE("a file that is not a trace is refused with file and line") {
   const scratch_folder dir;
   dir.write("empty.trace", "");
   dir.write("header.trace", "contct-trace-1 2026-11-21\nkernel fortran\n");

@@ -229,7 +229,7 @@ TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the sa
   CHECK(dir.read("cpp.log") == dir.read("fortran.log"));
 }
 
-TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose opening freed the beam") {
+TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose separation led to it") {
   const scratch_folder dir;
   dir.write("freed.toml", freed);
   const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});

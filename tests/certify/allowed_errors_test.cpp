@@ -69,7 +69,7 @@ TEST_CASE("the worst share and its words") {
   CHECK(worst_bound(good.error, sizes.of(good, 10.0)).empty());
 }
 
-TEST_CASE("a bound where nothing is allowed is the worst of all, and so is one that is no number") {
+TEST_CASE("a bound where nothing is allowed is the worst of all, and so is NaN") {
   by_quantity error, allowed;
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
@@ -119,7 +119,7 @@ TEST_CASE("a gap is measured by the deflections, or by the largest gap") {
   CHECK(sizes.of(b, 10.0)[quantity::gap] == Approx(30e-6));
 }
 
-TEST_CASE("an error that is no number is the largest of all, whatever follows") {
+TEST_CASE("a NaN error is the largest of all, whatever follows") {
   by_quantity error;
   for (const double value : {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})
     error.take(quantity::force, value);

@@ -151,7 +151,7 @@ TEST_CASE("of an exact factor nothing but the rounding of sums is left, and a pa
   CHECK(largest_row_of_error(a, l) > 6e-9);
 }
 
-TEST_CASE("an entry that is no number is never passed over") {
+TEST_CASE("a NaN entry makes the bound infinite") {
   const sparse_columns a = columns_of(random_band(9, 3, 7));
   sparse_columns l = a;
   l.values[l.starts[4]] = std::nan("");

@@ -68,7 +68,7 @@ TEST_CASE("a status that both kernels changed, and to different ones, leads to I
   CHECK(words_of(*of_status) == "pair 1: IF (ISEP(I).EQ.1) was false");
 }
 
-TEST_CASE("a kernel with an EPSGAP of 1e-9 is told IF (ABS(GAP).LT.EPSGAP) of the pair that it got wrong") {
+TEST_CASE("a kernel with an EPSGAP of 1e-9 leads to IF (ABS(GAP).LT.EPSGAP) of the pair that it got wrong") {
   made_kernel wrong(
       [](call<double>& c) {
         std::vector<event> events(c.cc.size());

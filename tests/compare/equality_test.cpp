@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE("one pair: equal for every combination of 31 values of D, d* 
   for (const Real d : numbers) {
     for (const Real d_star : numbers) {
       for (const Real c : numbers) {
-        for (const int isep : {1, -1, 0, 2}) {  // 0 and 2 are no statuses: the listing's ELSE takes them
+        for (const int isep : {1, -1, 0, 2}) {  // 0 and 2 are not statuses: the listing's ELSE takes them
           for (const int isurf : {1, -1}) {
             in.dd[0] = d;
             in.dtest[0] = d_star;

@@ -60,7 +60,7 @@ TEST_CASE("near full load the mark of a pair without any event lies within EPSMU
                                                          {0.0, 0.0, -1.0, separated, face_below},
                                                          {0.0, -1.0, 0.0, in_contact, face_below}}));
   CHECK(e.winner == 0);
-  CHECK(e.next == -1);  // a mark is no candidate
+  CHECK(e.next == -1);  // a mark is not a candidate
   CHECK(e.pairs[1].way == listing_branch::no_response);
   CHECK(e.pairs[1].why == why_toggled::by_mark);
   CHECK(e.pairs[1].distance == 1.0);

@@ -136,7 +136,7 @@ TEST_CASE("a follower that goes wrong does not lead the path astray") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("of several followers the mismatch of the earliest call is told, whichever of them comes first") {
+TEST_CASE("of several followers the mismatch of the earliest call is reported, in any order of theirs") {
   const auto wrong_from = [](int call, double by) {
     return faulty([call, by, n = 0](call_of_double& c, std::string&) mutable {
       if (++n >= call) c.smin += by;

@@ -116,8 +116,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "A reaction of 200 N that is told with an error of 0.2 N is not certified, however stiff its clamp is") {
+TEST_CASE("A reaction of 200 N with an error of 0.2 N is not certified, however stiff its clamp is") {
   const std::string text =
       "[beam]\nlength = 2.0\nelement_size = 1.0\nEI = 1.0e7\n[[support]]\nx = 0.0\nfix = [\"w\", \"theta\"]\n"
       "[[contact]]\nx = 0.001\nsurface = \"below\"\nface = -0.1\nstiffness = 1.0e6\n"
@@ -179,8 +178,7 @@ TEST_CASE("A singular matrix that is semidefinite without rounding is certified 
   CHECK(r.of_step(1).certified);
 }
 
-TEST_CASE(
-    "Loads that cancel at a node, or on an element, are no loads: nothing moves, and that is certified") {
+TEST_CASE("Loads that cancel at a node, or on an element, move nothing, and that is certified") {
   const std::string beam =
       "[beam]\nlength = 2.0\nelements = 2\nEI = 1.0e4\n[[support]]\nx = [0.0, 2.0]\nfix = \"w\"\n"
       "[[contact]]\nx = 1.0\nsurface = \"below\"\nface = -0.01\nstiffness = 5.0e4\n[[step]]\n";
@@ -199,7 +197,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Below the normal range of doubles nothing is certified, and the reason is told") {
+TEST_CASE("Below the normal range of doubles nothing is certified, and the reason is reported") {
   for (const std::string numbers :
        {"x = [0.0, 1.0e-40, 2.0e-40]\nEI = 1.5e-322", "x = [0.0, 1e-100, 2e-100]\nEI = 1e-90"}) {
     const judged_run r = judged(

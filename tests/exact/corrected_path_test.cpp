@@ -127,7 +127,7 @@ TEST_CASE("an event exactly at full load belongs to the next step") {
 }
 
 TEST_CASE("pairs at their faces are decided together, as their complementarity problem says") {
-  // Both springs start closed: the load over node 2 presses the one there and lifts the end.
+  // Both pairs start in contact: the load over node 2 presses the one there and lifts the end.
   const exact_path path = followed("[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n" +
                                    pair(2, "below", "0", "1e6") + pair(3, "below", "0", "1e6") +
                                    "[[step]]\npoint = [ { node = 1, theta = -1 } ]\n");

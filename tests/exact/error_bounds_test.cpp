@@ -218,7 +218,7 @@ TEST_CASE("whatever is wrong with the numbers, the bounds hold or the step is no
   }
 }
 
-TEST_CASE("a state of a structure whose stiffness is off by 1e-9 is told from the true one by its bounds") {
+TEST_CASE("the bounds of a state whose stiffness is off by 1e-9 contain its error") {
   one_end wrong(std::string(beam_over_stop).replace(beam_over_stop.find("1e4"), 3, "1.000000001e4"));
   const one_end right(beam_over_stop);
   error_prover prover(right.what, right.structure);
@@ -414,7 +414,7 @@ TEST_CASE(
   CHECK_FALSE(proved(250));  // 250 * 0.005 > 1
 }
 
-TEST_CASE("an elastic support without a force is no doubt about the reactions") {
+TEST_CASE("an elastic support without a force does not widen the bounds of reactions") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
       "[[support]]\nnode = 1\nspring = { w = 5 }\n"

@@ -49,7 +49,8 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
     CHECK(end.state->displacement[dof] == contct::rounded(path.steps[1].displacement[dof]));
 }
 
-TEST_CASE("what only rounding could tell from a mechanism is followed to its end, and a mechanism is told") {
+TEST_CASE(
+    "a structure that only rounding could make a mechanism is followed to its end; a mechanism is reported") {
   problem p = referee_problem("held-by-a-hair");
   CHECK(judged_run(p, "corrected").end.status == path_status::solved);
   p.steps[0].points[1].value = -4e-17;  // it tips the other way

@@ -62,7 +62,7 @@ TEST_CASE("an error as large as the number leaves no digit") {
   CHECK(stop_run().with(0.0, 5.0).digits == 0.0);
 }
 
-TEST_CASE("the first event that differs is told with both") {
+TEST_CASE("the first event that differs is reported for both paths") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::break_);
   CHECK_FALSE(r.same_events);
   CHECK(r.first_difference ==
@@ -76,7 +76,7 @@ TEST_CASE("a path that ends early has not the same events") {
   CHECK_THAT(r.first_difference, Contains("ends early"));
 }
 
-TEST_CASE("events that one path does not have are told") {
+TEST_CASE("events that only one path has are reported") {
   const stop_run run;
   const kernel_digits nothing = digit_counter(run.what, run.exactly).result("k", path_status::solved, 1e-9);
   CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("nothing more happens"));
@@ -91,7 +91,7 @@ TEST_CASE("events that one path does not have are told") {
 }
 
 TEST_CASE(
-    "toggling to and fro at one place is no event, nor is the end of a step where a pair just touches") {
+    "toggling to and fro at one share is not counted as an event, nor is a touch at the end of a step") {
   const stop_run run;
   digit_counter counter(run.what, run.exactly);
   const std::vector<event> makes = {{0, change::make}};

@@ -49,7 +49,7 @@ TEST_CASE("each way to an s gives the exact one") {
   CHECK(a.toggled == std::vector<int>{2});
 }
 
-TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is no event") {
+TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is not an event") {
   const std::vector<listing_pair> pairs = {open_pair(-ten_to_minus(10), 0, -ten_to_minus(10))};
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s[0] == 1);

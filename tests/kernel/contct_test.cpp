@@ -88,7 +88,7 @@ TEMPLATE_TEST_CASE("near ties: everything within 2^-8 of the smallest s is toggl
     return c.ask().events.size();
   };
   CHECK(ask(half) == 2);
-  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // has not reached its face, and is closed all the same
+  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // has not reached its face, and makes contact all the same
   CHECK(ask(edge) == 1);
   CHECK(ask(std::nextafter(edge, Real(1))) == 1);
 }
@@ -115,12 +115,12 @@ TEST_CASE(
   CHECK(reaches.isep[0] == apart);
 }
 
-TEST_CASE("EPSGAP is a length: in small units every gap counts as closed") {
+TEST_CASE("EPSGAP is a length: in small units every gap counts as zero") {
   // The same structure in units in which it measures 1e-10: a real gap is taken for contact at rest.
   small_call<double> c({{0.0, -4e-11, -1e-11, apart, below}});
   c.ask();
   CHECK(c.smin < 1e-8);          // and not 0.25
-  CHECK(c.isep[0] == touching);  // closed a whole gap too early
+  CHECK(c.isep[0] == touching);  // in contact a whole gap too early
 }
 
 TEST_CASE("NaN in, no event out") {

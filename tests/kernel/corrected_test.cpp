@@ -105,9 +105,9 @@ TEST_CASE(
 
 TEST_CASE("corrected: only an approach makes contact, and only a retreat breaks it") {
   // Each of these has s in (0, 1) by eq. 4 and the wrong direction: it is past its face, and comes back.
-  const answered c({{-3.0, 4.0, -2.0, apart, below},      // open below its face, on its way up
+  const answered c({{-3.0, 4.0, -2.0, apart, below},      // separated, below its face, on its way up
                     {3.0, -4.0, 2.0, apart, above},       // the same above
-                    {-1.0, -4.0, -2.0, touching, below},  // closed above its face, on its way down
+                    {-1.0, -4.0, -2.0, touching, below},  // in contact, above its face, on its way down
                     {1.0, 4.0, 2.0, touching, above}});   // the same above
   CHECK(c.happened == nothing);
   CHECK(c.smin == 1.0);

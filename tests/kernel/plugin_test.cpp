@@ -126,7 +126,7 @@ TEST_CASE("a plug-in that changes an input fails, and the input is named") {
   CHECK(put(*k, behaves).empty());
 }
 
-TEST_CASE("a library that is no plug-in is refused with the reason") {
+TEST_CASE("a library that is not a plug-in is refused with the reason") {
   const leftovers left;
   CHECK_THAT(why_refused("/no/such/library.so"), Contains("plugin:/no/such/library.so: cannot be loaded"));
   CHECK_THAT(why_refused("no-such-library.so"), Contains("cannot be loaded: ./no-such-library.so"));

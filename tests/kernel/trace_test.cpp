@@ -267,7 +267,7 @@ TEST_CASE("numbers of every kind come back from a trace to the bit") {
   }
 }
 
-TEST_CASE("a dof that no pair looks at is nobody's: it is not written, and read as NaN") {
+TEST_CASE("a dof that no pair uses is not written, and read as NaN") {
   recorded_call c = call_with({1.0, 2.0});
   c.in.dd[0] = 7.0;
   const std::string text = written(c);

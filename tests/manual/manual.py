@@ -12,7 +12,7 @@ FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.M | re.S)
 
 def sections(text):
     """The sections of a page in their order: (heading, text below it, up to the next heading of any level)."""
-    hidden = FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)  # a comment in a code block is no heading
+    hidden = FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)  # a comment in a code block is not a heading
     starts = list(re.finditer(r"^#+ (.*)$", hidden, re.M))
     ends = [m.start() for m in starts[1:]] + [len(text)]
     return [(m.group(1), text[m.end():end]) for m, end in zip(starts, ends)]

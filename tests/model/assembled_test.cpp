@@ -134,7 +134,7 @@ TEST_CASE("a soft motion of a matrix is stiffness, unless its last digits are in
   CHECK(build(longer, clamp, {}).rigid_motions == 0);
 }
 
-TEST_CASE("matrices that are no stiffness are refused by name, with what was found") {
+TEST_CASE("matrices that are not stiffness matrices are refused by name, with what was found") {
   using Catch::Matchers::Contains;
   assembled a;
   a.name = "K.mtx";

@@ -139,7 +139,7 @@ TEST_CASE("the two rigid-body motions of a beam, up and about its middle, are wh
   }
 }
 
-TEST_CASE("what holds the beam is told to the path: supports, springs and pairs") {
+TEST_CASE("supports, springs and pairs hold a beam") {
   const beam b = even_beam(2.0, 2, 1.0);
   const std::vector<support> one = {{0, 0, true}};
   const linear_structure s = build(b, one, {{2, 1, 0.5, 1.0, false}});

@@ -422,7 +422,7 @@ TEST_CASE("a plate whose stiffness is beyond double precision is refused, with t
   CHECK_THROWS_WITH(build(p, {}, {}), Catch::Matchers::Contains("element 2"));
 }
 
-TEST_CASE("what holds the plate is told to the path: three points not on a line, or a point and its slopes") {
+TEST_CASE("three points not on a line hold a plate, and so do a point and its slopes") {
   const plate p = uneven_plate(1e9, 1e-9);
   const auto rank_of = [&](const std::vector<support>& supports, const std::vector<contact_pair>& pairs) {
     const linear_structure s = build(p, supports, pairs);

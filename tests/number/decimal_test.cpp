@@ -23,7 +23,7 @@ TEST_CASE("a literal is the shortest decimal or not, whatever zeros, signs and e
   CHECK(shortest_decimal(-1000.0) == decimal{true, "1", 3});
 }
 
-TEST_CASE("text that is no decimal is not compared") {
+TEST_CASE("text that is not a decimal is not compared") {
   for (const char* none : {"", "-", ".", "inf", "0x10", "1e", "1e+", "1 ", "1.2.3", "e5"})
     CHECK(is_shortest(none, 0x1p-1074));
 }

@@ -28,7 +28,7 @@ TEST_CASE("a loop of any length is found, whatever runs into it") {
   }
 }
 
-TEST_CASE("the same statuses after some movement are no loop") {
+TEST_CASE("the same statuses after some movement are not a cycle") {
   cycle_detector watch;
   for (int i = 0; i < 100; ++i) CHECK_FALSE(watch.repeats(true, std::vector<int>{1}, {}));
   CHECK_FALSE(watch.repeats(false, std::vector<int>{1}, {}));

@@ -9,7 +9,7 @@
 
 using namespace contct;
 
-TEST_CASE("PB1: the stop closes at F = -15 and presses with the hand calculation's force") {
+TEST_CASE("PB1: the stop makes contact at F = -15, and its force is that of the hand calculation") {
   for (const char* kernel : {"fortran", "cpp"}) {
     recorder r;
     const path_end end = cantilever_over_a_stop().run(kernel, {&r});

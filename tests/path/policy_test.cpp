@@ -30,7 +30,7 @@ std::vector<bool> snaps_of(const recorder& r) {
   return snaps;
 }
 
-/// An equilibrium for beam_above_stops, so wrong that nobody else would find it.
+/// An equilibrium for beam_above_stops, too wrong to be found by a solve.
 full_load_state made_up_rest() {
   return {std::vector<double>(10, -7.0), {in_contact, in_contact}, {}, true};
 }
@@ -94,7 +94,7 @@ TEST_CASE("a beam balanced on one pair stands, and bends over it") {
   CHECK(r.steps[0].rcond > 0.0);  // with the spring that it leans on
 }
 
-TEST_CASE("a beam balanced on its one pair ends early without other means, and is no mechanism") {
+TEST_CASE("a beam balanced on its one pair ends early without a fallback, and is not called a mechanism") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, 0.0, 50.0, true}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   const path_end end = p.run("corrected", {});
@@ -116,7 +116,7 @@ TEST_CASE("a beam that falls on one pair and turns for ever ends where it met th
   CHECK(r.steps[0].u[4] == Approx(-1.0).epsilon(1e-15));
 }
 
-TEST_CASE("lifted off its stops for good, the state reached is told, with the load that it carried") {
+TEST_CASE("a beam lifted off its stops for good: the last state is reported with its load") {
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, -8.0), tip_load(2, 8.0)};
   recorder r;
@@ -208,7 +208,7 @@ beam_problem cantilever_on_two() {
 }  // namespace
 
 TEST_CASE(
-    "a pair that toggles twice running at a standstill is kept closed, and not asked until load passes") {
+    "a pair that toggles twice running without load is kept in contact, and not asked until load passes") {
   restless_first_pair restless;
   made_kernel k([&restless](call<double>& c) { restless(c); });
   const beam_problem p = cantilever_on_two();
@@ -277,7 +277,7 @@ made_kernel endless(contact_rule rule = contact_rule::corrected) {
 
 }  // namespace
 
-TEST_CASE("a path that cannot go on ends in an equilibrium that is found without it, which is told") {
+TEST_CASE("a path that cannot go on ends in the reference solution, which is reported") {
   made_kernel k = endless();
   const beam_problem p = cantilever_on_two();
   full_load_state rest{{0, 0, -1, -2, -3, -4}, {in_contact, separated}};
@@ -321,10 +321,10 @@ TEST_CASE("the state that a path reaches is put to what proves it, and the path 
     return i.step == 2 &&
            std::find(i.events.begin(), i.events.end(), event{0, change::make}) != i.events.end();
   });
-  CHECK(makes_again);  // its pair opened in the answer
+  CHECK(makes_again);  // its pair separated in the answer
 }
 
-TEST_CASE("what is found without the path may be that there is no equilibrium") {
+TEST_CASE("the reference solution can show that there is no equilibrium") {
   made_kernel k = endless();
   const path_limits limits{0, [](int, const full_load_state*) { return found_end{std::nullopt, false}; }};
   recorder r;

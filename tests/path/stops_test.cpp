@@ -9,7 +9,7 @@
 
 using namespace contct;
 
-TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the load at which it opened") {
+TEST_CASE("a mechanism names the pair whose separation led to it, with the load at that moment") {
   // A beam on two springs; a force that moves outside them lifts the other end off.
   beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, 0.0, 10.0, true}, {3, -1, 0.0, 10.0, true}}, {}};
   p.steps = {{{{2, 0, -4.0}}, {}}, {{{2, 0, -4.0}, {4, 0, -6.0}}, {}}};
@@ -20,7 +20,7 @@ TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the
   CHECK(end.pairs == std::vector<int>{0});
   // Moments about the other pair: 4 * 1 = F * 1, so F = 4 of 6.
   CHECK(end.fraction == Approx(2.0 / 3).epsilon(1e-10));
-  // The state reached is told: at that moment the pair presses with nothing.
+  // At the state reached the contact force is 0.
   REQUIRE(r.steps.size() == 2);
   CHECK(r.steps[1].fraction == end.fraction);
   CHECK(r.steps[1].u[2] == Approx(0.0).margin(1e-12));
@@ -30,7 +30,7 @@ TEST_CASE("a mechanism: the pair whose opening frees the beam is named, with the
 
 TEST_CASE(
     "a free beam unloaded to nothing lies on its bed again, and loaded again where it was: lift-off exactly "
-    "at full load is no mechanism") {
+    "at full load is not a mechanism") {
   // PB8: its middle, or what lies beside it, lifts off. Then all load goes.
   for (const double force : {4.0, -50.0, -100.0}) {
     beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
@@ -114,7 +114,7 @@ class failing_engine final : public stiffness_engine {
 
 }  // namespace
 
-TEST_CASE("a stiffness that loses its factor on the way: the share reached is told") {
+TEST_CASE("if the stiffness loses its factor on the way, the share that was reached is reported") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   failing_engine engine(s, 2);
@@ -146,7 +146,7 @@ TEST_CASE("the limit of increments grows with the pairs, and stays a number") {
   CHECK(increments_allowed({7}, 50'000'000) == 7);
 }
 
-TEST_CASE("progress, however slow, is no cycle, the limit of increments ends it") {
+TEST_CASE("slow progress is not called a cycle; the limit of increments ends it") {
   made_kernel k([](call<double>& c) {
     c.smin = 0.001;
     c.isep[0] = -c.isep[0];
@@ -164,7 +164,7 @@ TEST_CASE("loads beyond the range of double precision end the path without numbe
   recorder r;
   const path_end end = p.run("fortran", {&r});
   CHECK(end.status == path_status::not_factored);
-  p.pairs.clear();  // nobody watches, and still no infinite number gets out
+  p.pairs.clear();  // without observers, too, no infinite number gets out
   CHECK(p.run("fortran", {&r}).status == path_status::not_factored);
   for (const auto& step : r.steps) {
     for (const double x : step.u) CHECK(std::isfinite(x));

@@ -28,7 +28,7 @@ def test_a_file_is_named_with_line_and_column(tmp_path, monkeypatch):
     assert refusal("bad.toml").file == "bad.toml"
 
 
-def test_of_a_dict_the_line_is_told(beam):
+def test_an_error_in_a_dict_has_the_line_of_its_text(beam):
     beam["contact"][0]["face"] = "low"
     error = refusal(beam)
     assert (error.file, error.column) == ("problem", 8)
@@ -47,7 +47,7 @@ def test_a_text_has_a_place():
     assert refusal("a = 1\nb = '\ud800'\n").line == 2  # no UTF-8
 
 
-def test_what_is_no_problem_is_refused():
+def test_an_argument_that_is_not_a_problem_is_refused():
     assert "found 'beam'; allowed: a path or a name that ends in \".toml\"" in refusal("beam").message
     assert refusal("").line is None
     for nothing in (None, 3, ["a"], b"[beam]\n"):

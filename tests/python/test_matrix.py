@@ -97,7 +97,7 @@ def test_what_is_wrong_beside_a_matrix_is_refused(wrong, words):
     (Coo(2, [(0, 0, 1.0)], columns=3), "matrix: found 2 rows and 3 columns; allowed: a square matrix"),
     (Coo(2, [(0, 0, -1.0), (1, 1, 1.0)]), "a stiffness matrix is positive semidefinite"),
 ])
-def test_a_matrix_that_is_no_stiffness_is_refused(matrix, words):
+def test_a_matrix_that_is_not_a_stiffness_matrix_is_refused(matrix, words):
     with pytest.raises(contct.InputError) as refused:
         contct.certify(matrix, [0.0, 0.0], pairs=[(0, "below", 0.0, 1.0)], loads=[0.0, -1.0])
     assert words in str(refused.value) and "/" not in str(refused.value)

@@ -388,7 +388,9 @@ TEST_CASE("a label that no dof has is refused with the one that is nearest to it
   CHECK_THAT(message, Catch::Matchers::Contains("found \"212.33\" (did you mean \"212.3\"?)"));
 }
 
-TEST_CASE("a matrix that is no stiffness is refused where it is factored, with its file and what was found") {
+TEST_CASE(
+    "a matrix that is not a stiffness matrix is refused when it is factored, with its file and what was "
+    "found") {
   const scratch_folder here;
   (void)here.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
   const std::string message = message_of_structure(here.write(

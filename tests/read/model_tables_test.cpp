@@ -112,7 +112,7 @@ TEST_CASE(
   CHECK(found.edges.size() == 6);
   CHECK(found.dofs[1].node == 2);
   CHECK(found.dofs[1].direction == 3);
-  // Another job's input beside it is no mistake, but naming one is.
+  // Another job's input beside it is allowed, but not named.
   (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
   CHECK_FALSE(places("").known());
   CHECK_THAT(places("").notes.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));

@@ -260,7 +260,7 @@ TEST_CASE("a mesh too coarse for its bed is warned of, once a bed, with an eleme
                                        "modulus)^(1/4), 0.93. element_size = 0.93 in [beam]"));
   CHECK_THAT(coarse[1], Catch::Matchers::Contains("bed[2]"));
   CHECK(warnings_of("element_size = 0.93\nEI = 3", bed).empty());
-  // Nodes that are no neighbours on the bed do not count, nor do elements beside it.
+  // Nodes that are not neighbours on the bed do not count, nor do elements beside it.
   CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 3]\n").empty());
   CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 2]\n").size() == 1);
 }

@@ -123,7 +123,8 @@ TEST_CASE("each kind of value has its words") {
 }
 
 TEST_CASE(
-    "what is no TOML is refused with line and column, and keys of a thousand parts before they are parsed") {
+    "text that is not TOML is refused with line and column, and keys of a thousand parts before they are "
+    "parsed") {
   CHECK_THAT(verdict([] { (void)parse_toml("a = 1\nb = = 2\n", "f.toml"); }),
              Contains("f.toml:2:5: not TOML: "));
   std::string dotted = "a";
@@ -133,7 +134,7 @@ TEST_CASE(
   CHECK(verdict([] { (void)parse_toml("a = \"" + std::string(999, '.') + "\"\n", "f.toml"); }) == "accepted");
 }
 
-TEST_CASE("what is quoted of a file that is no TOML stays on the message's line") {
+TEST_CASE("a quotation from a file that is not TOML stays on the message's line") {
   CHECK_THAT(verdict([] { (void)parse_toml("x = f\n", "f.toml"); }),
              Contains("f.toml:1:") && Contains("\\x0a") && !Contains("\n"));
 }
@@ -150,7 +151,7 @@ TEST_CASE("one number stands for all things, and an array has one for each") {
   CHECK_THAT(refusal("n = []", three), Contains("found an empty array"));
 }
 
-TEST_CASE("a decimal comma is recognised in a line that is no TOML, and not where there is none") {
+TEST_CASE("a decimal comma is recognised in a line that is not TOML, and only there") {
   const auto nothing = [](const toml_value&) { return 0; };
   const std::string hint = "(a number takes a decimal point, 4.0 for 4,0)";
   for (const char* line : {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]",

@@ -151,7 +151,7 @@ std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first,
 
 /// What is known to be wrong in a run of so many problems of a seed, and how many values it compares at
 /// least. Events differ where rounding decides; a bound is loose where half a unit in a matrix's last digits
-/// decides whether it is held; a path followed exactly is no fault. Another LAPACK rounds otherwise, and
+/// decides whether it is held; a path followed exactly is not a fault. Another LAPACK rounds otherwise, and
 /// counts move with that.
 struct known_counts {
   std::uint64_t count, seed;

@@ -156,7 +156,7 @@ TEST_CASE("external states are certified, and a state that is wrong is not") {
   }
 }
 
-TEST_CASE("every number of a problem is told with its place, and the pairs with the keys of theirs") {
+TEST_CASE("every number of a problem has its place in the text, and pairs have the places of their keys") {
   const std::string text =
       "title = \"\u00e4\"  # two bytes\n[beam]\nlength = 4.0\nelements = 4\nEI = 1e3\n"
       "[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"

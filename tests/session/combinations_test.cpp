@@ -68,7 +68,7 @@ TEST_CASE("States within a combination are solved for from the unloaded structur
             "[[combination]]\nname = \"1\"\nterms = { A = 1 }\n[[combination]]\nname = \"2\"\n"
             "terms = { B = 1 }\n");
   path_states states(run.result);
-  const path_moment first = moments_of(run.result).at(1);  // the stop closes
+  const path_moment first = moments_of(run.result).at(1);  // the stop makes contact
   CHECK(first.increment->fraction == Approx(0.2));
   CHECK(states.at(first).displacement[4] == Approx(-0.4));
   CHECK(load_path(run.what).resultant_at(2, 0.2).force == Approx(-0.6));

@@ -8,7 +8,7 @@
 
 using namespace contct;
 
-TEST_CASE("an event's load is told in the words of the problem file") {
+TEST_CASE("an event's load has the words of the problem file") {
   const problem p = parse_problem(good_problem, "pb.toml");
   CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
   const problem uniform =
@@ -31,7 +31,7 @@ TEST_CASE("an event's load is told in the words of the problem file") {
   CHECK(load_path(passes).words_at(2, 6.0 / 7 + 1e-12, 24) != "w 0 at node 3");
 }
 
-TEST_CASE("a load that need not follow the mesh is told with its place") {
+TEST_CASE("a load that need not follow the mesh has its place") {
   const auto words = [](load_kind what, double from, double to, model m = beam{{0, 4}, {1.0}}) {
     problem p;
     p.geometry = std::move(m);
@@ -47,7 +47,7 @@ TEST_CASE("a load that need not follow the mesh is told with its place") {
         "uniform -2.5 from (0.5, 0.25) to (1, 0.75)");
 }
 
-TEST_CASE("a plate's loads are told in its own words") {
+TEST_CASE("a plate's load is worded as its force, or as wx or wy at the node") {
   const problem p = parse_problem(good_plate, "pb.toml");
   CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
   const std::string mistake = "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n";

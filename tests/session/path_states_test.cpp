@@ -47,7 +47,7 @@ TEST_CASE("a state in the middle of a step is the one that a path ends in at tha
   }
 }
 
-TEST_CASE("a state has the statuses behind its events, and a pair at its face is told from a pressed one") {
+TEST_CASE("a state has the statuses behind its events, and a pair at its face differs from a pressed one") {
   const a_run r(two_stops({-10.0}), "cpp");
   const std::vector<structure_state> states = pictures_of(r.result);
   REQUIRE(states.size() == 4);

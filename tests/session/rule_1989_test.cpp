@@ -72,7 +72,7 @@ TEST_CASE("an offset that survives unloading is a wrong step: k gap L^3 / 3 EI w
   CHECK(near.run.exit() == exit_status::solved);
 }
 
-TEST_CASE("an event that the 1989 rule has at another share is told with that share") {
+TEST_CASE("an event that the 1989 rule has at another share is reported with that share") {
   const both_rules near(divergence("near-tie"));
   const std::vector<row_of_1989>& first = near.beside().rows.at(0);
   CHECK(first.at(0).otherwise.empty());
@@ -83,7 +83,7 @@ TEST_CASE("an event that the 1989 rule has at another share is told with that sh
   CHECK_FALSE(near.beside().same_events);
 }
 
-TEST_CASE("an event that only the 1989 rule has is told in the increment that follows it") {
+TEST_CASE("an event that only the 1989 rule has is reported in the increment that follows it") {
   const both_rules marked(divergence("mark-toggled"));
   const row_of_1989& first = marked.beside().rows.at(0).at(0);
   REQUIRE(first.otherwise.size() == 1);
@@ -94,7 +94,7 @@ TEST_CASE("an event that only the 1989 rule has is told in the increment that fo
   CHECK(marked.wrong()[0].right == 0.0);
 }
 
-TEST_CASE("a path of the 1989 rule that is lost does not change the answer, and is told in words") {
+TEST_CASE("a path of the 1989 rule that is lost does not change the answer, and is reported in words") {
   const both_rules lost(divergence("standstill"));
   CHECK(lost.run.exit() == exit_status::solved);
   CHECK(lost.beside().end.status == path_status::path_ended);
@@ -105,7 +105,7 @@ TEST_CASE("a path of the 1989 rule that is lost does not change the answer, and 
                         !Contains("--kernels"));
 }
 
-TEST_CASE("the 1989 rule factors at each increment, but for a long path whose calls nobody keeps") {
+TEST_CASE("the 1989 rule factors at each increment, except on a long path whose calls are not kept") {
   CHECK(both_rules(square(4)).beside().engine == "refactor");
   const std::string large = square(40);
   CHECK(both_rules(large).beside().engine == "updated");

@@ -53,7 +53,7 @@ TEST_CASE("a call has the increment it led to, or none") {
   CHECK(r.calls[2].step == 2);
 }
 
-TEST_CASE("calls are not kept where nobody asks for them") {
+TEST_CASE("calls are kept only on request") {
   run_recorder r;
   tell_call(r, {1.0}, "text");
   CHECK(r.calls.empty());

@@ -123,7 +123,7 @@ TEST_CASE(
   CHECK(beds[0].contact == Approx(0.625).epsilon(1e-12));
 }
 
-TEST_CASE("A beam that sags through a face between two pairs is told, a flatter one is not") {
+TEST_CASE("A beam that sags through a face between two pairs is reported, a flatter one is not") {
   const ended soft(beam_over_stops(0.0, -500.0));
   REQUIRE(soft.through);
   CHECK(soft.through->first == 0);

@@ -75,7 +75,7 @@ TEST_CASE("a free beam takes all springs in before its first response: one alone
   CHECK(d_star[1] == Approx(-1.0 / 250).epsilon(1e-12));
 }
 
-TEST_CASE("when a spring opens that is 1e18 times as stiff, the response is as it was before it closed") {
+TEST_CASE("removing a spring that is 1e18 times as stiff restores the response before it") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[2].stiffness = 1e18 * s.pairs[2].stiffness;
   const auto engine = make_engine("condensed", s);

@@ -21,7 +21,7 @@ linear_structure wide_plate() {
 
 }  // namespace
 
-TEST_CASE("one closed spring under the tip of a cantilever: w = F / (3 EI / L^3 + k)") {
+TEST_CASE("one spring under the tip of a cantilever: w = F / (3 EI / L^3 + k)") {
   const linear_structure s = cantilever_over_stops(4);  // L = 2, EI = 1e4; the tip's k is 100
   factored_stiffness k(s);
   std::vector<double> u(s.dofs());

@@ -40,7 +40,7 @@ void respond(recording_engine& e) {
 
 }  // namespace
 
-TEST_CASE("springs that close are applied before those that open, each once") {
+TEST_CASE("springs are added before others are removed, each once") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(2, true);
@@ -66,7 +66,7 @@ TEST_CASE("a spring switched there and back is not applied at all") {
   CHECK(e.order.empty());
 }
 
-TEST_CASE("springs closed at the start are wanted, and applied with the first factor") {
+TEST_CASE("springs of pairs in contact at the start are in the first factor") {
   const linear_structure s = with_pairs({true, false, true, false});
   recording_engine e(s);
   e.refused = 1;

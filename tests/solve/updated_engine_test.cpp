@@ -42,7 +42,7 @@ TEST_CASE("the response is checked after 16 responses to one increment, and then
   CHECK(respond(1) == 2);
 }
 
-TEST_CASE("a much stiffer spring that opens takes a new factor: too many digits would cancel") {
+TEST_CASE("removing a much stiffer spring takes a new factor, since too many digits would cancel") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[5].stiffness = 1e9;
   const auto engine = make_engine("updated", s);

@@ -98,7 +98,7 @@ TEST_CASE("a circle of links is refused, not followed for ever") {
   CHECK_THROWS_WITH(output_file(dir.at("a")), Catch::Matchers::Contains("cannot be written"));
 }
 
-TEST_CASE("one file under two names is told apart from two files") {
+TEST_CASE("one file under two names is recognised as one") {
   const scratch_folder dir;
   const auto at = [&](const char* name) { return dir.at(name); };
   dir.write("old", "old");

@@ -43,7 +43,8 @@ TEST_CASE("control characters are written out in messages, and UTF-8 stays") {
 }
 
 TEST_CASE(
-    "no control character of a terminal is shown as it is: C0, DEL, C1, marks of direction, and what is no "
+    "no control character of a terminal is shown as it is: C0, DEL, C1, marks of direction, and bytes that "
+    "are not "
     "UTF-8") {
   CHECK(terminal_text("a\x1b[31m\x07\x7f\n") == "a\\x1b[31m\\x07\\x7f\n");
   // NOLINTNEXTLINE(misc-misleading-bidirectional): these marks are what is escaped

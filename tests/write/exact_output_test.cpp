@@ -105,7 +105,7 @@ TEST_CASE("the document has every number as a fraction") {
   CHECK_FALSE(d.contains("mechanism"));
 }
 
-TEST_CASE("a mechanism is told with the motion and the work that prove it") {
+TEST_CASE("a mechanism has the motion and the work that prove it") {
   const followed_exactly run(contct::parse_problem(falling, "falling.toml"));
   CHECK_THAT(exact_text(run.result(), 20, {}),
              Contains("share 0, load 0: a rigid-body motion at constant load\n") &&

@@ -87,7 +87,7 @@ TEST_CASE("a pair's story cites the lines that it went through, with the paper's
   CHECK(pairs[1]["why"] == "not toggled");
 }
 
-TEST_CASE("two numbers are equal to the bit, so many ULP apart, or one is no number") {
+TEST_CASE("two numbers are equal to the bit, or some ULP apart, or one is NaN") {
   const double next = std::nextafter(0.25, 1.0);
   const problem p = parse_problem(two_pairs, "pb.toml");
   const explained_kernels of{p, {"a", "b"}, 8, 0};

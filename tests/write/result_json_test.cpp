@@ -64,7 +64,7 @@ TEST_CASE("members and elements stand on lines of their own, indented by their d
       "[1,2]\n    }\n  ],\n  \"free\": [\n    {\"a\":1}\n  ],\n  \"end\": null\n}\n");
 }
 
-TEST_CASE("numbers of a document keep their bits, and what is no number is null") {
+TEST_CASE("numbers of a document keep their bits, and NaN is null") {
   const double third = 1.0 / 3;
   const auto read = nlohmann::json::parse(written([&](json_document& d) {
     d.add({{"x", third}, {"nan", std::numeric_limits<double>::quiet_NaN()}}, {});

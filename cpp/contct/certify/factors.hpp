@@ -37,7 +37,7 @@ template <class Number, class Entry>
     return exact_product(x, y);
 }
 
-/// Sums of magnitudes in the rows of a symmetric matrix of which one triangle is told.
+/// Sums of magnitudes in the rows of a symmetric matrix that is given by one triangle.
 class row_sums {
  public:
   row_sums(int order, double at_first) : sums_(order, at_first) {}
@@ -46,7 +46,7 @@ class row_sums {
     if (row != column) sums_[column] += std::abs(entry);
   }
   [[nodiscard]] double of(int row) const { return sums_[row]; }
-  /// The largest, from above, so a bound on the norm; infinite where one is no number.
+  /// The largest, from above, so a bound on the norm; infinite if one is NaN.
   [[nodiscard]] double largest() const;
 
  private:

@@ -173,7 +173,7 @@ long_residual long_system::residual(std::span<const double_double> u, const long
       r.slack[p.dof] += p.stiffness.hi * size;
       if (p.other >= 0) r.slack[p.other] += p.stiffness.hi * size;
     }
-    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // what is no number is told
+    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // counts NaN, too
   }
   put_forces(r);
   return r;

@@ -15,7 +15,7 @@ class random_calls {
 
   /// Call `number` of those that reach every branch of the listing: 1 to 64 pairs, several of them on one
   /// node, every (INDOF, NDOFPN) from (1, 1) to (3, 3), nodes beyond 999 now and then. Half of the numbers
-  /// lie on a coarse grid, so that ties, closed gaps and stationary pairs are common; others are scaled by
+  /// lie on a coarse grid, so that ties, zero gaps and stationary pairs are common; others are scaled by
   /// powers of ten from 1e-15 to 1e5.
   const call_inputs<Real>& random(std::uint64_t number);
 

@@ -47,7 +47,7 @@ class stiffness_factor {
   /// `k` must outlive this object.
   explicit stiffness_factor(const stiffness_matrix& k);
 
-  /// By a factor of K that is at hand; `k` is no band.
+  /// By a factor of K that is at hand; `k` is not stored as a band.
   stiffness_factor(const stiffness_matrix& k, std::unique_ptr<sparse_factor> of_k)
       : k_(k), sparse_(std::move(of_k)) {}
 
@@ -90,7 +90,7 @@ class stiffness_factor {
 
   const stiffness_matrix& k_;
   band_matrix band_;
-  std::unique_ptr<sparse_factor> sparse_;  // of K where it is no band
+  std::unique_ptr<sparse_factor> sparse_;  // of K if it is not stored as a band
 };
 
 }  // namespace contct

@@ -37,7 +37,7 @@ class no_openmp_threads {
   int before_ = -1;
 };
 
-/// What CHOLMOD has made; std::bad_alloc where it has not.
+/// What CHOLMOD has made; throws std::bad_alloc if it failed.
 template <class T>
 T* made(T* by_cholmod) {
   if (by_cholmod == nullptr) throw std::bad_alloc();

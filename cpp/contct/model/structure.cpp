@@ -120,7 +120,7 @@ namespace {
 
 /// A power of four near `stiffness`: its root, too, is exact.
 double power_of_four_near(double stiffness) {
-  constexpr int largest = 511;  // 4^512 is no double
+  constexpr int largest = 511;  // 4^512 overflows
   if (!(stiffness > 0.0)) return 1.0;
   return std::ldexp(1.0, 2 * std::min(largest, static_cast<int>(std::lround(std::log2(stiffness) / 2))));
 }

@@ -51,7 +51,7 @@ enum class load_kind { force, point, moment, curvature };
 /// elsewhere they are decimals.
 struct placed_load {
   load_kind what = load_kind::force;
-  double from = 0.0, to = 0.0;     ///< along x, from < to; a point has its place twice, which is no node
+  double from = 0.0, to = 0.0;     ///< along x, from < to; equal for a point between nodes
   std::vector<double> polynomial;  ///< along a beam, as a distributed load's; otherwise one number
   std::array<double, 2> across{};  ///< a plate's rectangle: from and to along y
   double factor = 1.0;             ///< times this: an exact product of the decimals

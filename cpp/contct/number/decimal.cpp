@@ -33,7 +33,7 @@ bool take_minus(std::string_view& rest) {
   return minus;
 }
 
-/// The exponent that is all of `rest`, saturated; nothing where it is no such number.
+/// The exponent that is all of `rest`, saturated; nothing if it is not such a number.
 std::optional<std::int64_t> exponent_in(std::string_view rest) {
   if (rest.empty()) return 0;
   if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
@@ -53,7 +53,7 @@ struct written_decimal {
   std::int64_t last;  // the power of ten of the last digit
 };
 
-/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing where it is no decimal: hexadecimal,
+/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing if it is not a decimal: hexadecimal,
 /// infinite, empty.
 std::optional<written_decimal> written_in(std::string_view literal) {
   written_decimal w{take_minus(literal), false, take_digits(literal), 0};

@@ -25,7 +25,7 @@ struct decimal {
 /// The shortest decimal that reads as `x`, which is finite.
 [[nodiscard]] decimal shortest_decimal(double x);
 
-/// Is the literal, which reads as `x`, the shortest decimal that does? True for any that is no decimal.
+/// Is the literal, which reads as `x`, the shortest decimal that does? True if it is not a decimal.
 [[nodiscard]] bool is_shortest(std::string_view literal, double x);
 
 /// For a warning, where it is not: "found 0.10000000000000000555; the shortest decimal of its double, 0.1, is

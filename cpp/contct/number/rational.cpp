@@ -82,7 +82,7 @@ rational decimal_of(double x) {
 }
 
 rational binary_value(double x) {
-  if (!std::isfinite(x)) throw std::domain_error("an infinity, or what is no number, has no exact value");
+  if (!std::isfinite(x)) throw std::domain_error("an infinity or a NaN has no exact value");
   int exponent = 0;
   const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), 53));
   return rational(integer(mantissa)) * power_of(2, exponent - 53);

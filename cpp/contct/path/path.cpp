@@ -61,8 +61,8 @@ class path {
     return {status, now_.step, now_.fraction(), std::move(pairs)};
   }
 
-  /// Nothing stops the structure. The state reached is the one in which the pairs that opened last were about
-  /// to: without force, their springs still hold it.
+  /// Nothing stops the structure. The state reached is the one in which the pairs that separated last were
+  /// about to: without force, their springs still hold it.
   path_end set_free() {
     for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
     now_.find_events();
@@ -87,7 +87,7 @@ class path {
     return r;
   }
 
-  /// The end of a step. The state that the 1989 rule reached is told as it is. Any other is proved, or
+  /// The end of a step. The state that the 1989 rule reached is reported as it is. Any other is proved, or
   /// replaced by one that is found without the path, as is that of a path that was lost.
   path_end finish(path_end end, const std::optional<reached_state>& reached) {
     if (!by_1989_rule_ || end.status != path_status::solved) end.has_equilibrium = now_.has_equilibrium();

@@ -29,7 +29,7 @@ struct path_end {
   path_status status = path_status::solved;
   int step = 0;                 ///< the step in which it ended, from 1
   double fraction = 1.0;        ///< share of that step's load reached
-  std::vector<int> pairs = {};  ///< mechanism and path_ended: whose opening freed the structure; cycle and
+  std::vector<int> pairs = {};  ///< mechanism and path_ended: whose separation led to it; cycle and
                                 ///< limit: those whose events repeat; from 0, empty when none did
   engine_counts work = {};      ///< what the engine did
   /// Not solved: has the step's full load an equilibrium? Nothing where that is not decided.
@@ -130,7 +130,7 @@ inline constexpr int most_increments = 1'000'000'000;
 /// driver's for a leader with the 1989 rule, the corrected rule's for any other
 /// (contct/path/policy.hpp).
 ///
-/// The engine must be fresh: the springs of the pairs that start closed in, all others out.
+/// The engine must be fresh: with the springs of the pairs that start in contact, and no others.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
                      const path_limits& limits = {});

@@ -128,7 +128,7 @@ struct path_state {
   std::vector<double> pair_force;   ///< force on the structure that each spring has gathered [pairs]
   std::vector<std::size_t> at_dof;  ///< dof of each pair [pairs]
   std::vector<event> events;        ///< by which `status` differs from `sprung`
-  std::vector<int> last_opened;     ///< pairs opened by the step's last increment that opened any
+  std::vector<int> last_opened;     ///< pairs separated by the step's last increment that separated any
   cycle_detector cycles;
 
   [[nodiscard]] std::size_t pairs() const { return status.size(); }
@@ -264,7 +264,7 @@ struct path_state {
   }
   [[nodiscard]] bool held() const { return structure.is_held(held_by()); }
 
-  /// The pairs that these events open.
+  /// The pairs that these events separate.
   [[nodiscard]] std::vector<int> opened() const {
     std::vector<int> open;
     for (const event& e : events)
@@ -290,7 +290,8 @@ struct path_state {
     return forces;
   }
 
-  /// The structure moved by `s_min` of this rigid-body motion, and pairs that it closed are at their faces.
+  /// The structure moved by `s_min` of this rigid-body motion, and pairs that made contact are at their
+  /// faces.
   void move_shape(double s_min, std::span<const double> motion) {
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
     for (const event& e : events)

@@ -119,7 +119,7 @@ class corrected_policy final : public path_policy {
     if (answers_at_rest_ > quick_answers_at_rest(now_.pairs()) && !now_.events.empty())
       toggle_first_at_rest();
     if (rigid_ && s_min == 1.0) return std::nullopt;
-    // Only the last pairs that hold the structure open too early; any other event is followed.
+    // Only the last pairs that hold the structure separate too early; any other event is followed.
     if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) s_min = leave_undone();
     if (keep_in_contact_if_toggled_again(s_min)) now_.cycles.reset();
     if (rigid_) now_.move_shape(s_min, motion_);
@@ -158,7 +158,7 @@ class corrected_policy final : public path_policy {
     now_.find_events();
   }
 
-  /// Do the last pairs that hold the structure open exactly at full load, but for rounding? The load of the
+  /// Do the last pairs that hold the structure separate at full load, but for rounding? The load of the
   /// step then does no work on the motions that they free.
   [[nodiscard]] bool opens_at_full_load(double s_min) const {
     constexpr double rounding_at_most = 1e-6;

@@ -55,8 +55,8 @@ class path_policy {
 
  protected:
   /// Is what would be left of the step's load after s_min no more than the error of an event's load: 1e-9 of
-  /// it, or eps / rcond up to 1e-6? Unloading to nothing opens the last pairs exactly at full load; computed,
-  /// that may come a rounding too early.
+  /// it, or eps / rcond up to 1e-6? Unloading to zero separates the last pairs exactly at full load;
+  /// computed, that may come a rounding too early.
   [[nodiscard]] bool reaches_full_load(double s_min) const;
 
   /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.

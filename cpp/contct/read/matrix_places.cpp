@@ -80,7 +80,7 @@ std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
 }
 
 /// Edges for a structure of which only the matrix is known: between nodes that it couples. None where there
-/// are more than this many for each node, as in a solid or a plate, whose couplings are no members. A space
+/// are more than this many for each node, as in a solid or a plate, whose couplings are not members. A space
 /// frame has 3 at most, a plane one 2.
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
   constexpr std::size_t most_couplings_of_a_node = 3;
@@ -326,7 +326,7 @@ class inp_reader {
   bool continues_ = false;  // the line before, of an element of another type: it ends with a comma
   std::vector<placed_node> nodes_;
   std::unordered_map<int, int> index_;  // of nodes, by number
-  const solid* solid_ = nullptr;        // null: the elements are no known solids
+  const solid* solid_ = nullptr;        // null: not elements of a known solid
   std::vector<int> element_;            // the nodes, by number, of the one that is not complete yet
   std::int64_t line_of_element_ = 0;
   std::vector<side> sides_;

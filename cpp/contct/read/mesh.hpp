@@ -28,7 +28,7 @@ struct coordinate_row {
 
   /// The number, from 0, of the coordinate that `named` is. Refuses any other number with the two nearest.
   [[nodiscard]] int index_of(const toml_value& named) const;
-  /// The coordinate that `named` is, or `named` itself where it is no coordinate, from the first to the last
+  /// The coordinate that `named` is, or `named` itself if it is not a coordinate, from the first to the last
   /// of them.
   [[nodiscard]] double place_of(const toml_value& named) const;
 

@@ -70,7 +70,7 @@ std::string node_reader::labels_allowed() const {
 int node_reader::dof_at(const toml_value& named) const {
   const std::string label = named.text(labels_allowed());
   if (const auto at = dofs_.find(label); at != dofs_.end()) return at->second;
-  // "01" and "+1" are no labels: a dof has one name.
+  // "01" and "+1" are not labels: a dof has one name.
   const int number = label.starts_with('0') ? 0 : number_in<int>(label).value_or(0);
   if (!dofs_.empty() || number < 1 || number > matrix_->dofs())
     named.refuse(in_quotes(label) + did_you_mean(label, matrix_->labels), labels_allowed());

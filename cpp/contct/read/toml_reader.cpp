@@ -51,7 +51,7 @@ std::string_view comma_hint(const toml::node& node, std::size_t meant) {
   return twice ? point_not_comma : "";
 }
 
-/// Has a line that is no TOML a decimal comma in it? "= 4,0", "= 10.000,5", or "0,05" anywhere: no whole
+/// Does a line that is not TOML have a decimal comma? "= 4,0", "= 10.000,5", or "0,05" anywhere: no whole
 /// number begins so.
 bool has_decimal_comma(std::string_view line) {
   const auto digits_from = [line](std::size_t at) {

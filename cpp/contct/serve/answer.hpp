@@ -32,7 +32,7 @@ struct served_answer {
 /// ..".
 class request {
  public:
-  /// `text` may be null. Refuses what is no JSON object, and names that are not in `known`.
+  /// `text` may be null. Refuses other text than a JSON object, and names that are not in `known`.
   request(const char* text, std::initializer_list<std::string_view> known);
 
   [[nodiscard]] bool flag(std::string_view name) const;

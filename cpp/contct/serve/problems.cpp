@@ -29,7 +29,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Throws std::invalid_argument for what is no engine's name, nor "auto", nor empty.
+/// Throws std::invalid_argument for a text that is not empty, "auto" or the name of an engine.
 void refuse_unknown_engine(const std::string& name) {
   const std::vector<std::string> names = engine_names();
   if (name.empty() || name == "auto" || std::ranges::find(names, name) != names.end()) return;

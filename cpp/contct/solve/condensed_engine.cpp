@@ -9,8 +9,8 @@ namespace contct {
 namespace {
 
 constexpr double below_rounding = 1e-18;
-// k c_p of a spring that opens, from which the response is checked at once: the rounding of x_p is multiplied
-// by it.
+// k c_p of a spring that goes out, from which the response is checked at once: the rounding of x_p is
+// multiplied by it.
 constexpr double stiff = 100.0;
 
 /// A vector over a node's two dofs, w and theta, and a matrix over them by its columns.

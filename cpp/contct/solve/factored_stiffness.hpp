@@ -1,4 +1,4 @@
-// The stiffness with a set of closed springs, factored anew; the residual, solutions corrected by it, and
+// The stiffness with springs of pairs in contact, factored anew; the residual, solutions corrected by it, and
 // vectors by dofs, by rows and by pairs.
 #pragma once
 

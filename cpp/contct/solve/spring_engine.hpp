@@ -74,8 +74,8 @@ class spring_engine : public stiffness_engine {
     return applied_ = wanted_;
   }
 
-  /// Apply the springs that have been switched by `update(pair)`: first those that close, then those that
-  /// open, so that the structure is held throughout. False as soon as `update` is: a new factor is due.
+  /// Apply the springs that have been switched by `update(pair)`: first those that come in, then those that
+  /// go out, so that the structure is held throughout. False as soon as `update` is: a new factor is due.
   template <class Update>
   [[nodiscard]] bool apply_switched(Update update) {
     for (const char closed : {char{1}, char{0}}) {
@@ -96,8 +96,8 @@ class spring_engine : public stiffness_engine {
 
   const linear_structure& structure_;
   factored_stiffness stiffness_;
-  std::vector<char> wanted_;   // closed, as switched [pairs]
-  std::vector<char> applied_;  // closed, in the factor and its updates [pairs]
+  std::vector<char> wanted_;   // in, as switched [pairs]
+  std::vector<char> applied_;  // in the factor and its updates [pairs]
   engine_counts counts_;
 
  private:

@@ -58,7 +58,7 @@ class output_file {
   std::FILE* file_ = nullptr;
 };
 
-/// Standard output is a pipe that nobody reads any more.
+/// Standard output is a pipe whose reader has ended.
 struct reader_gone : output_error {
   using output_error::output_error;
 };

@@ -37,7 +37,7 @@ bool is_obeyed(char32_t c) {
 }
 
 /// `text` with `replacement(bytes)` for every character that is obeyed, but for those in `kept`, and for
-/// every byte that is no UTF-8.
+/// every byte that is not UTF-8.
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
   std::string out;

@@ -25,8 +25,8 @@ struct escape {
 [[nodiscard]] std::string markup_text(std::string_view text);
 
 /// Text that a terminal shows and does not obey: as \xNN stands every byte of a control character (C0, DEL,
-/// C1), of a mark that reorders what is written (U+202A to U+202E, U+2066 to U+2069), and of what is no
-/// UTF-8. Line ends stay.
+/// C1), of a mark that reorders what is written (U+202A to U+202E, U+2066 to U+2069), and of bytes that are
+/// not UTF-8. Line ends stay.
 [[nodiscard]] std::string terminal_text(std::string_view text);
 
 /// The same for one line: line ends too are escaped, and at most the first `longest` bytes are shown, cut
@@ -50,7 +50,7 @@ struct escape {
 /// JSON in which characters that `terminal_text` escapes stand as \uNNNN: they can only be in its texts.
 [[nodiscard]] std::string json_escaped(std::string_view json);
 
-/// A JSON value as text, indented by so many blanks or on one line. What is no UTF-8 in it becomes U+FFFD.
+/// A JSON value as text, indented by so many blanks or on one line. Bytes that are not UTF-8 become U+FFFD.
 template <class Json>
 [[nodiscard]] std::string json_text(const Json& value, int indent = -1) {
   return json_escaped(value.dump(indent, ' ', false, Json::error_handler_t::replace));

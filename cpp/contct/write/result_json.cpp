@@ -88,7 +88,7 @@ json piece_json(const element_line& line) {
           {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
 }
 
-/// `m` is null where the places are told elsewhere.
+/// `m` is null if the places are written elsewhere.
 json element_json(const model* m, const step_results& results, std::size_t e) {
   json entry = {{"element", e + 1}};
   if (m != nullptr) {

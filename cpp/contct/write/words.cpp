@@ -35,7 +35,7 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
       worst->distance, unit_words(p, "w"), percent_words(worst->share));
 }
 
-/// Of hundreds of combinations nobody reads more.
+/// Of hundreds of combinations no more are named.
 std::vector<std::string> first_of(std::vector<std::string> lines) {
   constexpr std::size_t most = 12;
   if (lines.size() <= most) return lines;
