@@ -20,7 +20,7 @@ std::string verdict_of(const replay_report& r, const floating_point& fp) {
                      : fmt::format("equal to the bit, but the environment is not strict ({})", describe(fp));
 }
 
-/// What came of all traces to a kernel that is reported.
+/// The results of all traces, for a kernel that is reported.
 struct replayed {
   kernel_report report = {"replay", "", "", 0, {}, {}, {}};
   nearness near;

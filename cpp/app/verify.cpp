@@ -70,7 +70,7 @@ json json_of(const verified_case& c) {
           {"checks", std::move(numbers)}};
 }
 
-/// What came of all cases so far.
+/// The results of all cases so far.
 struct totals {
   int cases = 0, numbers = 0, failed = 0, known = 0;
   int exact = 0, comparisons = 0;  ///< numbers whose exact value is known; what was compared with these

@@ -113,7 +113,7 @@ TEST_CASE("step, increment and pair narrow the explanation, and STEP.INCREMENT i
   CHECK(explained({pb7, "--increment", "2", "--step", "4", "--pair", "3"}).out == one.out);
 }
 
-TEST_CASE("what is out of range is exit 2, says what is allowed, and writes nothing") {
+TEST_CASE("a step, increment or pair out of range is exit 2, with what is allowed, and nothing is written") {
   const scratch_folder dir;
   const std::string out = (dir.path() / "out.json").string();
   const auto refused = [&](std::vector<std::string> arguments, const char* words) {

@@ -113,7 +113,7 @@ TEST_CASE("a new problem runs, has events, and is certified, and its comments na
   }
 }
 
-TEST_CASE("what is commented out in a new problem may be put in") {
+TEST_CASE("the lines that are commented out in a new problem run if they are put in") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_folder dir;
     std::string text = contct_program(dir.path(), {"new", shape, "-"}).out;

@@ -46,7 +46,7 @@ class plate_directory : public scratch_folder {
 
 }  // namespace
 
-TEST_CASE("whatever takes long shows its progress on a terminal, and erases it in the end") {
+TEST_CASE("every long command shows its progress on a terminal, and erases it in the end") {
   const plate_directory dir;
   for (const long_work& w : long_works()) {
     INFO(w.name);
@@ -75,7 +75,7 @@ TEST_CASE("no progress is shown with --quiet, nor on a standard error that is no
   CHECK(contct_program(dir.path(), {"run", "plate.toml"}, at_once).err.empty());
 }
 
-TEST_CASE("where table and progress share a terminal, every row of the table begins on a clean line") {
+TEST_CASE("if table and progress share a terminal, every row of the table begins on a clean line") {
   const plate_directory dir;
   const std::vector<std::string> run = {"run", "plate.toml", "--kernels", "corrected"};
   const finished plain = contct_program(dir.path(), run);

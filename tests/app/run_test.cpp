@@ -77,7 +77,7 @@ TEST_CASE("without --kernels the answer is the corrected rule's, and each row sa
   CHECK(unloaded["right"] == 0.0);
 }
 
-TEST_CASE("what is wrong with the 1989 rule is not red beside an answer that is certified") {
+TEST_CASE("errors of the 1989 rule are not red beside a certified answer") {
   const scratch_folder dir;
   const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
   const process_options at_terminal{"", {{"TERM", "xterm"}}, true};

@@ -64,7 +64,7 @@ finished verify_with(const scratch_folder& dir, const std::string& right, const 
 
 }  // namespace
 
-TEST_CASE("verify fails, with exit 1, on one wrong number in five hundred") {
+TEST_CASE("verify exits with 1 if one number is wrong") {
   const scratch_folder dir;
   const finished f = verify_with(dir, "-0.00266666667", "-0.00266666697");
   CHECK(f.exit == 1);

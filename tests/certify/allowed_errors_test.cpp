@@ -21,7 +21,7 @@ error_bounds bounds(double w, double w_size, double force, double force_size) {
 
 }  // namespace
 
-TEST_CASE("what a kind may be off by is a millionth of its largest number in this state") {
+TEST_CASE("the allowed error of a kind is a millionth of its largest number in this state") {
   allowed_errors sizes;
   const by_quantity of_large = sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
   CHECK(of_large[quantity::w] == Approx(2e-6));
@@ -83,7 +83,7 @@ TEST_CASE("a bound where nothing is allowed is the worst of all, and so is NaN")
   CHECK_FALSE(worst_bound(error, allowed).empty());
 }
 
-TEST_CASE("what is allowed does not grow with the bounds") {
+TEST_CASE("the allowed error does not grow with the bounds") {
   for (const double bound : {1e-30, 1.0, 1e30}) {
     allowed_errors sizes;
     const by_quantity allowed = sizes.of(bounds(bound, 0.0, bound, 200.0), 2.0);
@@ -99,7 +99,9 @@ TEST_CASE("forces of a beam that only couples bend may be off by 2^-60 of its mo
   CHECK(sizes.of(b, 10.0)[quantity::force] == Approx(0x1p-60 * 4));
 }
 
-TEST_CASE("where supports only settle, forces may be off by 2^-70 of what moves one of them alone") {
+TEST_CASE(
+    "if supports only settle, the allowed error of forces is 2^-70 of the force that moves one of them "
+    "alone") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.settling[quantity::force] = 2.0;
   allowed_errors of_matrix;

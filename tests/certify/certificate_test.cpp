@@ -149,7 +149,7 @@ TEST_CASE("a deflection that hardly disturbs the balance is seen beside the refe
   CHECK(c.displacement_error == Approx(1e-5).epsilon(1e-3));
 }
 
-TEST_CASE("forces that do not balance are seen alone, where they move nothing") {
+TEST_CASE("a missing force on a stiff support violates equilibrium alone, not the displacements") {
   // The changed load stands on a support that hardly gives.
   beam_problem p = span_with_pairs();
   p.pairs[0] = {4, face_below, -0.1, stiff, false};
@@ -194,7 +194,7 @@ TEST_CASE("a step that did not reach its load has no certificate") {
   CHECK_FALSE(j.c.all_certified());
 }
 
-TEST_CASE("where there is no equilibrium no state is right, and the certificate says why") {
+TEST_CASE("without an equilibrium no state is certified, and the certificate says why") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   p.steps = {{{}, {{{1.0}, {}}}}};
   const certificate c = judged(p, {std::vector<double>(10, 0.0), std::vector<int>(5, separated)});
@@ -202,7 +202,7 @@ TEST_CASE("where there is no equilibrium no state is right, and the certificate 
   CHECK(says(c, "there is no equilibrium"));
 }
 
-TEST_CASE("where other states are as good, D is not compared, and all else still is") {
+TEST_CASE("if a rigid-body motion is free, displacements are not compared, but all else is") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   told_state t = right_state(p, p.steps[0]);
@@ -292,7 +292,7 @@ TEST_CASE("units do not matter: lengths and forces from 1e-12 to 1e12") {
   }
 }
 
-TEST_CASE("what is not a number is not right, wherever it stands") {
+TEST_CASE("a NaN or infinite displacement is not certified, at any dof") {
   const beam_problem p = span_with_pairs();
   for (const double odd :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -378,7 +378,7 @@ TEST_CASE("a state that a path reached and nothing proves is replaced by the ref
   CHECK(end.state->numbers.has_value());
 }
 
-TEST_CASE("unloaded, what only lies on its faces may stand anywhere above them, and not below") {
+TEST_CASE("an unloaded beam held by its faces alone is certified above them, and not below") {
   problem p;
   p.geometry.kind = beam{{0.0, 1.0}, {1e4}};
   p.pairs = {{0, face_below, 0.0, 10.0, false}, {1, face_below, 0.0, 10.0, false}};

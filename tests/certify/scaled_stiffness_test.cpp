@@ -76,7 +76,7 @@ TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less
   }
 }
 
-TEST_CASE("what doubles cannot factor is proved in 32 digits, with L as a sum of two") {
+TEST_CASE("a matrix that doubles cannot factor is proved definite in 32 digits, with L as a sum of two") {
   long_system t = chain(20);
   t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // free at both ends but for a soft spring
   t.stiffness[19][19] = 1.0;
@@ -131,7 +131,7 @@ TEST_CASE("by sparse columns the same is proved") {
   }
 }
 
-TEST_CASE("what is not definite has no bound, however little it is short of it, in either storage") {
+TEST_CASE("a matrix that is not definite has no bound, however near it is, in either storage") {
   const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 42), 2);
   for (const double less : {-1e-3, -1e-9, -1e-14}) {
     const long_system t = chain(20, -least + less);

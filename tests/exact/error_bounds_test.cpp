@@ -178,7 +178,7 @@ TEST_CASE(
   CHECK(2 * proved > steps * 95 / 100);
 }
 
-TEST_CASE("whatever is wrong with the numbers, the bounds hold or the step is not certified") {
+TEST_CASE("with any wrong number, the bounds hold or the step is not certified") {
   one_end e(beam_over_stop);
   REQUIRE(certified(e.again()));
   CHECK(check_bounds(errors_of(e.what, e.truly, e.end), e.again().error) == 6);
@@ -308,7 +308,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what nothing holds for certain is not proved, and says so") {
+TEST_CASE("a structure that is not certainly held is not proved, with the reason") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
       "0\nstiffness = 1e6\n"

@@ -57,7 +57,7 @@ TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is n
   CHECK(a.toggled.empty());
 }
 
-TEST_CASE("whatever is within EPSMUL is toggled, but only a tie wins together") {
+TEST_CASE("every pair within EPSMUL is toggled, but only tied pairs win together") {
   const std::vector<listing_pair> pairs = {
       open_pair(rational(-1, 2), 0, -1), open_pair(-2, -1, -2),
       open_pair(rational(-1, 2) - rational(1, 1024), 0, -1),  // 1/512 later: within 1/256
@@ -107,7 +107,7 @@ TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
   CHECK(path.steps[0].increments[0].fraction < rational(1, 1000000));
 }
 
-TEST_CASE("where the 1989 code goes wrong, its rule does, as reference/DIVERGENCES.md says") {
+TEST_CASE("the exact 1989 rule goes wrong where the 1989 code does, as reference/DIVERGENCES.md says") {
   struct divergence {
     const char* name;
     double error;  // of w at the ends of steps that the rule reaches, relative to the largest

@@ -123,7 +123,7 @@ TEST_CASE("EPSGAP is a length: in small units every gap counts as zero") {
   CHECK(c.isep[0] == touching);  // in contact a whole gap too early
 }
 
-TEST_CASE("NaN in, no event out") {
+TEST_CASE("a call with NaN has no event") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   small_call<double> c(
       {{nan, 1.0, 0.5, apart, above}, {0.0, nan, 0.5, apart, above}, {0.0, 1.0, nan, apart, above}});

@@ -222,7 +222,7 @@ TEST_CASE("corrected: at rest the largest response goes first, of equal ones the
   CHECK(c.isep == std::vector<int>{apart, apart, touching, apart});
 }
 
-TEST_CASE("corrected: no pairs, no event, and NaN in, no event out") {
+TEST_CASE("corrected: no pairs, no event, and a call with NaN has no event") {
   CHECK(answered({}).happened == nothing);
   CHECK(answered({}).smin == 1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -244,7 +244,7 @@ TEST_CASE("corrected: upside down the answer is the same to the bit") {
   });
 }
 
-TEST_CASE("corrected: whatever the call, s is from 0 to 1, SMIN the least, and what toggles stands at it") {
+TEST_CASE("corrected: in every call s is from 0 to 1, SMIN is the least, and pairs that toggle have that s") {
   random_numbers r(103);
   for (int round = 0; round < 20000; ++round) {
     const std::vector<pair_at<double>> pairs = random_pairs(r);

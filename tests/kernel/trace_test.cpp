@@ -355,7 +355,7 @@ TEST_CASE("a trace cut off anywhere is refused, unless what is left is whole") {
   CHECK(whole < static_cast<int>(good.find("call 1")) + 6);
 }
 
-TEST_CASE("what one call says of a dof is forgotten in the next") {
+TEST_CASE("a dof that the next call does not name is NaN again") {
   const std::string calls =
       "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
       "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"

@@ -32,7 +32,7 @@ call_sequence some_calls(std::size_t last) {
 
 }  // namespace
 
-TEST_CASE("what one pair of one call shows is shrunk to one pair with round numbers") {
+TEST_CASE("a difference that one pair of one call shows is shrunk to that pair, with round numbers") {
   const still_differs differs = [](const call_sequence& c) { return approaches(c.back()); };
   const call_sequence small = shrink(some_calls(20), differs);
   REQUIRE(small.size() == 1);
@@ -47,7 +47,7 @@ TEST_CASE("what one pair of one call shows is shrunk to one pair with round numb
   CHECK(small[0].isurf[0] == face_above);
 }
 
-TEST_CASE("what needs a call before it keeps just that one") {
+TEST_CASE("a difference that needs one earlier call keeps just that one") {
   const still_differs differs = [](const call_sequence& c) {
     int many = 0;
     for (std::size_t i = 0; i + 1 < c.size(); ++i) many += c[i].pairs() >= 3 ? 1 : 0;

@@ -84,7 +84,7 @@ TEST_CASE("a number must have its exact one, a decimal or a fraction in lowest t
   }
 }
 
-TEST_CASE("what is computed lies as near to the exact number as is allowed, and the table's value too") {
+TEST_CASE("a computed number and the table's value must be within their tolerance of the exact one") {
   expected_number e = third();
   CHECK(exact_disagreement(e, 1.0 / 3 + 1e-9, 1e-8).empty());
   CHECK_THAT(exact_disagreement(e, 1.0 / 3 + 1e-7, 1e-8), Contains("exactly 1/3; allowed: 1e-08 apart"));

@@ -120,7 +120,7 @@ TEST_CASE("a dof that no rigid-body motion moves holds none: what is left there 
   CHECK(rank_of(build(body, only_x_is_left, {at_dof(21)})) == 1);
 }
 
-TEST_CASE("a soft motion of a matrix is stiffness, unless its last digits are in doubt") {
+TEST_CASE("a very flexible matrix counts as elastic, unless its last digits are in doubt") {
   const std::vector<support> clamp = {{0, 0, true}, {1, 0, true}};
   CHECK(by_matrix(build(beam_of(1000), {}, {}), clamp, {}).rigid_motions == 0);
   assembled longer;

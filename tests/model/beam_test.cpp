@@ -107,7 +107,7 @@ TEST_CASE("elastic supports: a beam on two springs sinks by F / 2k, and each rea
   CHECK(r[1] == Approx(2.0).epsilon(1e-9));
 }
 
-TEST_CASE("a rotational spring at the root makes a clamp as stiff as itself") {
+TEST_CASE("a rotational spring k at the root adds F L^2 / k to the deflection of the tip") {
   const beam b = even_beam(1.0, 1, 1.0);
   const std::vector<support> soft = {{0, 0, true}, {0, 1, false, 2.0}};
   const auto u = displaced(b, soft, {{{1, 0, 1.0}}, {}});

@@ -103,7 +103,8 @@ TEST_CASE("the motion is the steepest one, and its parts are those of the rounde
   agree(beam_at({0, 1, 3, 4}), l);
 }
 
-TEST_CASE("what a plate's pressures and forces do on its motions is summed exactly, rectangle by rectangle") {
+TEST_CASE(
+    "the work of a plate's pressures and forces on rigid-body motions is exact, rectangle by rectangle") {
   plate p;
   p.x = {0, 0.7, 1.3, 2.9};
   p.y = {-1, 0.1, 0.35};

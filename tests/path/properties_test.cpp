@@ -102,7 +102,7 @@ TEST_CASE("in many steps or in one, the last state is the same") {
   CHECK(compared > 500);
 }
 
-TEST_CASE("loaded and unloaded to nothing, a held structure stands where it began") {
+TEST_CASE("loaded and unloaded to zero, a held structure returns to its start") {
   random_problem_kind kind;
   kind.free_share = 0.0;
   int loaded = 0;

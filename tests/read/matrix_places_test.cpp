@@ -93,7 +93,7 @@ TEST_CASE("dofs whose labels have no node, and rotations, are counted as not dra
   CHECK_THAT(places.notes[1], Contains("Rotations, 1 of 8 dofs"));
 }
 
-TEST_CASE("where no label has its node nothing is known") {
+TEST_CASE("if no label has a node, no place is known") {
   const placed_nodes places = places_by_coordinates("a 0 0\n", "K.xyz", with_labels({"1", "2", "a.q", ".x"}));
   CHECK_FALSE(places.known());
   CHECK(places.dofs.empty());
@@ -208,7 +208,7 @@ TEST_CASE(
   CHECK(edges_of(m) == "1-2 1-3 1-4 2-3*3 2-4*3 2-5 2-6 3-4*3 3-5 3-6 4-5 4-6");
 }
 
-TEST_CASE("what of an input file is not drawn is counted in words") {
+TEST_CASE("the parts of an input file that are not drawn are counted in words") {
   const placed_nodes m = by_mesh(nodes_text(3) +
                                  "*INCLUDE, INPUT=more.inp\n*ELEMENT, TYPE=B31\n1,1,2\n2,2,3\n"
                                  "*element,type=s8r\n3,1,2,3,1,2,\n3,1,2\n");

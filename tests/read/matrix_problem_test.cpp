@@ -246,7 +246,7 @@ TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's")
   check_same(followed(p), followed(read_problem(here.write("c.toml", toml))));
 }
 
-TEST_CASE("what is given on a matrix is read: springs, lists of dofs, loads from files and points together") {
+TEST_CASE("springs, lists of dofs, and loads from files and points together are read on a matrix") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
@@ -399,7 +399,7 @@ TEST_CASE(
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));
 }
 
-TEST_CASE("where half a unit in a matrix's last digits decides whether it is held, nothing is certified") {
+TEST_CASE("if half a unit in a matrix's last digits decides whether it is held, nothing is certified") {
   const scratch_folder to;
   const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
     (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +

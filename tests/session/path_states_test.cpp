@@ -98,7 +98,7 @@ TEST_CASE("pictures of many dofs are fewer, for the memory's sake") {
   CHECK(states.back().step == 4);
 }
 
-TEST_CASE("what never moved has two states: the start, and the same as its end") {
+TEST_CASE("a structure that never moved has two states: the start, and the same as its end") {
   const a_run r(
       "[beam]\nlength = 1\nelements = 8\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n"
       "[[step]]\nuniform = -10\n",

@@ -49,7 +49,7 @@ TEST_CASE("an older file is replaced, and its name is never without a whole file
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("what is not finished leaves nothing, and an older file stays as it was") {
+TEST_CASE("an unfinished file leaves nothing, and an older file stays as it was") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   {

@@ -29,7 +29,7 @@ TEST_CASE("words are joined, and characters are escaped one by one") {
   CHECK(escaped("a-\\-", escapes) == "a\\-\\e\\-");
 }
 
-TEST_CASE("what has a meaning in XML is escaped, and what XML forbids becomes U+FFFD") {
+TEST_CASE("characters with a meaning in XML are escaped, and forbidden ones become U+FFFD") {
   CHECK(markup_text("a < b && \"c\" > d'") == "a &lt; b &amp;&amp; &quot;c&quot; &gt; d'");
   CHECK(markup_text("tab\t line\n return\r") == "tab\t line\n return\r");
   CHECK(markup_text(std::string("\0\x1b\x7f", 3)) == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");

@@ -58,7 +58,7 @@ TEST_CASE("a proof has the state, the pairs in contact, the factor and the bound
   CHECK(unloaded["state"] == nlohmann::json::array({"separated"}));
 }
 
-TEST_CASE("what doubles cannot factor has L as a sum of two") {
+TEST_CASE("a matrix that doubles cannot factor has L as a sum of two") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 0.008, 7.008, 7.00802, 7.02802, 12.02802]\nEI = 92\n[[support]]\nnode = 1\n"
       "fix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e5\n"
@@ -69,7 +69,7 @@ TEST_CASE("what doubles cannot factor has L as a sum of two") {
   CHECK(step["L_low"][11].size() == step["L"][11].size());
 }
 
-TEST_CASE("where nothing is proved, a proof says why") {
+TEST_CASE("a proof without bounds says why") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 1e6\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n");  // nothing holds node 1 down

@@ -39,7 +39,7 @@ TEST_CASE("a path that ended before its full load is not certified as a whole, w
   CHECK(items[1] == "step 1 is certified");
 }
 
-TEST_CASE("where the 1989 rule leaves a pair that pulls, the complaint has the pair and the amount") {
+TEST_CASE("if the 1989 rule leaves a pair that pulls, the complaint has the pair and the amount") {
   const a_run r(  // exactly the forces are 2.75e-4 and 0
       "[beam]\nlength = 128\nelements = 128\nEI = 1e4\n"
       "[[support]]\nnodes = [1, 129]\nfix = \"w\"\n"

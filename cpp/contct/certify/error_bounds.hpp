@@ -77,7 +77,7 @@ class exact_means {
   [[nodiscard]] virtual bool is_semidefinite() = 0;
 };
 
-/// Bounds errors of states of a problem.
+/// Computes bounds on the errors of states of a problem.
 class error_prover {
  public:
   /// All must outlive this object. `exactly`, which may be null, gives residuals where only 32 digits factor
@@ -118,8 +118,7 @@ class error_prover {
   [[nodiscard]] bool has_exact_residual(const long_loads& l);
   [[nodiscard]] long_residual residual_of(std::span<const double_double> u, const long_loads& l);
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
-  /// `displacement`, with settlements as they are prescribed; of the state refined last with what doubles
-  /// leave over.
+  /// `displacement`, with settlements as they are prescribed; the state refined last has its low parts, too.
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const long_loads& l) const;
 

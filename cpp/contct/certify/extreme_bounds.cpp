@@ -84,7 +84,7 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
                              ? std::abs(polynomial_at(last.moment, 1.0)) * h / 6 / b.EI[e]
                              : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
     const double of_slope = h / 4 * (error[quantity::slope].value_or(0.0) + slope);
-    // Where parts of a load cancel, their sum has errors of 2^-89 of the parts.
+    // If parts of a load cancel, their sum has errors of 2^-89 of the parts.
     const double of_load = 0x1p-80 * last.load_size * h;
     bounds.size.take(quantity::w, std::abs(middle_of(pieces, h)));
     for (const element_line& line : pieces) {

@@ -25,7 +25,7 @@ using long_band = band_of_numbers<double_double>;
 /// x becomes (L L')^-1 x.
 void solve_with(const long_band& l, std::span<double_double> x);
 
-/// Where `factor` returned false: x with x' A x <= 0 but for rounding. Otherwise 0.
+/// If `factor` returned false: x with x' A x <= 0 but for rounding. Otherwise 0.
 [[nodiscard]] std::vector<double_double> suspect_in(const long_band& failed);
 
 /// A product of entries, exact where 32 digits are asked of doubles.

@@ -290,7 +290,7 @@ class reference_solver::search {
         for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
       } else {
         put(*driven, p);
-        // Where an equilibrium exists, rounding has put a pair on the wrong side.
+        // If an equilibrium exists, rounding has put a pair on the wrong side.
         if (nothing_stops(p)) return end(exists_ == true ? outcome::not_found : outcome::none_seen, false);
       }
       const long double alpha = driven ? best_step(p, -driven->work, 0.0L) : best_step(p);

@@ -41,7 +41,7 @@ struct reference_answer {
 /// has neither force nor energy. From such a point one whole step lands on u*. The sets are then
 /// the same before and after, and that is the test.
 ///
-/// Where the pressed pairs do not hold the structure, the step is the rigid-body motion that the load
+/// If the pressed pairs do not hold the structure, the step is the rigid-body motion that the load
 /// drives; where it drives none, springs without force hold the structure.
 ///
 /// Every solve is refined with residuals in long double, so the answer is that of the matrix as it

@@ -41,7 +41,7 @@ class scaled_stiffness {
   /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
   [[nodiscard]] double least_eigenvalue();
 
-  /// Where 32 digits gave no factor either: displacements on which K_A may do negative work. Otherwise 0.
+  /// If 32 digits gave no factor either: displacements on which K_A may do negative work. Otherwise 0.
   [[nodiscard]] std::vector<double> suspect() const;
 
   /// Did the last factor take 32 digits?

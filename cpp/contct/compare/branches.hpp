@@ -135,7 +135,7 @@ inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t 
 }
 
 /// The decision of a call of a kernel of `real_bytes` that was taken by least, among those of which `counts`
-/// says so, by branch and pair from 0; IF (ISEP(I).EQ.1) where there is no other, and none without any.
+/// says so, by branch and pair from 0; IF (ISEP(I).EQ.1) if there is no other, and nothing if there is none.
 [[nodiscard]] std::optional<decision> narrowest_decision(
     const answered_call& c, int real_bytes, const std::function<bool(branch, std::size_t)>& counts);
 

@@ -103,9 +103,8 @@ struct explained_call {
   return real_bytes == 4 ? 1e-5 : 1e-11;
 }
 
-/// Explain a call of a kernel of `real_bytes`. `largest` is the largest deflection of the path so far; this
-/// call's are looked at as well, and it is raised. Nothing of a kernel's code is used: this follows the
-/// listing's text.
+/// Explain a call of a kernel of `real_bytes`. `largest` is the largest deflection of the path so far; those
+/// of this call can raise it. Nothing of a kernel's code is used: this follows the listing's text.
 [[nodiscard]] explained_call explain(const answered_call& c, int real_bytes, double& largest);
 
 }  // namespace contct

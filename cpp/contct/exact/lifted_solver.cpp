@@ -12,7 +12,7 @@ constexpr std::uint64_t two_to_61 = std::uint64_t{1} << 61U;
 constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31,  two_to_61 - 45,
                                                  two_to_61 - 229, two_to_61 - 259, two_to_61 - 283};
 
-// What the innermost loops do, by GMP's functions for single words where there are such.
+// The innermost loops, by GMP's functions for single words if there are such.
 
 std::uint64_t residue_of(const integer& x, std::uint64_t p) {
   const std::uint64_t r = boost::multiprecision::integer_modulus(x, p);  // of |x|

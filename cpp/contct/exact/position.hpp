@@ -1,4 +1,4 @@
-// Where an exact path stands, and the equations that both rules solve there.
+// The state of an exact path, and the equations that both rules solve there.
 #pragma once
 
 #include <vector>
@@ -28,7 +28,8 @@ class position {
   [[nodiscard]] rational_vector response() const { return moved(increment_, settlement_); }
   /// How fixed dofs move in the step, less how far faces move there.
   [[nodiscard]] const rational_vector& settlement() const { return settlement_; }
-  /// Where the springs of the pairs in contact hold the structure under the load at the start of the step.
+  /// The displacements at which the springs of the pairs in contact hold the structure under the load at the
+  /// start of the step.
   [[nodiscard]] rational_vector at_start_of_step() const;
 
   [[nodiscard]] rational gap(std::size_t pair) const {

@@ -81,7 +81,7 @@ bool ready(int channel, short events, clock::time_point deadline) {
   }
 }
 
-/// What came of a message: sent or received; not before the deadline; the channel is closed.
+/// The result of sending or receiving a message: done; not before the deadline; the channel is closed.
 enum class sent { whole, late, gone };
 
 /// A child process and a channel to it. The child ends with this object, and with its parent.
@@ -306,7 +306,7 @@ void become(const std::string& command, int channel) {
 
 using abi_function = decltype(&contct_kernel_abi);
 
-/// Make the call, and say what came of it as trace text.
+/// Make the call, and return its answer as trace text.
 std::string answer_to(std::string_view asked, kernel_procedure* ask) {
   recorded_call recorded;
   trace_reader(asked, "the call").next_inputs(recorded);
@@ -325,7 +325,7 @@ void say(int channel, std::string_view words) {
   }
 }
 
-/// What the child of a plug-in does until its channel is closed: wait for a call, make it, say what came of
+/// What the child of a plug-in does until its channel is closed: wait for a call, make it, answer
 /// it.
 void answer_calls(kernel_procedure* ask, int channel) {
   char block[1 << 14];

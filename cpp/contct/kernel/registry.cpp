@@ -142,7 +142,7 @@ const entry& built_in_named(std::string_view name) {
                               "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
 }
 
-/// What follows "plugin:" or "pipe:" in a name; nothing when it begins with something else.
+/// What follows "plugin:" or "pipe:" in a name; nothing if it has neither.
 std::optional<std::string> after(std::string_view prefix, std::string_view name) {
   if (!name.starts_with(prefix) || name.size() == prefix.size()) return {};
   return std::string(name.substr(prefix.size()));

@@ -114,7 +114,7 @@ class fuzzing final : public observer {
     compared_->put(c);
     for (std::size_t f = 0; f < firsts_.size(); ++f) {
       run_.result.followers[f].note(compared_->last_answers()[f]);
-      (void)followers()[f].asked().take_text();  // where it was not compared
+      (void)followers()[f].asked().take_text();  // if it was not compared
     }
   }
 

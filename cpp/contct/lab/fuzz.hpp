@@ -66,7 +66,7 @@ enum class equality_level {
 };
 [[nodiscard]] std::string_view name_of(equality_level l);
 
-/// What came of the calls to one follower.
+/// The results of the calls to one follower.
 struct fuzz_follower {
   std::string name;
   tally compared;
@@ -86,7 +86,7 @@ struct event_counts {
   std::int64_t make = 0, break_ = 0, stationary = 0;
 };
 
-/// What came of a run or of a shard of one. Its calls are single ones and those of all paths.
+/// The results of a run, or of a shard of one. Its calls are single ones and those of all paths.
 struct fuzz_result {
   fuzz_request request;
   std::int64_t calls = 0, problems = 0;

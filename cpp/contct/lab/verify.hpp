@@ -72,7 +72,7 @@ class measurement {
 /// that is 0. The table's value is within its tolerance of it.
 [[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
 
-/// One number of the table, and what came out.
+/// One number of the table, and the computed one.
 struct verified_number {
   expected_number expected;
   double computed = 0.0;      ///< by FORTRAN, leading C++

@@ -70,7 +70,7 @@ struct matrix_entry {
 };
 
 /// Symmetric, by single entries, as other programs write it: each place of the lower triangle at most once,
-/// places not named are 0. 16 bytes an entry.
+/// and the others are 0. 16 bytes an entry.
 struct sparse_matrix {
   int order = 0;
   std::vector<matrix_entry> entries;

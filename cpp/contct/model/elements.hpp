@@ -1,4 +1,4 @@
-// The elements of beams and plates in numbers of any kind: stiffness, loads, and what is read off them. Each
+// The elements of beams and plates in numbers of any kind: stiffness, loads, and results. Each
 // class has the same functions, from which equations.hpp and build assemble a structure.
 #pragma once
 

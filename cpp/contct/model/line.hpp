@@ -29,7 +29,7 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number product_of(double x, double factor);
 
-/// The sum of loads at one dof; exactly 0 where their decimals cancel.
+/// The sum of loads at one dof; exactly 0 if their decimals cancel.
 template <class Number>
 [[nodiscard]] Number sum_of(std::span<const point_load> all);
 template <>

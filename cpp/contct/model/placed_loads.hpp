@@ -42,7 +42,7 @@ struct element_piece {
 
   [[nodiscard]] bool is_plain() const { return curvature == 0.0 && force == 0.0 && moment == 0.0; }
 };
-/// Of every element that something acts on, from its left end to its right one.
+/// The loads of every loaded element, from its left end to its right one.
 [[nodiscard]] std::map<int, std::vector<element_piece>> pieces_of(const beam& b, const load& l);
 
 }  // namespace contct

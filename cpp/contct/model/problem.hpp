@@ -133,7 +133,7 @@ struct placed_dof {
   [[nodiscard]] bool is_length() const { return direction >= 1 && direction <= 3; }
 };
 
-/// Where the dofs of an assembled structure are, as far as that is known: for pictures only.
+/// The known places of the dofs of an assembled structure: for pictures only.
 struct placed_nodes {
   std::vector<placed_node> nodes;  ///< empty: nothing is known
   std::vector<mesh_edge> edges;    ///< from < to, each once
@@ -277,7 +277,7 @@ struct bed {
   double modulus;             ///< force per length (area) of deflection, positive
   std::vector<double> share;  ///< tributary length, or area, of each pair
   std::size_t first_pair;     ///< from 0; the others follow it
-  /// Where faces are a polynomial in x along a beam, its coefficients, constant first; otherwise empty.
+  /// If faces are a polynomial in x along a beam, its coefficients, constant first; otherwise empty.
   std::vector<double> face = {};
   std::optional<bool> closed = {};  ///< in contact at the start or not, where the file says so
 };

@@ -54,10 +54,10 @@ class rigid_rank {
 
   [[nodiscard]] int rank() const { return rank_; }
 
-  /// Held dofs that are independent of each other, and stop all that is stopped.
+  /// Independent held dofs that stop every motion that any held dof stops.
   [[nodiscard]] std::span<const int> dofs() const { return dofs_; }
 
-  /// The part of a combination of motions that is still free; of rows of a matrix.
+  /// The part of a combination of rigid-body motions that is still free; for the rows of a matrix.
   [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
 
  private:

@@ -188,7 +188,7 @@ struct linear_structure {
   int rigid_motions = 0;  ///< 2 for a beam and 1 for each hinge, 3 for a plate, up to 6 for other bodies
   std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid-body motions do there
   std::vector<int> supported_dofs;    ///< those whose supports stop such motions
-  /// The motions without rounding, of beams and plates; null for others.
+  /// The rigid-body motions without rounding, of beams and plates; null for others.
   std::shared_ptr<const rigid_truth> truth;
   std::optional<rigid_rank> on_supports;  ///< held_by_supports, where `truth` has found it
   /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more

@@ -83,7 +83,7 @@ class load_history {
   [[nodiscard]] std::vector<double> moved_before(int step, std::size_t dofs) const {
     return moved(from_zero(step) ? 0 : step - 1, dofs);
   }
-  /// Not known, where only rounded loads are given, and in step 0.
+  /// Not known if only rounded loads are given, and in step 0.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
   [[nodiscard]] bool from_zero(int step) const { return step == 1 || (from_zero_ && from_zero_(step)); }
 

@@ -167,7 +167,7 @@ class corrected_policy final : public path_policy {
     return !*driven && now_.residual.share * (1.0 - s_min) <= rounding_at_most;
   }
 
-  /// Where supports and pairs in contact leave rigid-body motions that the load does not drive, springs of
+  /// If supports and pairs in contact leave rigid-body motions that the load does not drive, springs of
   /// separated pairs hold the structure for a solve, each at rest where its pair is. Null when even these do
   /// not hold it.
   [[nodiscard]] std::unique_ptr<holding_springs> hold() {

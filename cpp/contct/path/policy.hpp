@@ -1,4 +1,4 @@
-// What has to be decided on a path besides the paper's loop.
+// The decisions on a path that the paper's loop leaves open.
 #pragma once
 
 #include <memory>
@@ -46,7 +46,7 @@ class path_policy {
   /// May the path go on after the events of this increment, or do they leave a mechanism?
   [[nodiscard]] virtual bool goes_on() const { return now_.held(); }
 
-  /// Write u [dofs] under the load applied so far. False where the structure cannot be held for a solve.
+  /// Write u [dofs] under the load applied so far. False if the structure cannot be held for a solve.
   /// Throws no_factor.
   virtual bool displace(std::span<double> u);
 

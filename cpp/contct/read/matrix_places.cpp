@@ -99,7 +99,7 @@ void add_coupling_edges(const assembled& a, placed_nodes& places) {
   places.edges.clear();
 }
 
-/// Without the nodes that have neither a dof nor an edge.
+/// Leaves out the nodes that have neither a dof nor an edge.
 void drop_idle_nodes(placed_nodes& places) {
   std::vector<int> now(places.nodes.size(), -1);
   for (const placed_dof& d : places.dofs)

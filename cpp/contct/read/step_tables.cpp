@@ -100,7 +100,8 @@ class step_reader {
       return;
     }
     if (!uniform.is_array()) uniform.refuse("a number, or an array of tables");
-    // Parts on the same elements become one: thousands on "all" would each be a pass over the beam.
+    // Parts on the same elements become one: otherwise thousands on "all" would each take a pass over the
+    // beam.
     std::map<std::vector<int>, std::size_t> place;
     for (const toml_value& table : uniform.tables()) {
       if (table.has("from") || table.has("to")) {

@@ -191,7 +191,7 @@ struct given_states {
   std::vector<std::vector<int>> isep;             // [states][pairs]
 };
 
-/// Where no list says so, a pair whose face the state touches or enters is in contact.
+/// Without a list, a pair whose face the state touches or enters is in contact.
 std::vector<int> statuses_at(const problem& p, const load& l, const linear_structure& s,
                              std::span<const double> displacement) {
   std::vector<int> isep(p.pairs.size(), separated);

@@ -26,8 +26,7 @@ struct row_of_1989 {
   bool reached = true;  ///< false: its path had ended before
 };
 
-/// The number at the end of a step in which the 1989 rule differs most from the answer, relative to the size
-/// of its kind.
+/// The number at the end of a step in which the 1989 rule differs most from the answer, relative to its kind.
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< its kind

@@ -33,7 +33,7 @@ void run_recorder::keep_call(const answered_call& c) {
   ++all_calls;
   const std::string_view text = c.text.value_or("");
   all_log += text.size();
-  // Whole calls only: a text is never cut in the middle of an event.
+  // Whole calls only, so that no event's text is cut.
   if (log.size() + text.size() <= most_log && log.size() + text.size() == all_log) log += text;
   answers_ = calls.size() < most_calls;
   if (!answers_) return;

@@ -42,7 +42,7 @@ struct increment_record {
   std::vector<event> events;
   std::optional<double> smin = {};  ///< as the kernel gave it; none before the first call
   bool equal = true;                ///< the kernels agreed in that call
-  // Where states are asked for, as `increment` has them [pairs]:
+  // If states are asked for, as `increment` has them [pairs]:
   std::vector<double> d = {}, pair_force = {};
   std::vector<int> isep = {};
 };

@@ -62,7 +62,7 @@ sentence competition(const explained_pair& p) {
           "(9)"};
 }
 
-/// What is to be said of the candidate behind the winner.
+/// The sentence about the candidate behind the winner.
 std::string runner_up(const explained_call& c) {
   if (c.next < 0) return "No other pair has an event ahead of it.";
   if (c.ulps_ahead == 0) return fmt::format("Pair {} has the same s, to the bit.", c.next + 1);

@@ -68,7 +68,7 @@ std::vector<pair_reading> readings_at(const problem& p, const load& l, const pat
   return all;
 }
 
-/// At the ends of steps.
+/// Columns at the ends of steps.
 int node_that_deflects_most(const run_result& r) {
   double most = 0.0;
   int at = 0;

@@ -375,7 +375,7 @@ void table_printer::print_row(const increment_record& i, bool equal, std::vector
 }
 
 void table_printer::print_end(const step_record& s, const std::optional<certificate>& judged) {
-  // Where the path ends at a pair's opening, its status is as it was before, without force.
+  // If the path ends as a pair separates, the pair keeps its status, without force.
   auto closed = std::ranges::count(s.end.isep, in_contact);
   if (!s.increments.empty())
     for (const event& e : s.increments.back().events)

@@ -16,7 +16,7 @@ namespace contct {
 /// which means the whole load: "1-3e-09".
 [[nodiscard]] std::string share_words(double x);
 
-/// The run as the terminal shows it.
+/// Prints the run at the terminal.
 struct run_table {
   std::string text;                 ///< lines
   std::vector<std::string> legend;  ///< what its columns and words mean, to stand below it

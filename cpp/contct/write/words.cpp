@@ -278,7 +278,7 @@ std::vector<std::string> complaints_of(const run_result& r) {
     lines.push_back(of_stiffness);
     return lines;
   }
-  // Where not even bounds are proved, the other rule may prove none either.
+  // Without any proved bounds, the other rule may have none either.
   const bool is_bounded =
       std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });
   if (!lines.empty() && is_bounded && !r.kernels.empty() &&
