@@ -111,7 +111,7 @@ _RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion",
 class Record(Mapping[str, Any]):
     """An object of the program's JSON. Its keys are attributes and items; two records are equal if their JSON is.
 
-    A key that is no name in Python, such as "if" in an explanation, is an item only.
+    A key that is not a name in Python, such as "if" in an explanation, is an item only.
     """
 
     def __init__(self, data: dict[str, Any], rational: bool = False) -> None:

@@ -125,7 +125,7 @@ struct all_counts {
   }
 };
 
-/// Judge a stretch of problems on several threads; what comes of it does not depend on how many.
+/// Judge a stretch of problems on several threads; the results do not depend on how many.
 std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first, std::uint64_t count) {
   std::vector<judged_problem> judged(count);
   std::atomic<std::size_t> next = 0;

@@ -31,7 +31,7 @@ const std::string nasty = "</script><script>alert(1)</script> <b>& \\\"{{data}}\
 
 }  // namespace
 
-TEST_CASE("a title with markup stays text: no new element comes of it, and the data say it unchanged") {
+TEST_CASE("a title with markup stays text: it makes no new element, and the data have it unchanged") {
   const a_run plain(good_problem);
   const a_run titled("title = \"" + nasty + "\"\n" + good_problem);
   const std::string page = run_page(titled.result);

@@ -190,7 +190,7 @@ trace_header trace_reader::read_header() {
   const std::string_view first = need_line(allowed);
   if (first == std::string(trace_format) + "\r") refuse("a line that ends in CR LF", "lines that end in LF");
   if (first != trace_format)
-    refuse("a file that is no trace of this format: " + std::string(first.substr(0, 40)), allowed);
+    refuse("a file that is not a trace of this format: " + std::string(first.substr(0, 40)), allowed);
   trace_header h;
   std::vector<std::string_view> keys;
   while (lines_.next() && !lines_.here().empty()) {
