@@ -34,7 +34,7 @@ TEST_CASE("a bad problem file: exit 2, one message with its place, nothing writt
   CHECK_THAT(refusal(dir, "program.toml"), StartsWith("contct: program.toml:1:") && Contains("not TOML"));
 }
 
-TEST_CASE("no such file, a directory, a file without permission to be one") {
+TEST_CASE("a missing file, a directory and an empty name are refused") {
   const scratch_folder dir;
   CHECK_THAT(refusal(dir, "missing.toml"), Contains("missing.toml: cannot be read: No such file"));
   CHECK_THAT(refusal(dir, "."), Contains("found a directory"));

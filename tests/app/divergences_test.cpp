@@ -150,7 +150,7 @@ TEST_CASE("way 7: locked-in forces make a mechanism of a beam that should lie fl
   for (std::size_t node = 1; node <= 13; ++node) CHECK(std::abs(w(truth, 3, node)) < 1e-9);
 }
 
-TEST_CASE("way 8: at a standstill the rule passes by an equilibrium that exists") {
+TEST_CASE("way 8: the 1989 rule makes no progress, although an equilibrium exists") {
   const std::string text = section("8. ");
   const json wrong = run("standstill.toml", "fortran", path_ended);
   const json truth = run("standstill.toml", "corrected", right);

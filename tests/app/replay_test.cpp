@@ -49,7 +49,7 @@ TEST_CASE("a trace of one precision is not put to a kernel of another") {
   CHECK_THAT(f.out, Contains("skipped: recorded with 8-byte REAL and the 1989 rule"));
 }
 
-TEST_CASE("a trace whose answer differs is exit 1, told with its margin and in the reports") {
+TEST_CASE("a trace whose answer differs is exit 1, with the branch margin, and a failure in the reports") {
   const scratch_folder dir;
   std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");
   const std::size_t at = trace.find("MAKING");

@@ -128,7 +128,7 @@ TEST_CASE("A settlement reaches a face in proportion, as a load does, and is tak
   }
 }
 
-TEST_CASE("What a pair presses with on a support that settles is no reaction of that support") {
+TEST_CASE("The contact force of a pair at a support that settles is not part of its reaction") {
   problem p = two_spans();
   p.pairs = {{4, face_below, -0.004, 3e4, false}, {4, face_above, 0.0, 1e5, true}};
   p.steps = {settle(4, -0.01)};

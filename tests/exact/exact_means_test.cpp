@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK(checked == 20);
 }
 
-TEST_CASE("a displacement is seen to its 32nd digit, and so is the side of a face that it is on") {
+TEST_CASE("the residual of a state in 32 digits is exact, on either side of a face") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   const rational face = decimal_of(-7.6e-12);

@@ -103,7 +103,7 @@ TEST_CASE("an indefinite matrix with a zero on its diagonal is refused") {
   CHECK_THROWS_WITH(solver.factor({}), Catch::Matchers::Contains("indefinite"));
 }
 
-TEST_CASE("numbers that become too long are refused with the figure") {
+TEST_CASE("numbers of more bits than allowed are refused, with the limit") {
   contct::rational_rows k = chain(30);
   for (std::size_t i = 0; i < k.size(); ++i)
     k[i][static_cast<int>(i)] += rational(1, 1000003 + 2 * static_cast<int>(i));

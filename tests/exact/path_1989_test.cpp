@@ -35,7 +35,7 @@ std::string stop(int node, const std::string& face, const std::string& k) {
 
 }  // namespace
 
-TEST_CASE("each way to an s gives the exact one") {
+TEST_CASE("s is exact without a response, on the way to a face, and at a face") {
   const rational d_star(-1, 3);
   const std::vector<listing_pair> pairs = {
       open_pair(-1, 0, 0),                // no response

@@ -290,7 +290,7 @@ TEST_CASE("notes and unit-26 text come back, whatever characters they have") {
   CHECK(read_back(written(c)).out.text.empty());
 }
 
-TEST_CASE("a header comes back") {
+TEST_CASE("a header that is written is read back") {
   const trace_header h{{"what it is for", "in two lines"},
                        "fortran-r4",
                        4,

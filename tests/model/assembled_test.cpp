@@ -64,7 +64,7 @@ TEST_CASE(
   CHECK(build(body, {}, {}).rigid_motions == 6);
 }
 
-TEST_CASE("the motions found are straight, whatever the order of rows: those that the beam knows of itself") {
+TEST_CASE("the rigid-body motions of a beam's matrix are straight lines, in any order of rows") {
   assembled a;
   a.stiffness = entries_of(build(beam_of(20), {}, {}));
   std::vector<int> mixed;

@@ -158,7 +158,7 @@ TEST_CASE("The factor of a load multiplies its force, its moment and its resulta
   CHECK(forces[1] == Approx(162 * 0.35 + 15 * 0.6).epsilon(few_roundings));
 }
 
-TEST_CASE("A share of the way to a placed load is that share of it") {
+TEST_CASE("A mixture of two loads scales each placed load by its share") {
   const load at =
       mix(uniform(-40, 2, 5), placed({{load_kind::force, 2, 5, {-60}}, {load_kind::point, 1, 1, {8}}}), 0.25);
   REQUIRE(at.placed.size() == 2);

@@ -304,7 +304,7 @@ TEST_CASE("refined, the plate converges to Navier's series as h^2") {
   CHECK(before / navier < 3e-4);
 }
 
-TEST_CASE("numbered along either side, long one way or the other, a plate is a beam within rounding") {
+TEST_CASE("a strip of a plate along x or along y is a beam within rounding") {
   // nu = 0, one end clamped: the strip bends as a beam of EI = D times its width does.
   const double width = 0.5;
   for (const bool along_x : {true, false}) {

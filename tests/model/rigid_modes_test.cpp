@@ -96,7 +96,7 @@ TEST_CASE("a dof on the least stiffness that there is leaves the other motions a
   CHECK(f.rows[9][0] == 0.0);
 }
 
-TEST_CASE("statements about the rigid-body motions must be so") {
+TEST_CASE("a wrong number of rigid-body motions is refused, and so is a matrix with negative work") {
   CHECK(find_free_motions(chain(9), 1).count == 1);
   CHECK_THROWS_WITH(find_free_motions(chain(9), 2), Catch::Matchers::Contains("on its supports, 1"));
   band_matrix negative = chain(9);

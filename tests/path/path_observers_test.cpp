@@ -63,7 +63,7 @@ TEST_CASE("every increment of PB1 is explained, with the second kernel's answer"
   }
 }
 
-TEST_CASE("one increment can be wanted, and a kernel can be alone") {
+TEST_CASE("a single increment of a single kernel can be explained") {
   const explained_pb1 one({}, {2, 2});
   REQUIRE(one.increments.size() == 1);
   CHECK(one.increments[0].step == 2);

@@ -145,7 +145,7 @@ TEST_CASE("a balanced beam lifted off its one pair ends where it was then, not w
   CHECK(r.steps[1].u[4] == Approx(-0.1).epsilon(1e-10));
 }
 
-TEST_CASE("driven away from the start, a beam that nothing holds has not moved") {
+TEST_CASE("a free beam that is driven away from its stops at once is a mechanism that has not moved") {
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, 8.0)};
   recorder r;

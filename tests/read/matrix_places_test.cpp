@@ -163,7 +163,7 @@ TEST_CASE(
   CHECK(m.notes.empty());
 }
 
-TEST_CASE("nodes without dof and edge are left out, and what names nodes by numbers follows") {
+TEST_CASE("nodes without dof and edge are left out, and edges and dofs number the others") {
   const placed_nodes m =
       by_mesh(nodes_text(7) + "*ELEMENT,TYPE=C3D4\n1,3,4,5,7\n", {"7.1", "x", "6.2", "7.2"});
   REQUIRE(m.nodes.size() == 5);
@@ -200,8 +200,7 @@ TEST_CASE("each type of solid has its edges, through the nodes at their middles"
   }
 }
 
-TEST_CASE(
-    "an edge that elements share is there once, with how many have it, and nodes may follow on other lines") {
+TEST_CASE("an edge is listed once, with the number of its elements, whose nodes may be on several lines") {
   const placed_nodes m = by_mesh(nodes_text(6) +
                                  "*ELEMENT,ELSET=A,TYPE=C3D4\n1,1,2,3,4\n2,2,3,4,\n** a comment\n5\n"
                                  "*ELEMENT,TYPE=C3D4,ELSET=B\n3,3,2,4,6\n");

@@ -48,7 +48,7 @@ TEST_CASE("a load without from begins where the beam does, one without to ends w
   CHECK((l.placed[2].what == load_kind::curvature && l.placed[2].from == 0 && l.placed[2].to == 2));
 }
 
-TEST_CASE("a load on a plate is between two corners, where they are missing those of the plate") {
+TEST_CASE("a load on a plate is between two corners, by default those of the plate") {
   const auto read = [](const std::string& keys) {
     return parse_problem(plate_with("value = -1.0", "value = -1.0, " + keys), "pb.toml")
         .steps.at(0)
