@@ -140,10 +140,10 @@ class progress {
 
   void reached(std::int64_t done);
 
-  /// Say something else than a count.
+  /// Show a text instead of a count.
   void say(std::string_view words);
 
-  /// Take the line away, for something else to be printed; it comes back.
+  /// Erase the line, so that something else can be printed; the next count shows it again.
   void erase();
 
  private:

@@ -13,7 +13,7 @@
 namespace contct {
 namespace {
 
-/// What a replay says. What a floating point that is not strict computes says nothing of a kernel.
+/// Prints the results of a replay. Without strict floating point they say nothing of a kernel.
 std::string verdict_of(const replay_report& r, const floating_point& fp) {
   if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
   return fp.strict() ? "equal to the bit"

@@ -43,7 +43,7 @@ class certain_contacts {
 
   /// How far a dof can be moved in a state at a distance of 1.
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
-  /// How far what a pair sees can be moved so.
+  /// The same of the difference that a pair sees: of one dof, or between two.
   [[nodiscard]] double reach(const long_pair& p) const {
     return p.other < 0 ? reach(p.dof) : reach(p.dof) + reach(p.other);
   }

@@ -36,7 +36,7 @@ struct curvature_size {
   double bends = 0.0, twists = 0.0;
 };
 
-/// An element's slopes come in beside those of the plane that is taken from them.
+/// The slopes of an element count with those of the plane that is subtracted.
 std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double>& plate, int e,
                                               std::span<const double_double> u) {
   const double a = plate.halves_of(e).a.hi;

@@ -105,7 +105,7 @@ class problem_beside final : public exact_means {
     return *problem_;
   }
 
-  /// The steps that go on from one another, this one among them: from one, from 0, to before another.
+  /// The steps that go on from one another, this one among them: the first one, and the one after the last.
   [[nodiscard]] std::pair<std::size_t, std::size_t> chain_of(std::size_t step) const {
     std::size_t first = step;
     while (first > 0 && !what_.steps[first].from_zero) --first;

@@ -1,5 +1,5 @@
-// What rational numbers decide beside a path in doubles; and whether the stiffness matrix of somebody else is
-// positive semidefinite.
+// Decisions in rational numbers for a path in doubles, and whether an external stiffness matrix is positive
+// semidefinite.
 #pragma once
 
 #include <memory>
@@ -35,7 +35,7 @@ struct definiteness {
 /// lifted_solver::factor does.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
-/// Beside a path in doubles: nothing of a larger problem. `p` must outlive what is returned.
+/// For a path in doubles; a problem that is too large gets no decision. `p` must outlive what is returned.
 [[nodiscard]] std::unique_ptr<exact_means> exact_means_of(const problem& p);
 
 }  // namespace contct

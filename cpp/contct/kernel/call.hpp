@@ -88,7 +88,7 @@ struct call_inputs {
   [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const { return dof.dof_of(id[i]) - 1; }
 };
 
-/// What SMIN and SS hold before a call: no kernel may leave it behind.
+/// The value of SMIN and SS before a call, which every kernel must overwrite.
 inline constexpr double not_an_answer = -7.0;
 
 /// What comes out of one call, owned.

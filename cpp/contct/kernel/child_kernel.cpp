@@ -175,8 +175,8 @@ bool is_whole_answer(std::string_view text) {
 /// A kernel that answers in a child process: one call as trace text in, one answer out.
 class kernel_in_child final : public kernel {
  public:
-  /// `body` is what the child does. It `loads` something first, and says `ready_word` or what is wrong; this
-  /// throws std::invalid_argument then.
+  /// The child runs `body`, which first `loads` something, and sends `ready_word` or what is wrong; then this
+  /// throws std::invalid_argument.
   kernel_in_child(kernel_facts facts, std::function<void(int channel)> body, bool loads,
                   const outside_limits& limits)
       : facts_(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {

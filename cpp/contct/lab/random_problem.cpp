@@ -116,7 +116,7 @@ class drawing {
                        [node](const support& s) { return s.fixed && s.node == node && s.dof == 0; });
   }
 
-  /// One to five steps: anew, off, back, or a share of the one before.
+  /// One to five steps: a new load, none, the opposite of the last one, or the last one times a factor.
   void draw_steps() {
     const int steps = random_.whole(1, 5);
     for (int step = 0; step < steps; ++step) {

@@ -78,9 +78,9 @@ struct value_range {
                                               std::span<const double> u, int first, int last);
 
 /// Beams: "w", "moment" and "shear" over the whole length, and "stress" where W is known. Plates: "w" at
-/// nodes, "mx", "my" and "mxy" at the corners of elements, and "s1", "s2" and "von_mises" where the thickness
-/// is. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values (to 1e-9 of them),
-/// the first one's place. `element_values`: see beam_lines.
+/// nodes, "mx", "my" and "mxy" at the corners of elements, and "s1", "s2" and "von_mises" if the thickness is
+/// known. A matrix: the displacements of the dofs among `deflecting`, as "w". Of equal values (to 1e-9 of
+/// them), the first one's place. `element_values`: see beam_lines.
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
                                                  std::span<const int> deflecting,
                                                  std::span<const double> element_values = {});

@@ -196,7 +196,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
     return orthogonal_of(rows);
   }
 
-  /// is_independent, where that needs no arithmetic.
+  /// is_independent for the cases that need no arithmetic.
   [[nodiscard]] std::optional<bool> seen_at_once(std::span<const int> held, int dof) const {
     if (held.empty()) return true;
     if (!corners.empty()) return std::nullopt;

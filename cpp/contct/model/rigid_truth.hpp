@@ -60,7 +60,7 @@ class rigid_truth {
   /// Does dof `dof`, held, stop a motion that the dofs of `held` do not? These are independent of each other.
   [[nodiscard]] bool is_independent(std::span<const int> held, int dof) const;
 
-  /// The work of `l`; what it moves fixed dofs to does none.
+  /// The work of `l`; its prescribed displacements do none.
   [[nodiscard]] rigid_work work_of(const load& l) const;
 
   /// See resultant_of.

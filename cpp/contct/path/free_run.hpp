@@ -17,7 +17,7 @@ struct timed_event {
   event what;
 };
 
-/// Remembers what free runs are compared by.
+/// Records the events and states by which free runs are compared.
 class path_record final : public observer {
  public:
   void incremented(const increment& i) override {

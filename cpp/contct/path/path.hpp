@@ -125,7 +125,7 @@ inline constexpr int most_increments = 1'000'000'000;
 /// The limit as a number, at most `most_increments`.
 [[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
 
-/// Follow the path of `steps` load steps, behind one that is not solved only those from zero: `leader`
+/// Follow the path of `steps` load steps, and after one that is not solved only those from zero: `leader`
 /// decides, `engine` solves, `observers` watch. What else has to be decided is up to a policy: the 1989
 /// driver's for a leader with the 1989 rule, the corrected rule's for any other
 /// (contct/path/policy.hpp).

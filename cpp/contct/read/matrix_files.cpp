@@ -186,7 +186,7 @@ std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries)
 
 /// The matrix, without entries that are 0. Linear in the entries, but for sorting them.
 sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
-  // Before anything of the order's size is allocated: it is only what a line declares.
+  // The order is only declared by a line, so it is checked before memory of its size is allocated.
   if (order > static_cast<std::int64_t>(entries.size()))
     refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
                 "an entry on the diagonal of every row");

@@ -37,7 +37,7 @@ load_words motion_words(const model& m, const std::string& verb, const Moves& al
   return {verb + name, amount(g), " at " + place_words(m, g.node)};
 }
 
-/// Of one that need not follow the mesh, alone.
+/// The words for a single load that need not follow the mesh.
 load_words words_for(const model& m, const placed_load& p) {
   const double value = values_of(p)[0];
   if (p.what == load_kind::point || p.what == load_kind::moment)

@@ -21,9 +21,9 @@ struct path_moment {
 /// In the order of the path. The last increment of a step leads to its end, and is not there twice.
 [[nodiscard]] std::vector<path_moment> moments_of(const run_result& r);
 
-/// At no larger share of the step, it has only begun: structures that rest on their faces let go at once.
+/// Up to this share a step has only begun: structures that rest on their faces separate at once.
 inline constexpr double first_load = 1e-12;
-/// Of the increments of a step at which it has only begun, the last one alone is kept.
+/// Of the increments up to `first_load` of a step, only the last one is kept.
 [[nodiscard]] std::vector<path_moment> without_first_moves(std::vector<path_moment> all);
 
 /// Of too many the increments are left out evenly: first all but every second, then all but every fourth; and

@@ -13,7 +13,8 @@
 namespace contct {
 namespace {
 
-/// By factorising at each increment, as in 1989, where the answer's increments take that about 0.1 s or less.
+/// Factorises at each increment, as in 1989, if that takes about 0.1 s or less for the increments of the
+/// answer.
 std::string engine_beside(const run_result& answer, const run_request& wanted, bool calls_are_kept,
                           const kernel_facts& leader) {
   constexpr double most_work = 1e8;       // multiplications

@@ -101,7 +101,7 @@ enum class factored_by { storage, cholmod, ranks };
 /// Memory: the factor, besides the structure's own.
 class factored_stiffness {
  public:
-  /// Throws std::logic_error where nothing of that kind is at hand.
+  /// Throws std::logic_error if this program or process lacks that way to factor.
   explicit factored_stiffness(const linear_structure& s, factored_by how = factored_by::storage);
 
   /// Factor K with the springs of the pairs that are `closed` [pairs] (dpbtrf). Throws no_factor.

@@ -63,8 +63,8 @@ struct reader_gone : output_error {
   using output_error::output_error;
 };
 
-/// Print to standard output, as `terminal_text` has it; on a terminal colours stay. That it cannot be printed
-/// ends nothing: flush_standard_output tells it, after the files are written.
+/// Print to standard output, as `terminal_text` has it; on a terminal colours stay. A failure is reported by
+/// flush_standard_output, after the files are written.
 void print_text(std::string_view raw);
 
 /// Flush standard output. Throws output_error when anything printed, now or before, could not be written;

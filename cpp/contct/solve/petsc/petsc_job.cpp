@@ -141,7 +141,7 @@ class part_of_factor {
   int columns_ = 0;  // of solutions_
 };
 
-/// What rank 0 has all ranks do.
+/// The commands of rank 0 to all ranks.
 enum class verb : int { make, factor, solve, drop, leave };
 struct command {
   verb what;
