@@ -373,6 +373,9 @@ def shape(width, dark):
     ready()
     value("openOwn()")
     check(value("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), f"nothing sticks out at {width} px")
+    if width < 896:
+        above = value("document.querySelector('#picture svg').getBoundingClientRect().top - document.getElementById('own').getBoundingClientRect().top")
+        check(above < 700, f"on a phone the picture of one's own problem is first: {above:.0f} px below its menu; allowed: 700")
     browser.picture(os.path.join(work, f"playground-{width}-{'dark' if dark else 'light'}.png"))
     nodes = browser.send("Accessibility.getFullAXTree")["nodes"]
     roles = {"button", "slider", "combobox", "textbox", "image"}
