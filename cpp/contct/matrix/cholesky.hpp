@@ -5,9 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"

@@ -244,7 +244,6 @@ std::unique_ptr<sparse_factor> sparse_factor::make(sparse_columns a) {
 
 }  // namespace contct
 #else
-#include <stdexcept>
 
 namespace contct {
 

@@ -1,32 +1,18 @@
 #include "contct/matrix/stiffness_matrix.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
-#include <tuple>
+#include <utility>
 
 namespace contct {
 namespace {
 
 int place_of(int row, std::span<const int> rows) {
   return rows.empty() ? row : rows[row];
-}
-
-/// Each column's entries by their rows: the diagonal's becomes the first.
-void sort_columns(sparse_columns& a) {
-  std::vector<std::pair<int, double>> column;
-  for (std::size_t c = 0; c + 1 < a.starts.size(); ++c) {
-    const int first = a.starts[c];
-    const int last = a.starts[c + 1];
-    column.clear();
-    for (int i = first; i < last; ++i) column.emplace_back(a.rows[i], a.values[i]);
-    std::sort(column.begin(), column.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    for (int i = first; i < last; ++i) std::tie(a.rows[i], a.values[i]) = column[i - first];
-  }
 }
 
 /// Column by column, `on(column, value)` for the diagonal and `below(row, column, value)` for the rest.
@@ -104,22 +90,23 @@ sparse_columns columns_of(const sparse_matrix& a) {
   if (a.entries.size() + n > most)
     throw std::length_error("a matrix of " + std::to_string(a.entries.size()) +
                             " entries; allowed: at most " + std::to_string(most));
+  std::vector<matrix_entry> entries = a.entries;
+  std::vector<char> has_diagonal(n, 0);
+  for (const matrix_entry& e : entries)
+    if (e.row == e.column) has_diagonal[e.row] = 1;
+  for (int row = 0; row < a.order; ++row)
+    if (has_diagonal[row] == 0) entries.push_back({row, row, 0.0});
+  std::ranges::sort(entries, {}, [](const matrix_entry& e) { return std::pair(e.column, e.row); });
   sparse_columns k;
-  k.starts.assign(n + 1, 1);  // a diagonal entry each
-  k.starts[0] = 0;
-  for (const matrix_entry& e : a.entries)
-    if (e.row != e.column) ++k.starts[e.column + 1];
-  std::partial_sum(k.starts.begin(), k.starts.end(), k.starts.begin());
-  k.rows.resize(k.starts.back());
-  k.values.assign(k.rows.size(), 0.0);
-  for (int row = 0; row < a.order; ++row) k.rows[k.starts[row]] = row;
-  std::vector<int> next(k.starts.begin(), k.starts.end() - 1);
-  for (const matrix_entry& e : a.entries) {
-    const int place = e.row == e.column ? k.starts[e.column] : ++next[e.column];
-    k.rows[place] = e.row;
-    k.values[place] = e.value;
+  k.starts.assign(n + 1, 0);
+  k.rows.reserve(entries.size());
+  k.values.reserve(entries.size());
+  for (const matrix_entry& e : entries) {
+    ++k.starts[e.column + 1];
+    k.rows.push_back(e.row);
+    k.values.push_back(e.value);
   }
-  sort_columns(k);
+  std::partial_sum(k.starts.begin(), k.starts.end(), k.starts.begin());
   return k;
 }
 
