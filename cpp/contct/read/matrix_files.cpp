@@ -33,19 +33,10 @@ struct read_entry {
 /// Matrix Market's files have the lower triangle, CalculiX's the upper one.
 enum class entry_format { matrix_market, calculix };
 
-bool same_word(std::string_view a, std::string_view lower) {
-  return std::equal(a.begin(), a.end(), lower.begin(), lower.end(), [](char x, char y) {
-    return (x >= 'A' && x <= 'Z' ? static_cast<char>(x - 'A' + 'a') : x) == y;
-  });
-}
-
 /// A line that was meant for a header may be quoted; any other may hold what the message's reader must not
 /// see.
 bool is_like_header(std::string_view line) {
-  constexpr std::string_view word = "market";
-  const auto same_letter = [](char a, char lower) { return a == lower || a == lower - 'a' + 'A'; };
-  return line.front() == '%' ||
-         std::search(line.begin(), line.end(), word.begin(), word.end(), same_letter) != line.end();
+  return line.front() == '%' || lower_case(line).find("market") != std::string::npos;
 }
 
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
@@ -82,11 +73,12 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
   const std::string allowed = fmt::format("%%MatrixMarket matrix {} real {}",
                                           may_be_array ? "array (or coordinate)" : "coordinate", symmetry);
   if (!lines.next() || lines.line() != 1) lines.refuse("no header", allowed);
-  const bool sound = lines.fields() == 5 && same_word(lines.field(0), "%%matrixmarket") &&
-                     same_word(lines.field(1), "matrix") && same_word(lines.field(3), "real") &&
-                     same_word(lines.field(4), symmetry);
-  const bool array = sound && may_be_array && same_word(lines.field(2), "array");
-  if (!sound || (!array && !same_word(lines.field(2), "coordinate")))
+  const auto has = [&lines](std::size_t i, std::string_view word) {
+    return lines.fields() == 5 && lower_case(lines.field(i)) == word;
+  };
+  const bool sound = has(0, "%%matrixmarket") && has(1, "matrix") && has(3, "real") && has(4, symmetry);
+  const bool array = sound && may_be_array && has(2, "array");
+  if (!sound || (!array && !has(2, "coordinate")))
     lines.refuse(is_like_header(lines.here()) ? in_quotes(lines.here()) : field_words(lines.here(), "a line"),
                  allowed);
   return array;

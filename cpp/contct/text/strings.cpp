@@ -68,20 +68,18 @@ bool continues_character(char c) {
 }
 
 /// The least number of edits between two words (Damerau-Levenshtein): a character inserted, deleted or
-/// replaced, or two neighbours swapped. Case does not count.
-int edits_between(std::string_view a, std::string_view b) {
-  const auto lower = [](char ch) { return ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch; };
+/// replaced, or two neighbours swapped.
+int edits_between(const std::string& a, const std::string& b) {
   // edits[i][j]: from the first i characters of a to the first j of b.
   std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
   for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      const bool same = a[i - 1] == b[j - 1];
       const int replaced = edits[i - 1][j - 1] + (same ? 0 : 1);
       edits[i][j] = std::min({replaced, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
-      const bool swapped =
-          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
       if (swapped) edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
     }
   }
@@ -97,6 +95,13 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
     text += word;
   }
   return text;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
 }
 
 std::string escaped(std::string_view text, std::span<const escape> escapes) {
@@ -175,7 +180,7 @@ std::string did_you_mean(std::string_view found, std::span<const std::string> kn
   std::string_view nearest;
   int least = 0;
   for (const std::string& k : known) {
-    const int edits = edits_between(found, k);
+    const int edits = edits_between(lower_case(found), lower_case(k));
     const int allowed = std::max(1, static_cast<int>(k.size()) / 3);
     if (edits > allowed || edits >= static_cast<int>(k.size())) continue;
     if (!nearest.empty() && edits >= least) continue;

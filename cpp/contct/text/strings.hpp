@@ -13,6 +13,9 @@ namespace contct {
 /// compile wherever it is used.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view between);
 
+/// Without capitals, of ASCII.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// A character, and what is written for it.
 struct escape {
   char character;
