@@ -1,5 +1,4 @@
 // The listing's decisions where arithmetic is exact: one call, and a path.
-
 #include <algorithm>
 #include <string>
 #include <vector>

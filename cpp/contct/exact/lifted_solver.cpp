@@ -30,10 +30,6 @@ void subtract_product(integer& r, const integer& a, std::uint64_t x) {
   r -= a * x;
 }
 
-integer least_multiple(const integer& a, const integer& b) {
-  return boost::multiprecision::lcm(a, b);
-}
-
 /// numerator/denominator = y modulo m, both at most `bound`; false where there is none. Euclid's algorithm,
 /// stopped halfway (Wang 1981).
 bool fraction_of(const integer& y, const integer& m, const integer& bound, integer& denominator) {
@@ -85,7 +81,8 @@ class lifted_solver::lifting {
   lifting(const lifted_solver& of, const rational_vector& b) : of_(of), rest_(b.size()), sum_(b.size()) {
     for (std::size_t i = 0; i < b.size(); ++i)
       if (of_.has_pivot(i))
-        common_ = least_multiple(common_, denominator(rational(b[i] * rational(of_.whole_[i].scale))));
+        common_ =
+            boost::multiprecision::lcm(common_, denominator(rational(b[i] * rational(of_.whole_[i].scale))));
     for (std::size_t i = 0; i < b.size(); ++i)
       if (of_.has_pivot(i)) rest_[i] = numerator(rational(b[i] * rational(of_.whole_[i].scale * common_)));
     right_ = rest_;
@@ -279,7 +276,7 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
 lifted_solver::whole_row lifted_solver::whole(std::size_t dof) const {
   whole_row row{{}, 1};
   for (const auto& [j, k] : k_[dof])
-    if (has_pivot(j)) row.scale = least_multiple(row.scale, denominator(entry(dof, j, k)));
+    if (has_pivot(j)) row.scale = boost::multiprecision::lcm(row.scale, denominator(entry(dof, j, k)));
   for (const auto& [j, k] : k_[dof])
     if (has_pivot(j) && entry(dof, j, k) != 0)
       row.entries.emplace_back(j, numerator(rational(entry(dof, j, k) * rational(row.scale))));

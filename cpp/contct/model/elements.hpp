@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -80,7 +81,9 @@ class beam_elements {
     return forces;
   }
 
-  /// The same for each quantity of element_results, one element after the other.
+  /// element_results: names, places in an element, and the values of one element after the other.
+  [[nodiscard]] static std::vector<std::string_view> names() { return {"shear", "moment"}; }
+  static constexpr int places = 2;
   [[nodiscard]] std::vector<Number> values(const load& l, std::span<const Number> u) const {
     std::vector<Number> all;
     for (const auto& of_element : end_forces(l, u))
@@ -216,7 +219,9 @@ class plate_elements {
     return m;
   }
 
-  /// The moments of all elements, one after the other.
+  /// As a beam's.
+  [[nodiscard]] static std::vector<std::string_view> names() { return {"mx", "my", "mxy"}; }
+  static constexpr int places = 4;
   [[nodiscard]] std::vector<Number> values(const load& /*l*/, std::span<const Number> u) const {
     std::vector<Number> all;
     for (int e = 0; e < count(); ++e)
@@ -269,6 +274,8 @@ struct no_elements {
   template <class Visit>
   void for_each_work(const load& /*l*/, const Visit& /*visit*/) const {}
   [[nodiscard]] static std::vector<Number> shares() { return {}; }
+  [[nodiscard]] static std::vector<std::string_view> names() { return {}; }
+  static constexpr int places = 0;
   [[nodiscard]] static std::vector<Number> values(const load& /*l*/, std::span<const Number> /*u*/) {
     return {};
   }

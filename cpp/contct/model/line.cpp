@@ -22,17 +22,6 @@ rational exact_sum_of(std::span<const point_load> all) {
   return sum;
 }
 
-std::vector<rational> exact_coefficients(const distributed_load& d) {
-  std::vector<rational> sum(d.polynomial.size());
-  const auto add = [&sum](std::span<const double> part, double factor, double times) {
-    for (std::size_t i = 0; i < part.size(); ++i)
-      sum[i] += product_of_decimals(part[i], factor) * decimal_of(times);
-  };
-  if (d.parts.empty()) add(d.polynomial, 1.0, 1.0);
-  for (const scaled_polynomial& part : d.parts) add(part.coefficients, part.factor, part.times);
-  return sum;
-}
-
 }  // namespace
 
 template <class Number>
@@ -66,10 +55,14 @@ double sum_of(std::span<const point_load> all) {
 
 template <class Number>
 std::vector<Number> coefficients_of(const distributed_load& d) {
-  if constexpr (std::is_same_v<Number, double>) return d.polynomial;
-  std::vector<Number> all;
-  for (const rational& x : exact_coefficients(d)) all.push_back(nearest<Number>(x));
-  return all;
+  std::vector<Number> sum(d.polynomial.size());
+  const auto add = [&sum](std::span<const double> part, double factor, double times) {
+    for (std::size_t i = 0; i < part.size(); ++i)
+      sum[i] += product_of_decimals(part[i], factor) * decimal_of(times);
+  };
+  if (d.parts.empty()) add(d.polynomial, 1.0, 1.0);
+  for (const scaled_polynomial& part : d.parts) add(part.coefficients, part.factor, part.times);
+  return sum;
 }
 
 template <class Number>
@@ -96,7 +89,7 @@ Number stiffness_of(const beam& b, int element) {
 template <class Number>
 std::vector<Number> values_at(const beam& b, std::span<const double> polynomial, std::span<const int> nodes) {
   const line<rational> x(b.x, b.runs);
-  const std::vector<rational> a = exact_coefficients({{polynomial.begin(), polynomial.end()}, {}});
+  const auto a = coefficients_of<rational>(distributed_load{{polynomial.begin(), polynomial.end()}, {}});
   std::vector<Number> values;
   for (const int node : nodes) values.push_back(nearest<Number>(polynomial_at(a, x.at(node))));
   return values;
@@ -113,8 +106,6 @@ template double_double product_of(double x, double factor);
 template rational product_of(double x, double factor);
 template double_double sum_of(std::span<const point_load> all);
 template rational sum_of(std::span<const point_load> all);
-template std::vector<double> coefficients_of(const distributed_load& d);
-template std::vector<double_double> coefficients_of(const distributed_load& d);
 template std::vector<rational> coefficients_of(const distributed_load& d);
 template std::vector<rational> coefficients_of(const placed_load& p);
 template double stiffness_of(const plate& p);

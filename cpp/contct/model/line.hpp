@@ -35,8 +35,8 @@ template <class Number>
 template <>
 [[nodiscard]] double sum_of(std::span<const point_load> all);
 
-/// The coefficients of a distributed load: the sums of its parts in the file, each times its factor, where it
-/// has any.
+/// The coefficients of a load, in rational numbers: of a distributed one the sums of its parts in the file,
+/// each times its factor, where it has any.
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
 template <class Number>

@@ -1,11 +1,9 @@
 #include "contct/model/problem.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 #include "contct/model/elements.hpp"
 #include "contct/number/rational.hpp"
@@ -30,14 +28,6 @@ std::vector<double> needs_of(const assembled& a, const load& /*l*/, std::span<co
   return {all.begin(), all.end()};
 }
 
-/// Add an entry of an element's stiffness to `k`.
-void add_to_band(band_matrix& k, int row, int column, double entry, int element) {
-  if (!std::isfinite(entry))
-    throw std::invalid_argument("the stiffness of element " + std::to_string(element + 1) +
-                                " is not a finite number");
-  k.add(row, column, entry);
-}
-
 template <class Kind>
 linear_structure build_kind(const model& m, const Kind& kind, std::span<const support> supports,
                             std::vector<contact_pair> pairs) {
@@ -47,8 +37,12 @@ linear_structure build_kind(const model& m, const Kind& kind, std::span<const su
   s.rows = rows_in_band(m);
   for_each_stiffness(elements_of<double>(kind), [&s](int e, const auto& dofs, const auto& own) {
     for (std::size_t i = 0; i < dofs.size(); ++i)
-      for (std::size_t j = 0; j <= i; ++j)
-        add_to_band(s.stiffness.band(), s.row_of(dofs[i]), s.row_of(dofs[j]), own[i][j], e);
+      for (std::size_t j = 0; j <= i; ++j) {
+        if (!std::isfinite(own[i][j]))
+          throw std::invalid_argument("the stiffness of element " + std::to_string(e + 1) +
+                                      " is not a finite number");
+        s.stiffness.band().add(s.row_of(dofs[i]), s.row_of(dofs[j]), own[i][j]);
+      }
   });
   s.rigid_rows = rigid_rows_of(kind);
   s.truth = std::make_shared<rigid_truth>(kind);
@@ -107,17 +101,6 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
     if (const int other = s.other_of_pair(i); other >= 0) s.lengths[other] = 1;
   }
   return s;
-}
-
-/// What element_results have, without values.
-element_results names_of_results(const beam& /*b*/) {
-  return {{"shear", "moment"}, 2, {}};
-}
-element_results names_of_results(const plate& /*p*/) {
-  return {{"mx", "my", "mxy"}, 4, {}};
-}
-element_results names_of_results(const assembled& /*a*/) {
-  return {};
 }
 
 template <class Kind>
@@ -208,9 +191,8 @@ std::vector<double> reactions(const model& m, const load& l, std::span<const sup
 element_results results_in_elements(const model& m, const load& l, std::span<const double> u) {
   return std::visit(
       [&](const auto& kind) {
-        element_results r = names_of_results(kind);
-        r.values = elements_of<double>(kind).values(l, u);
-        return r;
+        const auto elements = elements_of<double>(kind);
+        return element_results{elements.names(), elements.places, elements.values(l, u)};
       },
       m.kind);
 }

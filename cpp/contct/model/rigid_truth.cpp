@@ -1,9 +1,6 @@
 #include "contct/model/rigid_truth.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
-#include <vector>
 
 #include "contct/model/line.hpp"
 #include "contct/number/rational.hpp"

@@ -1,10 +1,8 @@
 #include "contct/model/structure.hpp"
 
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 

@@ -1,13 +1,10 @@
 #include "contct/number/rational.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <new>
-#include <stdexcept>
 
 #include "contct/number/decimal.hpp"
 

@@ -6,10 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <unordered_set>
-#include <utility>
 
 #include "contct/number/decimal.hpp"
-#include "contct/text/input_text.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {

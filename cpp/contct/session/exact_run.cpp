@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <vector>
 
 #include "contct/certify/certificate.hpp"
 #include "contct/exact/exact_means.hpp"
@@ -88,19 +86,19 @@ exact_problem exactly_read(const problem& p, const std::string& file) {
 /// Its path by `rule`.
 exact_path follow_exactly(const exact_problem& p, const std::string& rule, const std::string& file,
                           const exact_progress& tell) {
-  try {
-    if (rule != "1989") return follow_corrected_path(p, tell);
-    exact_path path = follow_1989_path(p, tell);
-    tell_mechanisms(path, p);
-    return path;
-  } catch (const too_long& e) {
-    throw std::invalid_argument(
-        fmt::format("{}: exact numbers became too long: found {}; allowed: at most {} bits. Use numbers of "
-                    "fewer digits, or fewer elements",
-                    file, e.what(), p.longest));
-  } catch (const std::runtime_error& e) {
-    throw std::invalid_argument(fmt::format("{}: {}", file, e.what()));
-  }
+  return naming(file, [&] {
+    try {
+      if (rule != "1989") return follow_corrected_path(p, tell);
+      exact_path path = follow_1989_path(p, tell);
+      tell_mechanisms(path, p);
+      return path;
+    } catch (const too_long& e) {
+      throw std::invalid_argument(
+          fmt::format("exact numbers became too long: found {}; allowed: at most {} bits. Use numbers of "
+                      "fewer digits, or fewer elements",
+                      e.what(), p.longest));
+    }
+  });
 }
 
 /// The path that `contct run` takes with this kernel, and the numbers that it hands out, beside the exact

@@ -51,14 +51,17 @@ void halve(std::vector<double>& x, std::vector<even_run>& runs) {
   x.swap(fine);
 }
 
+template <class Value>
+void double_each(std::vector<Value>& of_elements) {
+  std::vector<Value> fine;
+  for (const Value& value : of_elements) fine.insert(fine.end(), 2, value);
+  of_elements.swap(fine);
+}
+
 void halve(beam& b) {
   halve(b.x, b.runs);
-  std::vector<double> EI;
-  for (const double of_element : b.EI) EI.insert(EI.end(), 2, of_element);
-  b.EI.swap(EI);
-  std::vector<beam_section> sections;
-  for (const beam_section& of_element : b.sections) sections.insert(sections.end(), 2, of_element);
-  b.sections.swap(sections);
+  double_each(b.EI);
+  double_each(b.sections);
   for (int& node : b.hinges) node *= 2;
 }
 
@@ -136,9 +139,8 @@ problem refined(const problem& p) {
   std::visit([](auto& kind) { halve(kind); }, fine.geometry.kind);
   for (support& s : fine.supports) s.node = grid.node(s.node);
   for (load& l : fine.steps) {
-    for (point_load& at : l.points) at.node = grid.node(at.node);
-    for (prescribed_displacement& at : l.settlements) at.node = grid.node(at.node);
-    for (face_move& at : l.moves) at.node = grid.node(at.node);
+    for (const auto values : nodal_values)
+      for (nodal_value& at : l.*values) at.node = grid.node(at.node);
     for (distributed_load& d : l.distributed) d.elements = grid.parts_of(d.elements);
   }
   if (std::holds_alternative<plate>(p.geometry.kind))

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <utility>
 
 #include "contct/session/exit_status.hpp"
 #include "contct/session/rule_1989.hpp"
