@@ -1,10 +1,9 @@
 // What decimals say of rigid-body motions, where doubles would say something else.
-#include "contct/model/rigid_truth.hpp"
-
 #include <array>
 
 #include "catch.hpp"
 #include "contct/model/problem.hpp"
+#include "contct/model/rigid_modes.hpp"
 #include "contct/number/random.hpp"
 
 using namespace contct;

@@ -1,9 +1,8 @@
 // Coordinates: which of them a number names, and the meshes that element_size makes.
-#include "contct/read/mesh.hpp"
-
 #include <algorithm>
 
 #include "catch.hpp"
+#include "contct/read/node_reader.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/refusals.hpp"
 

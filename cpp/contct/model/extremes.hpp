@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/model/element_formulas.hpp"
 #include "contct/model/placed_loads.hpp"
 #include "contct/model/problem.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "contct/matrix/cholesky.hpp"
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
-#include "contct/model/rigid_truth.hpp"
 #include "contct/number/random.hpp"
 
 extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* uplo, const int* n, double* a,

@@ -1,5 +1,4 @@
-#include "contct/model/rigid_truth.hpp"
-
+// The rigid-body motions of beams and plates.
 #include <algorithm>
 
 #include "contct/model/line.hpp"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "contct/model/rigid_modes.hpp"
-#include "contct/model/rigid_truth.hpp"
 #include "contct/number/double_double.hpp"
 
 namespace contct {

@@ -6,7 +6,6 @@
 
 #include "contct/model/line.hpp"
 #include "contct/number/rational.hpp"
-#include "contct/read/mesh.hpp"
 #include "contct/read/tables.hpp"
 #include "contct/text/strings.hpp"
 

@@ -1,10 +1,10 @@
-#include "contct/read/mesh.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "contct/read/node_reader.hpp"
 
 namespace contct {
 namespace {

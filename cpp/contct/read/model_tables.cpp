@@ -10,7 +10,6 @@
 #include "contct/matrix/sparse_factor.hpp"
 #include "contct/model/line.hpp"
 #include "contct/read/matrix_files.hpp"
-#include "contct/read/mesh.hpp"
 #include "contct/read/tables.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"

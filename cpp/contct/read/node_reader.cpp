@@ -4,7 +4,6 @@
 
 #include <unordered_set>
 
-#include "contct/read/mesh.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {

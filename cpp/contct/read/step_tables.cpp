@@ -9,7 +9,6 @@
 
 #include "contct/model/line.hpp"
 #include "contct/read/matrix_files.hpp"
-#include "contct/read/mesh.hpp"
 #include "contct/read/tables.hpp"
 
 namespace contct {
@@ -49,11 +48,12 @@ class step_reader {
     if (t.has("uniform")) read_uniform(t, l);
     if (t.has("self_weight")) read_self_weight(t["self_weight"], l);
     for (const toml_value& p : t["point"].optional_tables()) {
-      if (of_beam() != nullptr && p.has("x")) {
-        read_points_along(p, *of_beam(), l);
-      } else {
-        for (const point_load& at : values_in(p, "a point load")) l.points.push_back(at);
-      }
+      read_values(p, "a point load", true, [&l](const named_place& at, int dof, double value) {
+        if (at.node)
+          l.points.push_back({*at.node, dof, value});
+        else
+          l.placed.push_back({dof == 0 ? load_kind::point : load_kind::moment, at.x, at.x, {value}});
+      });
     }
     for (const toml_value& c : t["curvature"].optional_tables()) l.placed.push_back(read_curvature(c));
     read_settlements(t, l);
@@ -216,50 +216,46 @@ class step_reader {
     p.across = {below, above};
   }
 
-  /// Point loads at coordinates, between nodes too.
-  void read_points_along(const toml_value& t, const beam& b, load& l) const {
-    const auto& names = nodes_.dof_names();
-    t.allow_only(nodes_.keys_with(names));
+  /// A node, or a place between nodes of a beam.
+  struct named_place {
+    std::optional<int> node;
+    double x = 0.0;
+  };
+
+  /// Those that a table names, each once.
+  [[nodiscard]] std::vector<named_place> read_places(const toml_value& t, bool between_nodes) const {
+    std::vector<named_place> all;
+    const beam* const b = between_nodes && t.has("x") ? of_beam() : nullptr;
+    if (b == nullptr) {
+      for (const int node : nodes_.read(t)) all.push_back({node});
+      return all;
+    }
     t.refuse_beside({"node", "nodes"}, "x", "either x, or node or nodes");
-    const std::vector<int> dofs =
-        nodes_.dofs_in(t, fmt::format("a point load without {}", fmt::join(names, " or ")));
-    std::vector<double> places;
     std::set<double> seen;
     for (const toml_value& named : t["x"].each("a number, or a list of numbers")) {
-      const double x = nodes_along(b.x).place_of(named);
-      const std::optional<int> node = find_coordinate(b.x, x);
+      const double x = nodes_along(b->x).place_of(named);
+      const std::optional<int> node = find_coordinate(b->x, x);
       if (!seen.insert(x).second)
         named.refuse(node ? place_words(nodes_.structure(), *node) + ", a second time" : "this a second time",
                      "each of them once");
-      places.push_back(x);
+      all.push_back({node, x});
     }
-    for (const int dof : dofs) {
-      const double value = t[names[dof]].real(any_real);
-      for (const double x : places) {
-        if (const std::optional<int> node = find_coordinate(b.x, x)) {
-          nodes_.refuse_hinge(t[names[dof]], *node, dof);
-          l.points.push_back({*node, dof, value});
-        } else {
-          l.placed.push_back({dof == 0 ? load_kind::point : load_kind::moment, x, x, {value}});
-        }
-      }
-    }
+    return all;
   }
 
-  /// The values of a table that names nodes and their dofs, dof by dof.
-  [[nodiscard]] std::vector<point_load> values_in(const toml_value& t, std::string_view what) const {
+  /// Call take(place, dof, value) for the values of a table that names places and their dofs, dof by dof.
+  template <class Take>
+  void read_values(const toml_value& t, std::string_view what, bool between_nodes, const Take& take) const {
     const auto& names = nodes_.dof_names();
     t.allow_only(nodes_.keys_with(names));
-    const std::vector<int> at = nodes_.read(t);
-    std::vector<point_load> values;
+    const std::vector<named_place> places = read_places(t, between_nodes);
     for (const int dof : nodes_.dofs_in(t, fmt::format("{} without {}", what, fmt::join(names, " or ")))) {
       const double value = t[names[dof]].real(any_real);
-      for (const int node : at) {
-        nodes_.refuse_hinge(t[names[dof]], node, dof);
-        values.push_back({node, dof, value});
+      for (const named_place& at : places) {
+        if (at.node) nodes_.refuse_hinge(t[names[dof]], *at.node, dof);
+        take(at, dof, value);
       }
     }
-    return values;
   }
 
   /// A spring's foot does not move: what its support would do is not a displacement of the structure.
@@ -280,14 +276,14 @@ class step_reader {
   void read_settlements(const toml_value& t, load& l) const {
     std::set<std::pair<int, int>> moved;
     for (const toml_value& s : t["settlement"].optional_tables()) {
-      for (const point_load& g : values_in(s, "a settlement")) {
-        refuse_unfixed(s, g.node, g.dof);
-        if (!moved.insert({g.node, g.dof}).second)
-          s[nodes_.dof_names()[g.dof]].refuse(
-              place_words(nodes_.structure(), g.node) + ", a second time in this step",
+      read_values(s, "a settlement", false, [&](const named_place& at, int dof, double value) {
+        refuse_unfixed(s, *at.node, dof);
+        if (!moved.insert({*at.node, dof}).second)
+          s[nodes_.dof_names()[dof]].refuse(
+              place_words(nodes_.structure(), *at.node) + ", a second time in this step",
               "each dof once: a settlement is its whole displacement");
-        l.settlements.push_back({g.node, g.dof, g.value});
-      }
+        l.settlements.push_back({*at.node, dof, value});
+      });
     }
   }
 
