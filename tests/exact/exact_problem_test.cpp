@@ -1,7 +1,6 @@
 // What becomes of a problem file's decimals.
-#include "contct/exact/exact_problem.hpp"
-
 #include "catch.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"
 
 using namespace contct;

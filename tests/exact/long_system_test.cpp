@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "contct/exact/exact_problem.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"
 
 using namespace contct;

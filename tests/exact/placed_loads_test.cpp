@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "catch.hpp"
-#include "contct/exact/exact_problem.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/model/extremes.hpp"
 #include "contct/number/random.hpp"
 #include "contct/read/problem_file.hpp"

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/exact/exact_problem.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/model/problem.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "contct/exact/exact_problem.hpp"
+#include "contct/exact/path.hpp"
 #include "contct/model/element_formulas.hpp"
 
 namespace contct {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "contct/certify/scaled_stiffness.hpp"
-#include "contct/exact/path.hpp"
 
 namespace contct {
 namespace {

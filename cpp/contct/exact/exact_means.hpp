@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "contct/certify/certificate.hpp"
-#include "contct/exact/exact_problem.hpp"
+#include "contct/exact/path.hpp"
 
 namespace contct {
 

@@ -1,8 +1,9 @@
-#include "contct/exact/exact_problem.hpp"
-
+// A problem in rational numbers.
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
+
+#include "contct/exact/path.hpp"
 
 namespace contct {
 namespace {

@@ -50,12 +50,6 @@ bool fraction_of(const integer& y, const integer& m, const integer& bound, integ
   return denominator <= bound;
 }
 
-std::vector<int> inverse_of(std::span<const int> places) {
-  std::vector<int> inverse(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) inverse[places[i]] = static_cast<int>(i);
-  return inverse;
-}
-
 }  // namespace
 
 std::uint64_t lifted_solver::field::inverse(std::uint64_t a) const {
@@ -196,13 +190,15 @@ lifted_solver::lifted_solver(const rational_rows& k, std::span<const char> fixed
       fixed_(fixed),
       place_(place),
       longest_(longest),
-      dof_at_(inverse_of(place)),
+      dof_at_(place.size()),
       spring_(k.size()),
       field_(primes[0]),
       free_(k.size(), 0) {
-  for (std::size_t i = 0; i < k.size(); ++i)
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    dof_at_[place[i]] = static_cast<int>(i);
     for (const auto& [j, entry] : k[i])
       band_ = std::max(band_, static_cast<std::size_t>(std::abs(place[i] - place[j])));
+  }
 }
 
 void lifted_solver::factor(const std::vector<added_spring>& springs) {

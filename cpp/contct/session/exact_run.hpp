@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "contct/exact/exact_problem.hpp"
 #include "contct/exact/kernel_digits.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/model/problem.hpp"

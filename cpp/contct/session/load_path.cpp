@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,9 +28,8 @@ struct load_words {
 };
 
 /// Of settlements alone, or moves of faces alone: the only one, or the largest.
-template <class Moves>
-load_words motion_words(const model& m, const std::string& verb, const Moves& all) {
-  const auto amount = [](const auto& g) { return product_of<double>(g.value, g.factor); };
+load_words motion_words(const model& m, const std::string& verb, const std::vector<nodal_value>& all) {
+  const auto amount = [](const nodal_value& g) { return product_of<double>(g.value, g.factor); };
   const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });
   if (all.size() > 1) return {verb, amount(g)};
   const std::string name =
@@ -51,22 +51,21 @@ load_words words_for(const model& m, const placed_load& p) {
 
 load_words words_for(const model& m, const load& l, const resultant& r) {
   const bool of_matrix = std::holds_alternative<assembled>(m.kind);
-  const bool has_forces = !l.points.empty() || !l.distributed.empty();
-  const bool has_motions = !l.settlements.empty() || !l.moves.empty();
-  if (!has_forces && !has_motions && l.placed.size() == 1 && l.placed[0].polynomial.size() == 1)
-    return words_for(m, l.placed[0]);
-  if (!has_forces && l.placed.empty() && l.moves.empty() && has_motions)
-    return motion_words(m, "settle ", l.settlements);
-  if (!has_forces && l.placed.empty() && l.settlements.empty() && has_motions)
-    return motion_words(m, "move face ", l.moves);
-  if (has_motions || !l.placed.empty()) return {of_matrix ? "sum " : "force ", r.force};
-  if (l.points.size() == 1 && l.distributed.empty()) {
-    const point_load& p = l.points[0];
-    return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), product_of<double>(p.value, p.factor),
-            " at " + place_words(m, p.node)};
+  const auto kinds = std::ranges::count(std::array{l.points.empty(), l.distributed.empty(), l.placed.empty(),
+                                                   l.settlements.empty(), l.moves.empty()},
+                                        false);
+  if (kinds == 1) {
+    if (l.placed.size() == 1 && l.placed[0].polynomial.size() == 1) return words_for(m, l.placed[0]);
+    if (!l.settlements.empty()) return motion_words(m, "settle ", l.settlements);
+    if (!l.moves.empty()) return motion_words(m, "move face ", l.moves);
+    if (l.points.size() == 1) {
+      const point_load& p = l.points[0];
+      return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), product_of<double>(p.value, p.factor),
+              " at " + place_words(m, p.node)};
+    }
+    if (l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
+      return {"uniform ", l.distributed[0].polynomial[0]};
   }
-  if (l.points.empty() && l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
-    return {"uniform ", l.distributed[0].polynomial[0]};
   return {of_matrix ? "sum " : "force ", r.force};
 }
 

@@ -75,17 +75,16 @@ void path_states::begin_step(int step) {
 bool path_states::can_be_solved() {
   if (stiffness_ || unsolvable_) return !unsolvable_;
   unsolvable_ = !structure_.is_held(structure_.held_by([](std::size_t) { return true; }));
-  if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(structure_.pairs.size(), 1));
+  try {
+    if (!unsolvable_) stiffness_.emplace(structure_).factor(std::vector<char>(structure_.pairs.size(), 1));
+  } catch (const no_factor&) {
+    unsolvable_ = true;
+  }
   return !unsolvable_;
 }
 
 std::vector<double> path_states::shape_after(const increment_record& i) {
-  try {
-    if (!can_be_solved()) return {};
-  } catch (const no_factor&) {
-    unsolvable_ = true;
-    return {};
-  }
+  if (!can_be_solved()) return {};
   begin_step(i.step);
   std::vector<double> load(before_.size());
   for (std::size_t dof = 0; dof < load.size(); ++dof)
