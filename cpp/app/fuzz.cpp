@@ -79,7 +79,7 @@ void print_result(const fuzz_result& r) {
                 {fmt::format("{} calls, {} problems, {:.1f} s", r.calls, r.problems, r.seconds),
                  fmt::format("events: {} make, {} break, {} of them stationary", r.events.make,
                              r.events.break_, r.events.stationary),
-                 fmt::format("the rarest outcome of an IF occurred {} times", r.branches.rarest())});
+                 fmt::format("each outcome of each IF occurred {} times or more", r.branches.rarest())});
   for (const fuzz_follower& f : r.followers)
     print_wrapped(t, f.compared.mismatches == 0 ? paint::good : paint::bad,
                   {follower_words(f, r.request.kernels[0])});

@@ -238,10 +238,10 @@ void declare_run(option_parser& p, CLI::App* c) {
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   add_file(
       c, "--trace", o.trace,
-      "Write every call of the leader, inputs and answers, to this file; of both rules those of fortran");
+      "Write every call of the leader, inputs and answers, to this file [without --kernels: of fortran]");
   declare_pictures(c, o);
   add_reports(c, o.report);
-  add_file(c, "--log", o.log, "Write the leader's unit 26 to this file; of both rules that of fortran");
+  add_file(c, "--log", o.log, "Write the leader's unit 26 to this file [without --kernels: of fortran]");
   add_file(c, "--proof", o.proof,
            "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
@@ -365,7 +365,7 @@ constexpr command all_commands[] = {
     {"prove",
      "Prove that the machine code of kernels is CONTCT for every input; needs Python's capstone and z3",
      declare_prove},
-    {"kernels", "What is built in, and how this machine computes",
+    {"kernels", "List the built-in kernels, and the floating-point properties of this machine",
      [](option_parser& p, CLI::App* c) { p.options_for<kernels_options>(c); }},
 };
 

@@ -251,7 +251,7 @@ void report_refinement(shown_run& o) {
                                 items.empty() ? "half the element size changes " : "", kind, shown,
                                 unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of));
   }
-  if (items.empty()) items.emplace_back("on half the element size the problem is not solved");
+  if (items.empty()) items.emplace_back("the problem with half the element size is not solved");
   if (std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
                                       : "beams are exact between nodes, a bed has twice as many pairs");

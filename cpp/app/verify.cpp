@@ -176,7 +176,7 @@ void print(const terminal& t, const totals& all) {
                  fmt::format("{} failed", all.failed)});
   print_text(fmt::format(
       "The examples of the paper's reference [1] (Mahmoud, Salamon, Pawlak 1986) are not available\n"
-      "here; none of their numbers is claimed.\n"));
+      "here, so they were not compared.\n"));
 }
 
 /// The table, its problems and the files that these name.

@@ -87,7 +87,7 @@ TEST_CASE("events that only one path has are reported") {
   counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
   counter.incremented({2, 2, 0.0, 0.75, makes});
   CHECK_THAT(counter.result("k", path_status::solved, 1e-9).first_difference,
-             Contains("pair 1 makes in step 2 at share 0.75") && Contains("no exact event"));
+             Contains("pair 1 makes in step 2 at share 0.75") && Contains("no event of the exact path"));
 }
 
 TEST_CASE(

@@ -142,7 +142,7 @@ void digit_counter::compare_events(kernel_digits& r, double tie) const {
     if (r.same_events)
       error = std::max(error, std::abs(seen[i].place - exactly[i].place));
     else if (i >= exactly.size())
-      r.first_difference = words(seen[i]) + ", which no exact event does";
+      r.first_difference = words(seen[i]) + ", which is no event of the exact path";
     else
       r.first_difference = "exactly, " + words(exactly[i]) + "; here " +
                            (i < seen.size() ? words(seen[i]) : "nothing more happens");
@@ -158,8 +158,8 @@ kernel_digits digit_counter::result(const std::string& name, path_status ended, 
   if (r.same_events && (ended != exactly_.status)) {
     r.same_events = false;
     r.first_difference = exactly_.status == path_status::solved
-                             ? "the path ends early, exactly it does not"
-                             : "the path ends otherwise than the exact one";
+                             ? "the path ends early; the exact path does not"
+                             : "the path ends differently from the exact path";
   }
   for (std::size_t kind = 0; kind < error_.size(); ++kind)
     r.digits = std::min(r.digits, digits_of(error_[kind], largest_[kind]));

@@ -181,7 +181,7 @@ class problem_reader {
     if (!nodes_->on_matrix())
       other.refuse(
           "this key with a beam or a plate",
-          "a face, which move in a [[step]] moves; structures with a gap between them are one [matrix]");
+          "a face, which a step can move; structures with a gap between them are one [matrix]");
     std::vector<int> others = nodes_->labelled(other, at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (others[i] == at[i])
@@ -189,7 +189,8 @@ class problem_reader {
       for (const int dof : {at[i], others[i]})
         if (fixed_[dof] != 0)
           other.refuse(place_words(problem_.geometry, dof) + ", which a support fixes, in a pair of two dofs",
-                       "dofs that no support fixes; leave out other, and where the support settles use move");
+                       "dofs that no support fixes. For a pair with a fixed dof leave out other; if its "
+                       "support settles, use move");
     }
     return others;
   }

@@ -72,10 +72,9 @@ class step_reader {
     t["curvature"].refuse(
         nodes_.on_matrix() ? "this with a matrix" : "this with a plate",
         nodes_.on_matrix()
-            ? "curvature along a beam; of a matrix, the loads at dofs by which its program has temperatures"
-            : "curvature along a beam; of a plate the same everywhere it is a moment D (1 + nu) curvature "
-              "per "
-              "length of each free edge, as point loads wx and wy");
+            ? "curvature along a beam; with a matrix, the loads at dofs that stand for temperatures"
+            : "curvature along a beam. For a uniform curvature of a plate give its free edges the moment "
+              "D (1 + nu) curvature per length, as point loads wx and wy");
   }
 
   enum class hold : char { none, spring, fixed };

@@ -33,7 +33,8 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
   for (const char ch : text) {
     if (ch == '.') {
       if (++dots > most_dots)
-        throw input_error(fmt::format("{}: not TOML that we read: a key of over {} parts", file, most_dots));
+        throw input_error(
+            fmt::format("{0}: found a key of over {1} parts; allowed: at most {1}", file, most_dots));
     } else if (ch == ',' || ch == '=' || ch == '\n' || ch == '[' || ch == '{') {
       dots = 0;
     }

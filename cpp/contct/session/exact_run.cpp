@@ -47,7 +47,7 @@ void refuse_indefinite(const assembled& a, const problem& of, const exact_proble
   if (found.semidefinite) return;
   if (!found.shown)
     throw std::invalid_argument(
-        fmt::format("{}: whether it is positive semidefinite is not decided with 32 digits", a.name));
+        fmt::format("{}: 32 digits do not decide whether the matrix is positive semidefinite", a.name));
   const rational_vector& motion = found.shown->motion;
   const auto largest =
       std::ranges::max_element(motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });

@@ -136,7 +136,7 @@ void output_file::give_name() const {
 
 void output_file::fail(int error) const {
   if (is_standard_output() && error == EPIPE)
-    throw reader_gone("standard output: cannot be written: nobody reads");
+    throw reader_gone("standard output: cannot be written: its reader has ended");
   throw output_error((is_standard_output() ? std::string("standard output") : path_) +
                      ": cannot be written: " + std::strerror(error));
 }

@@ -38,7 +38,7 @@ std::string ended_words(const run_result& r) {
   if (end.status == path_status::solved) return "";
   if (end.status == r.end.status && end.step == r.end.step)
     return "the path of the 1989 rule ends in the same way";
-  return "the path of the 1989 rule is lost, which the answer does not depend on: " +
+  return "the path of the 1989 rule is lost (the answer does not depend on it): " +
          end_words(r.what, end, false);
 }
 

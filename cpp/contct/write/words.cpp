@@ -109,10 +109,8 @@ std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
                                     "proved: " + digits_words(worst) + " of every number"};
   const auto loose = std::ranges::find_if(steps, [](const auto& c) { return c && !c->unique; });
   if (loose != steps.end())
-    items.push_back(
-        fmt::format("but displacements of {}: its load leaves a rigid-body motion as it is, and "
-                    "nothing stops that",
-                    name_of(loose)));
+    items.push_back(fmt::format("but displacements of {} are not proved: a rigid-body motion remains free",
+                                name_of(loose)));
   return items;
 }
 
@@ -142,8 +140,8 @@ std::string words_of_pairs(const problem& p, const std::vector<int>& pairs) {
 
 std::string mechanism_words(const problem& p, const path_end& end) {
   if (end.pairs.empty())
-    return "no equilibrium: the structure is a mechanism: its supports and pairs allow a rigid-body motion "
-           "that the load of this step drives and nothing stops. Add a support, or a pair in its way";
+    return "no equilibrium: the load of this step drives a rigid-body motion that no support and no pair "
+           "stops. Add a support, or a pair in its way";
   return "no equilibrium: when " + words_of_pairs(p, end.pairs) +
          " separated, the structure became a mechanism";
 }
@@ -260,10 +258,8 @@ std::string stiffness_advice(const run_result& r) {
     const double digit = std::pow(10.0, std::floor(std::log10(rigid * own)));
     words = fmt::format(
         "the cause may be the stiffness {:g} of {}, {:.0e} times that of the structure there: the rounding "
-        "of w "
-        "may change its force by as much as the force itself. The largest useful stiffness is {:.0e}: what "
-        "is "
-        "stiffer is as rigid, to about 7 digits",
+        "of w may change its force by as much as the force itself. The largest useful stiffness is {:.0e}: "
+        "a stiffer one changes no more than the 7th digit",
         stiffness, pair_words(r.what, i), most, std::floor(rigid * own / digit) * digit);
   }
   return words;
