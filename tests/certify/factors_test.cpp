@@ -54,7 +54,7 @@ sparse_columns lower_of(const band_matrix& k) {
 
 }  // namespace
 
-TEST_CASE("a matrix 2^-90 from singular is factored and solved for; one as far on the other side is not") {
+TEST_CASE("a matrix 2^-90 from singular is factored and solved for, one as far on the other side is not") {
   long_band l = springs_in_line(0x1p-90);
   REQUIRE(factor(l));
   std::vector<double_double> x = {1.0, 0.0, 0.0};

@@ -50,7 +50,7 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
 }
 
 TEST_CASE(
-    "a structure that only rounding could make a mechanism is followed to its end; a mechanism is reported") {
+    "a structure that only rounding could make a mechanism is followed to its end, a mechanism is reported") {
   problem p = referee_problem("held-by-a-hair");
   CHECK(judged_run(p, "corrected").end.status == path_status::solved);
   p.steps[0].points[1].value = -4e-17;  // it tips the other way

@@ -160,7 +160,7 @@ std::vector<attack> attacks() {
                    8) +
            good,
        1, "\\x7fELF\\x00\\x01\\x02"},
-      {"a byte order mark", "\xef\xbb\xbf" + good, 1, "no trace"},
+      {"a byte order mark", "\xef\xbb\xbf" + good, 1, "not a trace"},
       {"CR LF", crlf, 1, "CR LF"},
       {"a header line that is none", with("rule listing", "author me"), 5, "author me"},
       {"a precision that is none", with("real 8", "real 16"), 4, "real 16"},

@@ -146,7 +146,7 @@ TEST_CASE("the limit of increments grows with the pairs, and stays a number") {
   CHECK(increments_allowed({7}, 50'000'000) == 7);
 }
 
-TEST_CASE("slow progress is not called a cycle; the limit of increments ends it") {
+TEST_CASE("slow progress is not called a cycle, and ends at the limit of increments") {
   made_kernel k([](call<double>& c) {
     c.smin = 0.001;
     c.isep[0] = -c.isep[0];

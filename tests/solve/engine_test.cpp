@@ -159,7 +159,7 @@ TEST_CASE("free structures come to the same end on every engine") {
   CHECK(same >= 250);
 }
 
-TEST_CASE("engines are made by name; an unknown one is refused with the known names") {
+TEST_CASE("engines are made by name, and an unknown one is refused with the known names") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   for (const std::string& name : engine_names()) CHECK(make_engine(name, s) != nullptr);

@@ -1,5 +1,5 @@
 """Fails when a sentence has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/, the comments of
-cpp/ and tests/, and the names of tests.
+cpp/ and tests/, and the names of tests; and when a name has a semicolon, at which CMake cuts it, so that ctest would run no test.
 Usage: words.py ROOT PHRASES LEAST"""
 import re
 import sys
@@ -32,6 +32,11 @@ def comments_of(file):
     return [re.sub(r"`[^`]*`", "`", text) for text in names + [re.sub(rf"\s*{mark}\s*", " ", run) for run in runs]]
 
 
+def cut_names_of(file):
+    joined = re.sub(r'"[ \t]*\n\s*"', "", file.read_text(encoding="utf-8"))
+    return re.findall(r'\bTEST_CASE\(\s*"([^"\n]*;[^"\n]*)"', joined) if file.suffix == ".cpp" else []
+
+
 def sources_of(root):
     found = [file for folder in ("cpp", "tests") for file in (root / folder).rglob("*")]
     return sorted(file for file in found if file.suffix in (".cpp", ".hpp", ".h", ".c", ".js", ".py"))
@@ -62,6 +67,9 @@ def main(root, phrases, least):
                 for hit in pattern.finditer(text):
                     found += 1
                     print(f"{file}: found \"{hit[0]}\" in \"{' '.join(text.split())[:70]}\"; allowed: {instead}")
+    for name in (name for file in sources_of(Path(root)) for name in cut_names_of(file)):
+        found += 1
+        print(f"found the test name \"{name}\"; allowed: no semicolon")
     print(f"{looked_at} texts, {len(rows)} phrases, {found} of them found")
     if looked_at < int(least):
         print(f"found {looked_at} texts; allowed: {least} or more")

@@ -85,7 +85,7 @@ TEST_CASE("rows at nodes on a bed have its pressure, modulus times settlement") 
       CHECK(value_in(row[9]) == Approx(-50 * value_in(row[5])).epsilon(1e-12));
 }
 
-TEST_CASE("a plate has a row for each node, with its slopes; a matrix one for each dof") {
+TEST_CASE("a plate has a row for each node, with its slopes, and a matrix one for each dof") {
   const a_run r(std::string(good_plate), "corrected");
   const csv_rows rows = csv_table(r, write_states_csv);
   REQUIRE(rows.size() == 1 + 6);
