@@ -73,7 +73,9 @@ struct new_options {
 };
 
 struct verify_options {
-  std::string reference;  ///< a folder
+  std::string reference;   ///< a folder
+  std::string results;     ///< another program's, which are judged instead of this build's
+  std::size_t least = 10;  ///< of them must be there
   std::string json;
   report_options report;
 };
@@ -129,6 +131,8 @@ exit_status run_command(const explain_options& options);
 exit_status run_command(const exact_options& options);
 exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
+/// The same for another program's results; `table` is reference/verification.toml.
+exit_status judge_foreign(const verify_options& options, const std::string& table);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const prove_options& options);

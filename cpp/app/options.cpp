@@ -43,6 +43,7 @@ constexpr example all_examples[] = {
     {"contct exact beam.toml --rule 1989 --digits 30", "the 1989 rule in exact arithmetic"},
     {"contct verify", "every reference problem, compared with its numbers"},
     {"contct verify --quiet --junit verify.xml", "for a CI system"},
+    {"contct verify --results theirs.json", "another program's numbers for these problems"},
     {"contct fuzz --calls 20000 --seed 7", "FORTRAN against C++ on random calls"},
     {"contct fuzz --kernels fortran,plugin:./mine.so --calls 20000",
      "does a kernel of your own answer as CONTCT does?"},
@@ -302,6 +303,15 @@ void declare_new(option_parser& p, CLI::App* c) {
 void declare_verify(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<verify_options>(c);
   add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
+  add_file(
+      c, "--results", o.results,
+      "Solve nothing: judge the numbers that another program has for these problems, in a file of the "
+      "format contct-answers-1 (- reads standard input); the exit status is 1 if one is outside the file's "
+      "own tolerance");
+  c->add_option("--least", o.least, "With --results: the exit status is 2 if there are fewer numbers")
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs("--results")
+      ->capture_default_str();
   add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   add_reports(c, o.report);
 }

@@ -55,6 +55,7 @@ void prepare(const scratch_folder& dir, bool with_problems) {
   REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);
   REQUIRE(contct_program(dir.path(), {"run", "beam.toml", "--quiet", "--trace", "calls.trace"}).exit == 0);
   fs::create_symlink(CONTCT_PLUGINS "/libvariant_right.so", dir.path() / "mine.so");
+  fs::create_symlink(root / "reference/benchmarks/calculix.json", dir.path() / "theirs.json");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ from documented import first_difference, objects, result_of, same, seen_keys, va
 from manual import blocks
 
 JSON = ["--quiet", "--json", "result.json"]
-LEAST_KEYS, LEAST_PLAIN = 78, 120
+LEAST_KEYS, LEAST_PLAIN = 95, 120
 BEAM = """
 [beam]
 length = %s
@@ -52,6 +52,7 @@ def of_schema(program, root, plugin, folder):
     yield "fuzz", ["fuzz", "--calls", 2000, "--shard", "2/3", "--kernels", f"fortran,cpp,plugin:{plugin}"], 1
     yield "verify", ["verify", "--reference", root / "reference"], 0
     yield "verify", ["verify", "--reference", doctored_reference(root, folder)], 1
+    yield "judged", ["verify", "--reference", root / "reference", "--results", root / "reference/benchmarks/calculix.json"], 0
 
 
 def with_schema(program, root, plugin, folder):

@@ -2,13 +2,16 @@
 // judged.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contct/certify/certificate.hpp"
 #include "contct/model/problem.hpp"
+#include "contct/read/toml_reader.hpp"
 #include "contct/session/run_result.hpp"
 #include "contct/session/step_results.hpp"
 
@@ -30,6 +33,18 @@ struct expected_number {
   std::string reason;              ///< why it does
   std::string exact;  ///< the exact number, "p/q" or a decimal; of a state, its name; empty: not known
 };
+
+/// The keys that say which number of a problem is meant, and what they say in a table.
+inline constexpr std::array<std::string_view, 11> place_keys = {
+    "step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along"};
+[[nodiscard]] expected_number read_place(const toml_value& t);
+
+/// What an error of a number is measured by.
+enum class kind_of_number { deflection, slope, force, moment, other };
+[[nodiscard]] kind_of_number kind_of(const expected_number& e);
+
+/// The double nearest to the exact number, which must be known; of a state as `value`.
+[[nodiscard]] double exact_value(const expected_number& e);
 
 /// One problem file and its numbers.
 struct verification_case {

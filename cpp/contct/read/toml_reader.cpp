@@ -236,8 +236,7 @@ std::vector<toml_value> toml_value::tables() const {
 }
 
 toml_value toml_value::operator[](std::string_view key) const {
-  const toml::node* const node = node_->as_table()->get(key);
-  return {node, node == nullptr ? at_ : node->source().begin, name_of_key(key), file_};
+  return inner(node_->as_table()->get(key), name_of_key(key));
 }
 
 void toml_value::refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
@@ -250,8 +249,9 @@ void toml_value::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : *node_->as_table()) {
     if (std::ranges::find(keys, key.str()) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
-    refuse_at(file_, key.source().begin, name_of_key(printable(key.str())),
-              "an unknown key" + did_you_mean(key.str(), known), fmt::format("{}", fmt::join(keys, ", ")));
+    refuse_at(file_, places_ == nullptr ? key.source().begin : places_->at(&node),
+              name_of_key(printable(key.str())), "an unknown key" + did_you_mean(key.str(), known),
+              fmt::format("{}", fmt::join(keys, ", ")));
   }
 }
 

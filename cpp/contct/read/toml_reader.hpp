@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// "key[3]", with the index from 1.
 [[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
 
+/// Where the nodes of a tree begin that toml++ did not parse.
+using toml_places = std::map<const toml::node*, toml::source_position>;
+
 /// A value of a TOML file, which knows its name for people: "contact[2].face", or "" for the file itself. A
 /// key that is not there is a value too, which is refused where it is read. Every refusal is an input_error
 /// with file, line and column. The document and the file's name must outlive this object.
@@ -39,6 +43,9 @@ class toml_value {
  public:
   toml_value(const toml::table& document, std::string_view file)
       : node_(&document), at_(document.source().begin), file_(file) {}
+  /// The same of a tree that toml++ did not parse; `places` must outlive this object, too.
+  toml_value(const toml::table& document, std::string_view file, const toml_places& places)
+      : node_(&document), file_(file), places_(&places) {}
 
   /// A number, a whole number, text, or one of `choices`, of which this is the index.
   [[nodiscard]] double real(const real_range& range) const;
@@ -92,13 +99,19 @@ class toml_value {
   [[noreturn]] void refuse(std::string_view allowed) const { refuse(found(), allowed); }
 
  private:
-  toml_value(const toml::node* node, const toml::source_position& at, std::string name, std::string_view file)
-      : node_(node), at_(at), name_(std::move(name)), file_(file) {}
+  /// A value inside this one; a missing one is where this one is.
+  [[nodiscard]] toml_value inner(const toml::node* node, std::string name) const {
+    toml_value v = *this;
+    v.node_ = node;
+    v.name_ = std::move(name);
+    if (node != nullptr) v.at_ = places_ == nullptr ? node->source().begin : places_->at(node);
+    return v;
+  }
 
   [[nodiscard]] const toml::array& array(std::string_view allowed, std::size_t least,
                                          std::size_t most = -1) const;
   [[nodiscard]] toml_value entry_at(const toml::node& entry, std::size_t i) const {
-    return {&entry, entry.source().begin, indexed(name_, i), file_};
+    return inner(&entry, indexed(name_, i));
   }
   [[nodiscard]] bool is_top_level() const { return name_.find_first_of(".[") == std::string::npos; }
   [[nodiscard]] std::string name_of_key(std::string_view key) const {
@@ -109,6 +122,7 @@ class toml_value {
   toml::source_position at_;  // of the table in which it is missing
   std::string name_;
   std::string_view file_;
+  const toml_places* places_ = nullptr;
 };
 
 /// Parse a whole document. Throws input_error with line and column.

@@ -1,0 +1,67 @@
+// contct verify --results: another program's numbers for the reference problems.
+#include <nlohmann/json.hpp>
+
+#include "app/process.hpp"
+#include "catch.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// PB1's first two steps by its closed form, w at the tip and the stop's force; `force` is that in step 2.
+std::string answers(const std::string& force) {
+  return R"({ "format": "contct-answers-1", "program": "By hand", "version": "1", "tolerance": 1e-6,
+  "problems": { "pb01-cantilever-tip-stop": [
+    { "step": 1, "quantity": "w", "node": 3, "value": -0.00266666667 },
+    { "step": 1, "quantity": "force", "pair": 1, "value": 0 },
+    { "step": 2, "quantity": "w", "node": 3, "value": -0.00483720930 },
+    { "step": 2, "quantity": "event", "pair": 1, "change": "make", "value": 0.1 },
+    { "step": 2, "quantity": "force", "pair": 1, "value": )" +
+         force + " } ] } }";
+}
+
+finished judged(const scratch_folder& dir, const std::string& force, const std::string& least) {
+  dir.write("theirs.json", answers(force));
+  return contct_program(dir.path(),
+                        {"verify", "--results", "theirs.json", "--least", least, "--json", "out.json"});
+}
+
+}  // namespace
+
+TEST_CASE("another program's numbers are judged by its own tolerance, and counted") {
+  const scratch_folder dir;
+  const finished f = judged(dir, "41.8604651", "5");
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("By hand 1: 5 numbers in 1 problems") && Contains("0 failed"));
+  CHECK_THAT(f.out, Contains("not given: pb02-beam-over-cantilever, "));
+  const auto out = nlohmann::json::parse(dir.read("out.json"));
+  CHECK(out["judged"] == 5);
+  CHECK(out["problems"][0]["numbers"][2]["exact"] == "-26/5375");
+  CHECK(out["problems"][0]["not_given"].size() == 25);
+}
+
+TEST_CASE("a number outside the tolerance is named beside the exact one, with exit 1") {
+  const scratch_folder dir;
+  const finished f = judged(dir, "41.8614651", "5");
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("step 2, force, pair 1: found 41.8614651; exactly 1800/43: an error of"));
+}
+
+TEST_CASE("fewer numbers than --least are exit 2, and the files are written") {
+  const scratch_folder dir;
+  const finished f = judged(dir, "41.8604651", "6");
+  CHECK(f.exit == 2);
+  CHECK_THAT(f.err, Contains("theirs.json: found 5 numbers; allowed: 6 or more"));
+  CHECK(nlohmann::json::parse(dir.read("out.json"))["failed"] == 0);
+}
+
+TEST_CASE("results are not replaced by an output") {
+  const scratch_folder dir;
+  dir.write("theirs.json", answers("0"));
+  const finished f =
+      contct_program(dir.path(), {"verify", "--results", "theirs.json", "--json", "theirs.json"});
+  CHECK(f.exit == 2);
+  CHECK(dir.read("theirs.json") == answers("0"));
+}
