@@ -1,13 +1,17 @@
 """peer.py CONTCT CCX REFERENCE FOLDER: CalculiX as a peer: from the matrix that CalculiX writes of a solid, contct comes to the states
 that CalculiX comes to by its own contact springs and its own way of solving."""
 import json
-import re
 import subprocess
 import sys
 from pathlib import Path
 
 CONTCT, CCX, REFERENCE, FOLDER = sys.argv[1], sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4])
-LEAST_CHECKS = 14
+LEAST_CHECKS = 20
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(REFERENCE / "benchmarks"))
+import calculix  # noqa: E402
+from make import problem_of  # noqa: E402
+
 # How far a spring's table reaches, in problem lengths: Newton's first steps may go far, and outside it the force is constant. A second
 # point is near the answer, since the far end, rounded to a field's digits, would misplace a stiff spring's face.
 FAR_AWAY, NEAR = 1e6, 4
@@ -20,11 +24,16 @@ def check(good, words):
     print(f"{'  ok    ' if good else '  FAILED'} {words}", flush=True)
 
 
-def run_contct(problem):
-    """The result, both kernels in lockstep: equal, and every final state certified."""
+def run_contct(problem, *options):
+    """The result, certified in every final state."""
     file = FOLDER / "contct.json"
-    subprocess.run([CONTCT, "run", problem, "--quiet", "--strict", "--kernels", "fortran,cpp", "--json", file], check=True)
-    result = json.loads(file.read_text())
+    subprocess.run([CONTCT, "run", problem, "--quiet", "--strict", "--json", file, *options], check=True)
+    return json.loads(file.read_text())
+
+
+def run_both(problem):
+    """The same of both kernels in lockstep: equal."""
+    result = run_contct(problem, "--kernels", "fortran,cpp")
     if result["lockstep"]["calls"] == 0 or result["lockstep"]["mismatches"] != 0:
         raise ValueError(f"{problem}: the kernels were not compared, or differ")
     return result
@@ -46,13 +55,7 @@ def run_ccx(job, deck):
 
 def values_at_end(job, quantity, name, first, count):
     """Values along x, y, z of nodes `first`, `first` + 1 and so on at the end of the step, which lasts from time 0 to 1."""
-    tables = re.split(r"^ (\w+) \(\w+,\w+,\w+\) for set (\w+) and time +(\S+)$", Path(FOLDER, f"{job}.dat").read_text(), flags=re.M)
-    of_set = [text for what, which, time, text in zip(tables[1::4], tables[2::4], tables[3::4], tables[4::4])
-              if (what, which) == (quantity, name) and float(time) == 1.0]
-    if not of_set:
-        raise ValueError(f"{job}: found no {quantity} for set {name} at time 1: CalculiX did not reach the step's end")
-    rows = [line.split() for line in of_set[-1].splitlines() if line.strip()]
-    at = {int(node): [float(re.sub(r"(\d)([+-]\d{3})$", r"\1E\2", x)) for x in values] for node, *values in rows}
+    at = calculix.values_at_end(Path(FOLDER, f"{job}.dat").read_text(), quantity, name)
     return [at[node] for node in range(first, first + count)]
 
 
@@ -123,7 +126,7 @@ def check_example():
     off = max(abs(float(a[2]) - float(b[2])) for a, b in zip(ours, theirs)) / largest
     same_places = [row[:2] for row in ours] == [row[:2] for row in theirs]
     check(same_places and len(ours) > 5000 and off <= 1e-12, f"console: the kept matrix is CalculiX's, {len(ours)} entries within {off:.1e}")
-    increments = sum(len(step["increments"]) for step in run_contct(kept.with_suffix(".toml"))["steps"])
+    increments = sum(len(step["increments"]) for step in run_both(kept.with_suffix(".toml"))["steps"])
     check(increments == 10, f"console: both kernels equal and certified in {increments} increments")
 
 
@@ -132,7 +135,7 @@ def check_block(block, events):
     path, nodes = FOLDER / f"{block.name}.toml", len(block.places)
     path.write_text(block.problem())
     run_ccx(block.name, block.matrix_deck())
-    result = run_contct(path)
+    result = run_both(path)
     found = sum(len(i["events"]) for step in result["steps"] for i in step["increments"])
     check(found >= events, f"{block.name}: both kernels equal and certified on {found} events, {result['lockstep']['calls']} calls")
     labels = [tuple(map(int, label.split("."))) for label in (FOLDER / f"{block.name}.dof").read_text().split()]
@@ -154,7 +157,52 @@ def check_block(block, events):
     check(in_contact >= 3, f"{block.name}: {in_contact} pairs in contact were compared")
 
 
+def check_benchmarks():
+    """CalculiX's numbers for benchmark problems, converted from its .dat files, are within the tolerance of the exact ones."""
+    theirs, out = FOLDER / "theirs.json", FOLDER / "judged.json"
+    theirs.write_text(calculix.words(calculix.results(calculix.CONVERGE, FOLDER, CCX)))
+    done = subprocess.run([CONTCT, "verify", "--reference", REFERENCE, "--results", theirs, "--least", "100", "--quiet", "--json", out], check=False)
+    judged = json.loads(out.read_text())
+    largest = max(number["error"] for problem in judged["problems"] for number in problem["numbers"])
+    check(done.returncode == 0, f"benchmarks: {judged['judged']} numbers of {len(judged['problems'])} problems, {judged['failed']} outside "
+          f"{judged['tolerance']:g}; the largest error is {largest:.1e}")
+    kept = json.loads((REFERENCE / "benchmarks/calculix.json").read_text())["problems"]
+    asked = [{name: [{**entry, "value": 0} for entry in entries] for name, entries in of.items()}
+             for of in (kept, json.loads(theirs.read_text())["problems"])]
+    check(asked[0] == asked[1], "benchmarks: the kept results are of the same numbers")
+
+
+def combination_errors(elements):
+    """Of each combination of the base plate on so many elements along a side: its name, its largest difference of contact forces,
+    relative to the largest force, how many pairs were compared, and how many statuses differ where a force shows."""
+    text = (REFERENCE / "cookbook/base-plate.toml").read_text()
+    if "elements  = [10, 10]" not in text:
+        raise ValueError("base-plate.toml: found another mesh; allowed: [10, 10]")
+    path = FOLDER / "base-plate.toml"
+    path.write_text(text.replace("[10, 10]", f"[{elements}, {elements}]"))
+    problem = problem_of(path)
+    for step, ours in zip(problem["steps"], run_contct(path)["steps"], strict=True):
+        run_ccx("base-plate", calculix.deck(problem, step))
+        pressed = calculix.contact_forces(problem, Path(FOLDER, "base-plate.dat").read_text())
+        largest = max(pair["force"] for pair in ours["pairs"])
+        both = list(zip(ours["pairs"], pressed, strict=True))
+        other = [pair for pair, force in both if (pair["state"] == "contact") != (force > 0) and max(pair["force"], force) > 1e-3 * largest]
+        yield ours["name"], max(abs(pair["force"] - force) for pair, force in both) / largest, len(both), len(other)
+
+
+def check_combinations():
+    """A plate of shell elements on springs: CalculiX's S8R against ACM. The two meshes differ, and less on smaller elements."""
+    coarse = {name: error for name, error, *_ in combination_errors(10)}
+    for name, error, count, other in combination_errors(20):
+        check(error <= 5e-3 and error < coarse[name] / 2 and other == 0 and count > 400,
+              f"base plate, {name}: {count} contact forces within {error:.1e} of the largest, {coarse[name]:.1e} on elements of twice the size; "
+              f"{other} other statuses where forces are above 1e-3 of it")
+    check(len(coarse) == 3, f"base plate: {len(coarse)} combinations were compared")
+
+
 check_example()
+check_benchmarks()
+check_combinations()
 check_block(Block("cantilever", (10, 2, 2), (10, 1, 1), [((4, 1, 0), -0.02, 100), ((7, 1, 0), -0.1, 100), ((10, 1, 0), -0.2, 50)], (10, 1, 2),
                   [-2, -10, -1, 3]), 4)
 check_block(Block("slab", (8, 6, 1), (8, 6, 0.5), [((8, 0, 0), -0.2, 40), ((8, 6, 0), -0.3, 40), ((4, 3, 0), -0.15, 40),

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Another program as a witness: CalculiX (ccx) comes to the states that contct comes to, on solids whose matrix it wrote
-# for contct.
+# for contct, on the combinations of a base plate, and on benchmark problems of reference/benchmarks.
 # usage: sh tests/peer/run.sh [BUILD]      (default: build/release; what it needs of it is built)
 # Exit 0: all agrees; 1: something does not; 2: usage; 77: skipped, CalculiX cannot be had.
 set -u
