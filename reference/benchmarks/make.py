@@ -1,4 +1,5 @@
-"""Writes the benchmark problems as plain data, NAME.json in this folder, from reference/problems and reference/verification.toml:
+"""Writes the benchmark problems as plain data, NAME.json in this folder, from reference/problems and reference/verification.toml, and the
+table of reference/benchmarks.md:
 
     python3 reference/benchmarks/make.py            writes
     python3 reference/benchmarks/make.py --check    compares what is here, and writes nothing
@@ -19,6 +20,13 @@ sys.path.insert(0, str(REFERENCE))
 from check_problem import Problem, real  # noqa: E402
 
 LEAST = 50
+# What a published source says of a family, where one is known.
+PUBLISHED = {"pb02": "data: studysoup.com, question 142235", "pb03": "Kerr, Soicher: contact does not depend on the load",
+             "pb04": "Lovtsov 2025: 0.4 F / alpha", "pb09": "Code_Aster SSNL130: -208/58875, 176/153075", "pb10": "data: Code_Aster V5.02.104",
+             "pb11": "SEAINT list: 3 (B/2 - e)", "pb15": "data: Code_Aster V5.02.105", "pp01": "Dempsey 1984, abstract"}
+# Tried by calculix.py: of each problem at least one step does not converge.
+NO_CONVERGENCE = ("pb08", "pb09", "pb11", "pb13")
+KINDS = {"w": "length", "gap": "length", "force": "force", "reaction": "force"}
 PLACE = ("step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along")
 
 
@@ -109,19 +117,64 @@ def words(value):
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
+def errors(problem, answers):
+    """Of another program's numbers, as contct verify --results judges them."""
+    key, sizes = lambda number: json.dumps({k: number[k] for k in PLACE if k in number}), {}
+    exact = {key(number): number["exact"] for number in problem["numbers"]}
+    for number in (n for n in problem["numbers"] if n["quantity"] != "state"):
+        kind = KINDS.get(number["quantity"].split(" ")[-1], number["quantity"])
+        sizes[kind] = max(sizes.get(kind, 0.0), abs(float(Fraction(number["exact"]))))
+    for answer in answers:
+        words, kind = exact[key(answer)], KINDS.get(answer["quantity"])
+        if kind is None:
+            yield 0.0 if str(answer["value"]) == words else 1.0
+        else:
+            yield abs(answer["value"] - float(Fraction(words))) / (sizes[kind] or 1.0)
+
+
+def row(family, problems, calculix):
+    """Of PB3a, PB3b and so on, those of a family."""
+    first, title = problems[0], problems[0]["title"].partition("  ")[2] or problems[0]["title"]
+    number = f"{family[:2].upper()}{int(family[2:])}"
+    picture = f"![{number}](benchmarks/{family}.svg)" if (HERE / f"{family}.svg").exists() else ""
+    links = [f"[{number if len(problems) == 1 else p['name'][4]}](benchmarks/{p['name']}.json)" for p in problems]
+    fractions = [n for n in first["numbers"] if n["quantity"] in ("w", "force") and "/" in n["exact"]]
+    shown = min(fractions, key=lambda n: len(n["exact"]), default=None)
+    exact = f"{shown['quantity']}({shown.get('node', shown.get('pair'))}), step {shown['step']}: {shown['exact']}" if shown else "40 digits"
+    judged = [error for p in problems for error in errors(p, calculix.get(p["name"], []))]
+    theirs = f"{len(judged)} within {max(judged):.0e}" if judged else "no convergence" if family in NO_CONVERGENCE else "not tried"
+    cells = [picture, f"{'' if len(problems) == 1 else number + ' '}{' '.join(links)} {title}", str(sum(len(p["numbers"]) for p in problems)),
+             exact, PUBLISHED.get(family, "-"), theirs]
+    return "|" + "|".join(cells) + "|"
+
+
+def page_with(table, problems):
+    """benchmarks.md with the table."""
+    calculix = json.loads((HERE / "calculix.json").read_text())["problems"]
+    families = {}
+    for problem in problems:
+        families.setdefault(problem["name"][:4], []).append(problem)
+    rows = [row(family, of, calculix) for family, of in sorted(families.items())]
+    begin, end = table.index("| picture |"), table.index("\n\n", table.index("| picture |"))
+    header = table[begin:end].splitlines()[:2]
+    return table[:begin] + "\n".join(header + rows) + table[end:]
+
+
 def main(arguments):
     check = arguments == ["--check"]
     if arguments and not check:
         return __doc__
     table = tomllib.loads((REFERENCE / "verification.toml").read_text())
-    made = {f"{Path(case['file']).stem}.json": words(benchmark(case)) for case in table["case"]}
-    here = {file.name: file.read_text() for file in HERE.glob("p[bp][0-9]*.json")}
-    different = sorted(name for name in made | here if made.get(name) != here.get(name))
+    problems = [benchmark(case) for case in table["case"]]
+    page = REFERENCE / "benchmarks.md"
+    made = {HERE / f"{problem['name']}.json": words(problem) for problem in problems} | {page: page_with(page.read_text(), problems)}
+    here = {file: file.read_text() for file in [page, *HERE.glob("p[bp][0-9]*.json")]}
+    different = sorted(file.name for file in made | here if made.get(file) != here.get(file))
     if not check:
-        for name, text in made.items():
-            (HERE / name).write_text(text)
-    print(f"{len(made)} problems; {'different' if check else 'changed'}: {', '.join(different) or 'none'}")
-    return int(len(made) < LEAST or (check and bool(different)))
+        for file, text in made.items():
+            file.write_text(text)
+    print(f"{len(problems)} problems; {'different' if check else 'changed'}: {', '.join(different) or 'none'}")
+    return int(len(problems) < LEAST or (check and bool(different)))
 
 
 if __name__ == "__main__":

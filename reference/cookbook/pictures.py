@@ -40,7 +40,8 @@ def drawing(result, step):
     scale = (WIDTH - 2 * SIDE) / (right - left)
     magnified = 50 / max(abs(w) for w in rise)
     low, high = min(y for _, y in seen) * scale, max(y for _, y in seen) * scale
-    drop = HEIGHT / 2 + (low + high) / 2 + (10 if shape["kind"] != "matrix" else -10)
+    lowest = max(-y * scale - w * magnified for (_, y), w in zip(seen, rise))
+    drop = min(HEIGHT / 2 + (low + high) / 2 + (10 if shape["kind"] != "matrix" else -10), HEIGHT - 8 - lowest)
 
     def spot(node, w=0.0):
         x, y = seen[node]
@@ -51,34 +52,40 @@ def drawing(result, step):
         return f'<path d="{path}" {style}/>'
 
     parts = [lines(spot, 'class="unloaded"'), lines(lambda n: spot(n, rise[n]), 'class="loaded"')]
-    for support in shape["supports"]:
+    for support in (s for s in shape["supports"] if s.get("dof") not in ("wx", "wy")):
         node = at[support["node"] if "node" in support else support["dof"]]
         x, y = spot(node, rise[node])
         parts.append(f'<path class="support" d="M{x} {y}l-6 10h12z"/>')
-    largest = max(pair["force"] for pair in end["pairs"])
+    largest = max((pair["force"] for pair in end["pairs"]), default=0.0)
     for pair in end["pairs"]:
         node = at[pair["node"] if "node" in pair else pair["dof"]]
         x, y = spot(node, rise[node])
         down = 5 if pair["surface"] == "below" else -5
         parts.append(f'<circle class="{pair["state"]}" cx="{x}" cy="{float(y) + down:.1f}" r="3"/>')
         if pair["force"] > 0.999999 * largest > 0:
-            parts.append(f'<text x="{x}" y="{float(y) + 4 * down + (4 if down > 0 else 8):.1f}">{pair["force"]:.1f}</text>')
+            parts.append(f'<text x="{x}" y="{float(y) + 4 * down + (4 if down > 0 else 8):.1f}">{pair["force"]:{".1f" if largest >= 1 else ".2g"}}</text>')
     return parts, magnified / scale
+
+
+def svg(file, step):
+    result = contct.run(file, kernels="corrected", states=True)
+    parts, magnified = drawing(result, step)
+    name = result.steps[step - 1].name
+    words = f"{result.title}: {name}" if name and len(result.title) < 60 else result.title
+    digits = ".0f" if magnified >= 10 else ".2g"
+    head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img"><title>{words}</title>'
+            "<style>path{fill:none;stroke-width:1.5}.unloaded{stroke:#aaa}.loaded{stroke:#1560bd;stroke-width:2}"
+            ".support{fill:#666;stroke:none}.contact{fill:#c2410c}.separated{fill:none;stroke:#c2410c}"
+            "text{font:12px sans-serif;text-anchor:middle;fill:#7c2d12}.words{text-anchor:start;fill:#333}</style>"
+            f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#fff"/>')
+    foot = f'<text class="words" x="10" y="18">{words}; deflections times {magnified:{digits}}</text></svg>'
+    return "\n".join([head, *parts, foot]) + "\n"
 
 
 def main():
     here = Path(__file__).resolve().parent
     for name, step in STEPS.items():
-        result = contct.run(here / f"{name}.toml", kernels="corrected", states=True)
-        parts, magnified = drawing(result, step)
-        words = f"{result.title}: {result.steps[step - 1].name}"
-        head = (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img"><title>{words}</title>'
-                "<style>path{fill:none;stroke-width:1.5}.unloaded{stroke:#aaa}.loaded{stroke:#1560bd;stroke-width:2}"
-                ".support{fill:#666;stroke:none}.contact{fill:#c2410c}.separated{fill:none;stroke:#c2410c}"
-                "text{font:12px sans-serif;text-anchor:middle;fill:#7c2d12}.words{text-anchor:start;fill:#333}</style>"
-                f'<rect width="{WIDTH}" height="{HEIGHT}" fill="#fff"/>')
-        foot = f'<text class="words" x="10" y="18">{words}; deflections times {magnified:.0f}</text></svg>'
-        (here / f"{name}.svg").write_text("\n".join([head, *parts, foot]) + "\n")
+        (here / f"{name}.svg").write_text(svg(here / f"{name}.toml", step))
 
 
 if __name__ == "__main__":

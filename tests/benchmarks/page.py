@@ -1,0 +1,18 @@
+"""page.py CONTCT ROOT: the file of results that reference/benchmarks.md shows is one that contct verify --results judges, and passes; the
+page has a row and a picture for each family of problems, and at most 900 words."""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+contct, root = sys.argv[1], Path(sys.argv[2])
+page = (root / "reference/benchmarks.md").read_text()
+example = re.search(r"```json\n(.*?)```", page, re.S)[1]
+line = [contct, "verify", "--reference", root / "reference", "--results", "-", "--least", "2"]
+judged = subprocess.run(line, input=example, capture_output=True, text=True, check=False)
+print(judged.stdout[-300:], judged.stderr)
+families = {file.name[:4] for file in (root / "reference/problems").glob("*.toml")}
+shown = set(re.findall(r"^\|!\[\w+\]\(benchmarks/(p[bp]\d\d)\.svg\)", page, re.M))
+rows = set(re.findall(r"^\|.*?\(benchmarks/(p[bp]\d\d)[a-z]?-", page, re.M))
+print(f"{len(rows)} of {len(families)} families have a row, {len(shown)} a picture; {len(page.split())} words")
+sys.exit(judged.returncode or int(rows != families or len(families) < 21 or families - shown != {"pb15"} or len(page.split()) > 900))
