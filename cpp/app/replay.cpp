@@ -1,5 +1,6 @@
 // contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "app/kernel_report.hpp"
@@ -24,6 +25,7 @@ std::string verdict_of(const replay_report& r, const floating_point& fp) {
 struct replayed {
   kernel_report report = {"replay", "", "", 0, {}, {}, {}};
   nearness near;
+  std::map<std::string, fault_finder> faults;  // by kernel
 
   void add(const std::string& file, const std::string& text, const replay_report& r,
            const std::string& details) {
@@ -55,9 +57,11 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   }
   const std::unique_ptr<class kernel> k = make_kernel(kernel);
   progress shown(1, "trace", quiet);
-  const replay_report r = replay(h, calls, *k, [&shown, &file](std::int64_t done) {
-    shown.say(fmt::format("{}: {} calls", file, done));
-  });
+  const replay_report r = replay(
+      h, calls, *k,
+      [&shown, &file](std::int64_t done) { shown.say(fmt::format("{}: {} calls", file, done)); },
+      std::exchange(all.faults[kernel], {}));
+  all.faults[kernel] = r.faults;
   shown.erase();
   if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
   const floating_point fp = probe_floating_point();
@@ -104,6 +108,10 @@ exit_status run_command(const replay_options& options) {
     }
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  for (const auto& [kernel, faults] : all.faults) {
+    if (const std::optional<faulty_line> line = faults.found())
+      complain("{}: at fault: {}", kernel, words_of(*line));
+  }
   if (report.count(outcome::skipped) == static_cast<std::int64_t>(report.results.size()))
     throw std::invalid_argument(
         "nothing was compared: every trace has another precision or rule than the kernel");

@@ -166,6 +166,10 @@ const std::optional<mismatch>& follower::ask(const answered_call& c) {
   refuse_beyond_limits(c.c, c.isep_before);
   difference_ = compare(c);
   if (difference_) note(*difference_, c);
+  if (!answered()) return difference_;
+  answered_call with_text = c;
+  if (!kernel_->facts().has_text) with_text.text.reset();
+  faults.note(with_text, leader_.real_bytes, answer_, !difference_);
   return difference_;
 }
 
@@ -188,12 +192,13 @@ bool comparable(const trace_header& h, const kernel_facts& k) {
 }
 
 replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
-                     const std::function<void(std::int64_t)>& progress) {
+                     const std::function<void(std::int64_t)>& progress, fault_finder before) {
   replay_report report;
   recorded_call c;
   // A trace of f2c's may be replayed where there is no f2c, so its name alone says that the zeros before its
   // decimal points are missing.
   follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
+  asked.faults = std::move(before);
   while (calls.next(c)) {
     ++report.calls;
     const answered_call recorded = c.answered();
@@ -203,6 +208,7 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
   }
   report.compared = asked.compared;
   report.first = asked.first();
+  report.faults = std::move(asked.faults);
   return report;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contct/compare/branches.hpp"
+#include "contct/compare/faulty_line.hpp"
 #include "contct/kernel/trace.hpp"
 #include "contct/number/bits.hpp"
 
@@ -142,6 +143,7 @@ class follower {
   [[nodiscard]] bool answered() const { return !difference_ || difference_->field != "answer"; }
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
   tally compared;
+  fault_finder faults;  ///< has every answer
 
  private:
   std::optional<mismatch> compare(const answered_call& c);
@@ -169,6 +171,7 @@ struct replay_report {
   branch_counts branches;
   nearness near;
   std::optional<mismatch_report> first;  ///< the first difference
+  fault_finder faults;                   ///< has every answer, of this trace and those before it
 };
 
 /// Can a kernel with these facts be compared with the trace? Not with another precision or rule.
@@ -182,8 +185,9 @@ struct replay_report {
 
 /// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
 /// both have it, by what it means where one of them is f2c. `progress` gets the number of calls done, after
-/// each. Throws input_error where the trace is malformed.
+/// each. `before` has the kernel's answers to earlier traces. Throws input_error where the trace is malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
-                                   const std::function<void(std::int64_t)>& progress = nullptr);
+                                   const std::function<void(std::int64_t)>& progress = nullptr,
+                                   fault_finder before = {});
 
 }  // namespace contct

@@ -20,6 +20,13 @@ struct listing_line {
 
 namespace listing {
 
+inline constexpr listing_line arguments{19,
+                                        "SUBROUTINE CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC)"};
+inline constexpr listing_line common{20, "COMMON /DOF/ INDOF,NDOFPN"};
+inline constexpr listing_line smin_is_1{26, "SMIN = 1.0"};
+inline constexpr listing_line do_10{27, "DO 10 I = 1, NC"};
+inline constexpr listing_line node{28, "NODE = ID(I)"};
+inline constexpr listing_line ndof{29, "NDOF = (NODE-1) * NDOFPN + INDOF"};
 inline constexpr listing_line gap{30, "GAP = CC(I) - DD(NDOF)"};
 inline constexpr listing_line if_no_response{31, "IF (DTEST(NDOF).EQ.0.) THEN"};
 inline constexpr listing_line no_response{32, "SS(I) = 1.0"};
@@ -30,17 +37,55 @@ inline constexpr listing_line if_check_positive{36, "IF (SSCHK.GT.0.) SS(I) = SS
 inline constexpr listing_line moving{38, "SS(I) = GAP / DTEST(NDOF)"};
 inline constexpr listing_line smallest{40, "IF (SS(I).GT.0. .AND. SS(I).LT.SMIN) SMIN=SS(I)"};
 inline constexpr listing_line if_no_events{42, "IF (SMIN.EQ.1.) THEN"};
+inline constexpr listing_line write_20{43, "WRITE(26,20) SMIN"};
+inline constexpr listing_line format_20{44, "FORMAT(2X, 'NO EVENTS. RETURNING. SCALE FACTOR = ', E10.3)"};
 inline constexpr listing_line no_events_return{45, "RETURN"};
+inline constexpr listing_line do_30{50, "DO 30 I = 1, NC"};
 inline constexpr listing_line diff{51, "DIFF = ABS(SS(I) - SMIN) / SMIN"};
 inline constexpr listing_line if_within{52, "IF (DIFF.LT.EPSMUL) THEN"};
+inline constexpr listing_line node_again{53, "NODE = ID(I)"};
 inline constexpr listing_line if_separated{54, "IF (ISEP(I).EQ.1) THEN"};
 inline constexpr listing_line make{55, "ISEP(I) = -1"};
+inline constexpr listing_line write_40{56, "WRITE(26,40)"};
 inline constexpr listing_line break_{58, "ISEP(I) = 1"};
+inline constexpr listing_line write_50{59, "WRITE(26,50)"};
+inline constexpr listing_line write_60{61, "WRITE(26,60) I, NODE, ISURF(I), SMIN"};
+inline constexpr listing_line format_40{64, "FORMAT(2X, '******* MAKING CONTACT ********')"};
+inline constexpr listing_line format_50{65, "FORMAT(2X, '****** BREAKING CONTACT *******')"};
+inline constexpr listing_line format_60{66, "FORMAT(3X, 'CONTACT PAIR: ',I3,' NODE: ',I3,"};
 
-inline constexpr std::array all = {gap,       if_no_response, no_response,  if_stationary,     stationary,
-                                   moving,    check_variable, smallest,     if_check_positive, diff,
-                                   if_within, if_separated,   if_no_events, no_events_return,  make,
-                                   break_};
+inline constexpr std::array all = {arguments,
+                                   common,
+                                   smin_is_1,
+                                   do_10,
+                                   node,
+                                   ndof,
+                                   gap,
+                                   if_no_response,
+                                   no_response,
+                                   if_stationary,
+                                   stationary,
+                                   moving,
+                                   smallest,
+                                   write_20,
+                                   format_20,
+                                   do_30,
+                                   check_variable,
+                                   diff,
+                                   if_check_positive,
+                                   if_within,
+                                   node_again,
+                                   if_separated,
+                                   make,
+                                   write_40,
+                                   break_,
+                                   if_no_events,
+                                   write_50,
+                                   no_events_return,
+                                   write_60,
+                                   format_40,
+                                   format_50,
+                                   format_60};
 
 }  // namespace listing
 

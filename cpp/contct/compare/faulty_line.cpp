@@ -1,0 +1,498 @@
+#include "contct/compare/faulty_line.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "contct/number/bits.hpp"
+
+namespace contct {
+namespace {
+
+namespace l = listing;
+
+/// Faults of a line besides the one that comes to mind first.
+enum another { none, last_pair, wrong_sign, wrong_product, any_number, loop_left };
+
+/// The place of a suspect. Of two that cost the same the first is named.
+constexpr std::size_t at(const listing_line& line, another fault = none) {
+  return 10 * static_cast<std::size_t>(line.number) + fault;
+}
+
+listing_line line_of(std::size_t suspect) {
+  const int number = static_cast<int>(suspect) / 10;
+  return *std::find_if(l::all.begin(), l::all.end(),
+                       [number](const auto& line) { return line.number == number; });
+}
+
+constexpr std::int64_t most_calls = 1000;
+constexpr std::int64_t most_pairs = 500'000;  // of all calls that are looked at: their time
+constexpr double number_bits = 64.0;          // to tell a number that follows no rule
+constexpr double unexplained_bits = 200.0;    // for a value that the line cannot have made wrong
+
+/// log2 of the number of ways to choose `k` of `n`.
+double choice_bits(std::int64_t n, std::int64_t k) {
+  const auto log_factorial = [](std::int64_t x) { return std::lgamma(static_cast<double>(x) + 1.0); };
+  return n <= k ? 0.0 : (log_factorial(n) - log_factorial(k) - log_factorial(n - k)) / std::log(2.0);
+}
+
+void explain_one(suspect& s, double bits, std::int64_t values = 1) {
+  ++s.wrong;
+  s.explained += values;
+  s.bits += bits;
+}
+
+/// The same of an IF that compared `left`.
+void explain_if(suspect& s, double left) {
+  s.least = s.wrong == 0 ? left : std::min(s.least, left);
+  s.most = s.wrong == 0 ? left : std::max(s.most, left);
+  explain_one(s, 0.0);
+}
+
+/// What a wrong number may have in common with the one before it: itself, and its ratio to the right one, or
+/// the ratio alone.
+enum class rule { any, ratio };
+
+/// The bits that tell a wrong number in the place of a right one: few where it follows a rule.
+template <class Real>
+double value_bits(suspect& s, Real got, Real right, double for_rounding, rule repeats = rule::any) {
+  constexpr std::uint64_t few_ulps = 8;
+  const double ratio = static_cast<double>(got) / static_cast<double>(right);
+  const bool same_value = repeats != rule::ratio && static_cast<double>(got) == s.last_value;
+  const bool same_ratio = std::abs(ratio / s.last_ratio - 1.0) < 1e-6;
+  if (!std::isfinite(got) || (got == Real(1) && repeats != rule::ratio) ||
+      got == static_cast<Real>(not_an_answer) || got == -right)
+    return 2.0;
+  if (ulps_between(got, right) <= few_ulps) return for_rounding;
+  if (same_value || same_ratio) return 1.0;
+  s.last_value = static_cast<double>(got);
+  s.last_ratio = ratio;
+  return number_bits;
+}
+
+/// What the listing makes of one pair if its dof is `dof`, from 0: NaN where the call has no such dof.
+template <class Real>
+struct pair_values {
+  Real gap, d_star, sschk, event, at_face, moving, s;  // at_face and moving: s if that branch were taken
+  bool responds, is_stationary, check;
+
+  pair_values(const call<Real>& c, int status, std::size_t i, std::int64_t dof) {
+    const Real delta = sizeof(Real) == 4 ? static_cast<Real>(1.E-20F) : static_cast<Real>(1.E-20);
+    const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
+    const bool is_there = dof >= 0 && dof < std::ssize(c.dd);
+    const Real nan = std::numeric_limits<Real>::quiet_NaN();
+    d_star = is_there ? c.dtest[dof] : nan;
+    gap = c.cc[i] - (is_there ? c.dd[dof] : nan);
+    sschk = static_cast<Real>(status * c.isurf[i]) / d_star;
+    event = sschk * delta;
+    check = sschk > Real(0);
+    at_face = check ? event : Real(1);
+    moving = gap / d_star;
+    responds = !(d_star == Real(0));
+    is_stationary = std::abs(gap) < epsgap;
+    s = !responds ? Real(1) : without_first();
+  }
+  /// Without IF (DTEST(NDOF).EQ.0.).
+  [[nodiscard]] Real without_first() const { return is_stationary ? at_face : moving; }
+};
+
+/// "MAKING" and "BREAKING" by pair, as the text of a kernel tells it; pairs of more than three digits are not
+/// told.
+std::vector<std::optional<change>> told_by(const std::string& text, std::size_t pairs) {
+  std::vector<std::optional<change>> told(pairs);
+  change what = change::make;
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, end - at);
+    if (line.find("MAKING") != std::string::npos) what = change::make;
+    if (line.find("BREAKING") != std::string::npos) what = change::break_;
+    const std::size_t pair = line.find("PAIR:");
+    const int number = pair == std::string::npos ? 0 : std::atoi(line.c_str() + pair + 5);
+    if (number > 0 && static_cast<std::size_t>(number) <= pairs) told[number - 1] = what;
+  }
+  return told;
+}
+
+struct text_line {
+  explicit text_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    words = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  /// 20, 40, 50 or 60: the FORMAT that it looks like.
+  [[nodiscard]] int format() const {
+    const auto has = [this](const char* word) { return words.find(word) != std::string::npos; };
+    return has("NO EVENTS") ? 20 : has("MAKING") ? 40 : has("BREAKING") ? 50 : 60;
+  }
+  /// Its numbers; text, and the blanks around it, with a 0 for each character of a number.
+  void split(std::vector<double>& numbers, std::string& form) const {
+    for (const char* at = words.c_str(); *at != '\0';) {
+      char* end = nullptr;
+      const double number = *at == 'N' || *at == 'I' ? 0.0 : std::strtod(at, &end);
+      const bool is_number = end != nullptr && end != at;
+      if (is_number) numbers.push_back(number);
+      const std::size_t length = is_number ? end - at : 1;
+      for (std::size_t k = 0; k < length; ++k) form += is_number && at[k] != '.' ? '0' : at[k];
+      at += length;
+    }
+  }
+  std::string words;
+};
+
+/// Which statement wrote one line in the place of another: the FORMAT where the numbers are the same in
+/// another form.
+std::size_t writer_of(const text_line& right, const text_line& got, int last_node) {
+  const int format = right.format();
+  if (format == 40 || format == 50)
+    return got.format() == format ? (format == 40 ? at(l::format_40) : at(l::format_50))
+                                  : (format == 40 ? at(l::write_40) : at(l::write_50));
+  std::vector<double> expected, found;
+  std::string form, other_form;
+  right.split(expected, form);
+  got.split(found, other_form);
+  constexpr double rounding = 6e-4;  // of four digits
+  const auto same = [](double a, double b) {
+    return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+  };
+  const double power = expected.empty() || found.empty() ? 0.0 : std::log10(found.back() / expected.back());
+  if (std::abs(power - std::round(power)) < rounding) found.back() = expected.back();  // another exponent
+  const bool only_form = expected.size() != found.size() || form != other_form ||
+                         std::equal(expected.begin(), expected.end(), found.begin(), same);
+  if (format == 20) return only_form ? at(l::format_20) : at(l::write_20);
+  if (only_form) return at(l::format_60);
+  const bool node_alone = expected[0] == found[0] && expected[1] != found[1] && found[1] == last_node;
+  return node_alone ? at(l::node_again) : at(l::write_60);
+}
+
+}  // namespace
+
+fault_finder::fault_finder() : suspects_(at(l::format_60) + 10) {
+  least_true_ = least_false_ = std::numeric_limits<double>::infinity();
+  most_true_ = most_false_ = -least_true_;
+}
+
+void fault_finder::note(const answered_call& c, int real_bytes, const call_outputs& other, bool equal) {
+  if (real_bytes == 8) note_digest(other);
+  std::int64_t& calls = equal ? equal_calls_ : differing_calls_;
+  if (++calls > most_calls || pairs_ > most_pairs) return;
+  pairs_ += c.c.nc();
+  if (real_bytes == 8) return note_call(c.c, c, other);
+  as_float_call(c.c, [&](const call<float>& f) { note_call(f, c, other); });
+}
+
+void fault_finder::note_digest(const call_outputs& other) {
+  const auto word = [this](std::uint32_t w) {
+    digest_ = (digest_ ^ w) * 16777619U;
+    digest_ ^= digest_ >> 15U;
+  };
+  const auto number = [&word](double x) {
+    const auto bits =
+        std::bit_cast<std::uint64_t>(std::isnan(x) ? std::bit_cast<double>(0x7ff8000000000000U) : x);
+    word(static_cast<std::uint32_t>(bits >> 32U));
+    word(static_cast<std::uint32_t>(bits));
+  };
+  number(other.smin);
+  for (const double s : other.ss) number(s);
+  for (const int status : other.isep) word(static_cast<std::uint32_t>(status));
+}
+
+template <class Real>
+void fault_finder::note_call(const call<Real>& c, const answered_call& right, const call_outputs& other) {
+  left_by_.clear();
+  const std::int64_t before = differ_;
+  note_scale_factors(c, right, other);
+  note_smallest<Real>(other);
+  note_toggles<Real>(right, other);
+  if (differ_ == before && right.text) note_text(right, other);
+  last_smin_ = other.smin;
+}
+
+template <class Real>
+void fault_finder::note_scale_factors(const call<Real>& c, const answered_call& right,
+                                      const call_outputs& other) {
+  for (std::size_t i = 0; i < c.cc.size(); ++i) note_pair(c, right, i, static_cast<Real>(other.ss[i]));
+  if (!c.cc.empty()) note_loop(c, right, other.ss);
+}
+
+/// The SS of one pair.
+template <class Real>
+void fault_finder::note_pair(const call<Real>& c, const answered_call& right, std::size_t i, Real got) {
+  const int status = right.isep_before[i];
+  const auto at_dof = [&](std::int64_t dof) { return pair_values<Real>(c, status, i, dof); };
+  const pair_values<Real> p = at_dof(c.dof.dof_of(c.id[i]) - 1);
+  const bool wrong = !same_bits(got, c.ss[i]);
+  differ_ += wrong ? 1 : 0;
+  // A line that would have given `other` had it gone wrong.
+  const auto could_give = [&](std::size_t name, Real other, Real left) {
+    if (same_bits(other, c.ss[i])) return;
+    ++suspects_[name].reached;
+    if (wrong && same_bits(got, other)) explain_if(suspects_[name], static_cast<double>(left));
+  };
+  // A line that could have given any number.
+  const auto assigns = [&](std::size_t name, double for_rounding, rule repeats = rule::any) {
+    ++suspects_[name].reached;
+    if (wrong) explain_one(suspects_[name], value_bits(suspects_[name], got, c.ss[i], for_rounding, repeats));
+  };
+  could_give(at(l::common), at_dof((c.id[i] - 1LL) * c.dof.indof + c.dof.ndofpn - 1).s, got);
+  call<Real> swapped = c;
+  std::swap(swapped.dd, swapped.dtest);
+  could_give(at(l::arguments), pair_values<Real>(swapped, status, i, c.dof.dof_of(c.id[i]) - 1).s, got);
+  could_give(at(l::node), at_dof(c.dof.dof_of(static_cast<int>(i) + 1) - 1).s, got);
+  could_give(at(l::if_no_response), p.responds ? Real(1) : p.without_first(), p.d_star);
+  ++suspects_[at(l::ndof)].reached;
+  const auto of_some_dof = [&](auto s_of) {  // what lies outside the arrays is unknown
+    constexpr std::int64_t most = 2000;
+    for (std::int64_t dof = 0; dof < std::min<std::int64_t>(std::ssize(c.dd), most); ++dof)
+      if (same_bits(s_of(at_dof(dof)), got)) return true;
+    return false;
+  };
+  const bool is_known = std::isnan(got);
+  if (wrong)
+    explain_one(suspects_[at(l::ndof)],
+                is_known || !of_some_dof([](const auto& q) { return q.s; })
+                    ? value_bits(suspects_[at(l::ndof)], got, c.ss[i], number_bits) + 2.0
+                    : 8.0);
+  if (!p.responds) return assigns(at(l::no_response), 3.0);
+  could_give(at(l::if_stationary), p.is_stationary ? p.moving : p.at_face, std::abs(p.gap));
+  const bool of_a_gap = !(std::abs(got * p.d_star) < Real(0.999e-10));  // EPSGAP, less rounding
+  if (!p.is_stationary) {
+    could_give(at(l::gap, wrong_sign), -p.moving, p.gap);
+    const auto other_gap = [d_star = p.d_star](const auto& q) { return q.gap / d_star; };
+    if (wrong && (same_bits(got, p.at_face) || (!is_known && of_some_dof(other_gap)))) {
+      ++suspects_[at(l::gap)].reached;
+      explain_one(suspects_[at(l::gap)], same_bits(got, p.at_face) ? 1.0 : 8.0);
+    } else if (!wrong || of_a_gap) {
+      assigns(at(l::gap), 5.0);
+    }
+    return assigns(at(l::moving), 3.0);
+  }
+  could_give(at(l::if_check_positive), p.check ? Real(1) : p.event, p.sschk);
+  could_give(at(l::check_variable, wrong_sign),
+             p.check             ? Real(1)
+             : p.sschk < Real(0) ? -p.event
+                                 : p.s,
+             p.sschk);
+  if (!wrong || of_a_gap) assigns(at(l::gap), 5.0);
+  if (!wrong || got >= Real(0)) assigns(at(l::check_variable), 5.0);
+  suspects_[at(l::check_variable)].bits += wrong ? 1.0 : 0.0;  // a ratio that repeats is rather that of DELTA
+  assigns(p.check ? at(l::if_check_positive, wrong_product) : at(l::stationary), 3.0,
+          p.check ? rule::ratio : rule::any);
+}
+
+/// SS that were left as they came: from where, and what the pair before them did.
+template <class Real>
+void fault_finder::note_loop(const call<Real>& c, const answered_call& right, std::span<const double> ss) {
+  const std::size_t pairs = ss.size();
+  for (const auto& [name, i] :
+       {std::pair(at(l::do_10), std::size_t{0}), {at(l::do_10, last_pair), pairs - 1}}) {
+    ++suspects_[name].reached;
+    if (ss[i] == not_an_answer && !same_bits(c.ss[i], static_cast<Real>(not_an_answer)))
+      explain_one(suspects_[name], 0.0);
+  }
+  std::size_t done = pairs;
+  while (done > 0 && ss[done - 1] == not_an_answer) --done;
+  const auto left_behind = [&](std::size_t name, auto took) {
+    std::size_t i = 0;
+    while (i < pairs && !took(i)) ++i;
+    if (i + 1 < pairs) ++suspects_[name].reached;
+    if (i + 1 != done) return;
+    if (done < pairs) explain_one(suspects_[name], 1.0, static_cast<std::int64_t>(pairs - done));
+    left_by_.push_back(name);
+  };
+  const auto of = [&](std::size_t i) {
+    return pair_values<Real>(c, right.isep_before[i], i, c.dof.dof_of(c.id[i]) - 1);
+  };
+  left_behind(at(l::no_response, loop_left), [&](std::size_t i) { return !of(i).responds; });
+  left_behind(at(l::moving, loop_left),
+              [&](std::size_t i) { return of(i).responds && !of(i).is_stationary; });
+  left_behind(at(l::smallest, loop_left),
+              [&](std::size_t i) { return c.ss[i] > Real(0) && c.ss[i] < Real(1); });
+}
+
+/// SMIN, by the other kernel's SS.
+template <class Real>
+void fault_finder::note_smallest(const call_outputs& other) {
+  double least = 1.0;
+  bool is_one_of_them = other.smin == 1.0;
+  for (const double s : other.ss) {
+    if (s > 0.0 && s < least) least = s;
+    is_one_of_them = is_one_of_them || same_bits(s, other.smin);
+  }
+  for (const std::size_t name : {at(l::smin_is_1), at(l::smallest), at(l::smallest, any_number)})
+    ++suspects_[name].reached;
+  if (same_bits(least, other.smin)) return;
+  ++differ_;
+  if (is_one_of_them) explain_one(suspects_[at(l::smallest)], 1.0);
+  if (least == 1.0 && other.smin == not_an_answer)
+    explain_one(suspects_[at(l::if_no_events)], 2.0);  // left before it is given back
+  for (const std::size_t name : {at(l::smin_is_1), at(l::smallest, any_number)}) {
+    if (name == at(l::smin_is_1) && other.smin > least && least < 1.0) continue;
+    const double bits = other.smin == last_smin_ ? 1.0
+                                                 : value_bits(suspects_[name], static_cast<Real>(other.smin),
+                                                              static_cast<Real>(least), 3.0);
+    explain_one(suspects_[name], bits);
+  }
+}
+
+/// ISEP, by the other kernel's SS and SMIN.
+template <class Real>
+void fault_finder::note_toggles(const answered_call& right, const call_outputs& other) {
+  const std::size_t pairs = other.isep.size();
+  const auto smin = static_cast<Real>(other.smin);
+  std::vector<Real> diffs(pairs);
+  std::vector<int> toggled(pairs);
+  std::vector<std::size_t> expected, found;  // pairs that DO 30 toggles, that were toggled
+  std::int64_t without_event = 0, wrong = 0;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const int before = right.isep_before[i];
+    diffs[i] = std::abs(static_cast<Real>(other.ss[i]) - smin) / smin;
+    const bool within = diffs[i] < Real(1) / Real(256);
+    toggled[i] = !within ? before : before == separated ? in_contact : separated;
+    if (within) expected.push_back(i);
+    if (other.isep[i] != before) found.push_back(i);
+    wrong += other.isep[i] != (smin == Real(1) ? before : toggled[i]) ? 1 : 0;
+    without_event += other.isep[i] != (smin == Real(1) ? toggled[i] : before) ? 1 : 0;
+  }
+  differ_ += wrong;
+  if (!expected.empty() || wrong > 0) ++suspects_[at(l::if_no_events)].reached;
+  const bool has_text = right.text.has_value();
+  const auto told = has_text ? told_by(other.text, pairs) : std::vector<std::optional<change>>(pairs);
+  const bool told_none = std::ranges::none_of(told, [](const auto& what) { return what.has_value(); });
+  if (wrong > 0 && without_event == 0 && (!found.empty() || told_none))
+    explain_one(suspects_[at(l::if_no_events)], 4.0, wrong);
+  if (wrong > 0 && found.empty())
+    for (const std::size_t name : left_by_) suspects_[name].explained += wrong;
+  if (smin == Real(1)) return;
+  if (expected.size() > 1) {
+    ++suspects_[at(l::write_60, loop_left)].reached;
+    if (found.size() == 1 && found[0] == expected[0] && wrong + 1 == std::ssize(expected))
+      explain_one(suspects_[at(l::write_60, loop_left)], 0.0, wrong);
+  }
+  for (std::size_t i = 0; i < pairs; ++i) {
+    note_toggle(right.isep_before[i], other.isep[i], diffs[i], told[i], has_text && i + 1 < 1000);
+    for (const auto& [name, at] :
+         {std::pair(at(l::do_30), std::size_t{0}), {at(l::do_30, last_pair), pairs - 1}}) {
+      if (i != at || toggled[i] == right.isep_before[i]) continue;
+      ++suspects_[name].reached;
+      if (other.isep[i] == right.isep_before[i]) explain_one(suspects_[name], 0.0);
+    }
+  }
+}
+
+/// The ISEP of one pair.
+template <class Real>
+void fault_finder::note_toggle(int before, int got, Real diff_now, const std::optional<change>& told,
+                               bool has_text) {
+  const Real epsmul = Real(1) / Real(256);
+  const bool is_within = diff_now < epsmul;
+  const bool was_separated = before == separated;
+  const int if_true = in_contact, if_false = separated;  // what either branch of IF (ISEP(I).EQ.1) sets
+  const int by_branch = was_separated ? if_true : if_false;
+  const bool wrong = got != (is_within ? by_branch : before);
+  const bool went_in = has_text ? told.has_value() : got != before;
+  const auto left = static_cast<double>(diff_now);
+  double& least = went_in ? least_true_ : least_false_;
+  double& most = went_in ? most_true_ : most_false_;
+  least = std::min(least, left);
+  most = std::max(most, left);
+  ++suspects_[at(l::diff)].reached;
+  if (wrong && went_in != is_within && got == (went_in ? by_branch : before)) {
+    explain_if(suspects_[at(l::if_within)], left);
+    explain_if(suspects_[at(l::diff)], left);
+    const double off = std::abs(left * 256.0 - 1.0);
+    rounded_only_ = rounded_only_ && off > 0.0 && off < 1e-6;
+  }
+  if (!is_within || (has_text && !told)) return;
+  suspect& assigned = suspects_[was_separated ? at(l::make) : at(l::break_)];
+  ++assigned.reached;
+  const bool other_branch = got == (was_separated ? if_false : if_true);
+  const auto [seen, first] = separated_.emplace(before, other_branch != was_separated);
+  const bool same_as_before = seen->second == (other_branch != was_separated);
+  if (!wrong) return;
+  explain_one(assigned,
+              got == before || got == -before || got == static_cast<int>(assigned.last_value) ? 1.0 : 8.0);
+  assigned.last_value = got;
+  const bool told_so = !told || (*told == change::make) == !was_separated;
+  if (other_branch && same_as_before && told_so)
+    explain_one(suspects_[at(l::if_separated)], first ? 2.0 : 0.0);
+}
+
+/// The first line of the text that differs.
+void fault_finder::note_text(const answered_call& right, const call_outputs& other) {
+  std::string_view a = *right.text, b = other.text;
+  if (a == b) return;
+  ++differ_;
+  const bool as_many = std::count(a.begin(), a.end(), '\n') == std::count(b.begin(), b.end(), '\n');
+  while (!a.empty()) {
+    const text_line expected(a), found(b);
+    if (expected.words == found.words) continue;
+    const int format = expected.format();
+    const std::size_t name = as_many ? writer_of(expected, found, right.c.id.empty() ? 0 : right.c.id.back())
+                             : format == 20 ? at(l::write_20)
+                             : format == 40 ? at(l::write_40)
+                             : format == 50 ? at(l::write_50)
+                                            : at(l::write_60);
+    explain_one(suspects_[name], 1.0);
+    if (other.text.empty())
+      for (const std::size_t left : left_by_) ++suspects_[left].explained;
+    if (name == at(l::write_20)) explain_one(suspects_[at(l::if_no_events)], 2.0);
+    return;
+  }
+}
+
+std::optional<faulty_line> fault_finder::found() const {
+  if (differ_ == 0) return std::nullopt;
+  constexpr std::string_view compared[] = {"DTEST", "ABS(GAP)", "SSCHK", "DIFF"};
+  const std::size_t ifs[] = {at(l::if_no_response), at(l::if_stationary), at(l::if_check_positive),
+                             at(l::if_within)};
+  // What is swapped, and a loop that begins, ends or is left at another place, goes wrong every time.
+  const std::size_t always[] = {at(l::arguments),          at(l::common),
+                                at(l::gap, wrong_sign),    at(l::do_10),
+                                at(l::do_10, last_pair),   at(l::do_30),
+                                at(l::do_30, last_pair),   at(l::no_response, loop_left),
+                                at(l::moving, loop_left),  at(l::smallest, loop_left),
+                                at(l::write_60, loop_left)};
+  const bool by_threshold = most_true_ < least_false_ || most_false_ < least_true_;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = 0;
+  for (std::size_t name = 0; name < suspects_.size(); ++name) {
+    const suspect& s = suspects_[name];
+    if (s.explained == 0) continue;
+    double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
+    // What IF (DIFF.LT.EPSMUL) does wrong follows from DIFF, and what IF (ISEP(I).EQ.1) does, from ISEP.
+    if (name == at(l::if_within))
+      bits += !by_threshold || rounded_only_ ? 1e6 : 1.0;
+    else if (name != at(l::if_separated))
+      bits += choice_bits(s.reached, s.wrong);
+    if (std::ranges::find(always, name) != std::end(always))
+      bits += 30.0 * static_cast<double>(s.reached - s.wrong);
+    if (bits >= least) continue;
+    least = bits;
+    best = name;
+  }
+  const suspect& s = suspects_[best];
+  if (s.explained == 0) return std::nullopt;
+  faulty_line line{line_of(best), s.explained, differ_, std::min(differing_calls_, most_calls), ""};
+  for (std::size_t k = 0; k < std::size(ifs); ++k) {
+    if (ifs[k] != best || !std::isfinite(s.least) || !std::isfinite(s.most)) continue;
+    char text[100];
+    std::snprintf(text, sizeof text, "%s was %.9g to %.9g", std::string(compared[k]).c_str(), s.least,
+                  s.most);
+    line.compared = text;
+  }
+  return line;
+}
+
+std::string words_of(const faulty_line& f) {
+  std::string words =
+      "line " + std::to_string(f.at.number) + ", " + std::string(f.at.statement) + ": explains " +
+      (f.explained == f.differ ? "all " : std::to_string(f.explained) + " of ") + std::to_string(f.differ) +
+      " values that differ, in " + std::to_string(f.calls) + " call(s)";
+  if (!f.compared.empty()) words += "; there " + f.compared;
+  return words;
+}
+
+}  // namespace contct

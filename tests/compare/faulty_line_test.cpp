@@ -1,0 +1,133 @@
+// The line of the listing that is named for all wrong answers of a kernel. tests/mutants measures how often
+// it is right.
+#include "contct/compare/faulty_line.hpp"
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "support/one_pair.hpp"
+
+using namespace contct;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+
+namespace {
+
+/// Pair 1 touches at s = 0.5, pair 2 is at its face and not pressed, pair 3 is `gap` away, pair 4 does not
+/// respond.
+small_call<double> four_pairs(double gap) {
+  return small_call<double>({{0.0, 1.0, 0.5, separated, face_above},
+                             {0.0, -1.0, 0.0, separated, face_above},
+                             {0.0, 1.0, gap, separated, face_above},
+                             {0.0, 0.0, 0.25, separated, face_above}})
+      .ask();
+}
+
+/// SMIN is 0.5, and DIFF of pairs 2 and 3 are these.
+small_call<double> with_diffs(double second, double third) {
+  return small_call<double>({{0.0, 1.0, 0.5, separated, face_above},
+                             {0.0, 1.0, 0.5 + second / 2.0, separated, face_above},
+                             {0.0, 1.0, 0.5 + third / 2.0, separated, face_above}})
+      .ask();
+}
+
+/// Notes an answer to the call with these changes.
+template <class Change>
+void note(fault_finder& all, small_call<double> c, Change change) {
+  call_outputs other{c.smin, c.ss, c.isep, ""};
+  change(other);
+  all.note(c.answered(), 8, other, other.ss == c.ss && other.isep == c.isep && other.smin == c.smin);
+}
+
+int line_of(const fault_finder& all) {
+  const std::optional<faulty_line> line = all.found();
+  return line ? line->at.number : 0;
+}
+
+}  // namespace
+
+TEST_CASE("answers that are equal name no line") {
+  fault_finder all;
+  note(all, four_pairs(0.25), [](call_outputs&) {});
+  CHECK_FALSE(all.found());
+}
+
+TEST_CASE("an EPSGAP of 1e-9 is told line 33, and which gaps were taken for none") {
+  fault_finder all;
+  for (const double gap : {2e-10, 5e-10}) {
+    note(all, four_pairs(gap), [](call_outputs& o) {
+      o.smin = o.ss[2] = 1e-20;  // as if pair 3 stood at its face; the listing toggles it alone
+      o.isep = {separated, separated, in_contact, separated};
+    });
+  }
+  note(all, four_pairs(2e-9), [](call_outputs&) {});
+  REQUIRE(all.found());
+  CHECK(words_of(*all.found()) ==
+        "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 2 values that differ, in 2 call(s); there "
+        "ABS(GAP) was "
+        "2e-10 to 5e-10");
+}
+
+TEST_CASE("a quotient that is rounded twice is told line 38, and a GAP of the wrong sign line 30") {
+  fault_finder rounded, negative;
+  for (const double gap : {0.3, 0.7}) {
+    note(rounded, four_pairs(gap), [](call_outputs& o) { o.ss[2] = std::nextafter(o.ss[2], 1.0); });
+    note(negative, four_pairs(gap), [](call_outputs& o) {
+      for (const std::size_t i : {0U, 2U}) o.ss[i] = -o.ss[i];
+      o.smin = 1.0;
+      o.isep = {separated, separated, separated, separated};
+    });
+  }
+  CHECK(line_of(rounded) == 38);
+  CHECK(line_of(negative) == 30);
+}
+
+TEST_CASE(
+    "pairs toggled up to another DIFF are told line 52; a larger DIFF toggled without a smaller one, line "
+    "51") {
+  fault_finder threshold, no_threshold;
+  const auto toggle = [](std::size_t i) { return [i](call_outputs& o) { o.isep[i] = in_contact; }; };
+  note(threshold, with_diffs(0x1.8p-8, 0x1.8p-7), toggle(1));
+  note(threshold, with_diffs(0x1.4p-8, 0x1p-6), toggle(1));
+  note(no_threshold, with_diffs(0x1.8p-8, 0x1.8p-7), toggle(2));
+  CHECK(line_of(threshold) == 52);
+  CHECK(line_of(no_threshold) == 51);
+}
+
+TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong, SS are not suspected") {
+  fault_finder all;
+  for (const double gap : {0.25, 0.3}) {
+    note(all, four_pairs(gap), [](call_outputs& o) {
+      o.smin = 0.5;  // of pair 1, and not the smallest
+      o.isep = {in_contact, separated, separated, separated};
+    });
+  }
+  REQUIRE(all.found());
+  CHECK(all.found()->at.number == 40);
+  CHECK(all.found()->explained == 2);
+}
+
+TEST_CASE("a value that the named line cannot have made wrong is counted as not explained") {
+  fault_finder all;
+  for (int times = 0; times < 4; ++times) {
+    note(all, four_pairs(0.3), [](call_outputs& o) {
+      o.smin = o.ss[2] = 0.375;
+      o.isep = {separated, separated, in_contact, separated};
+    });
+  }
+  note(all, four_pairs(0.3), [](call_outputs& o) { o.isep[0] = in_contact; });  // SS and SMIN are right
+  REQUIRE(all.found());
+  CHECK(all.found()->at.number == 38);
+  CHECK(all.found()->explained == 4);
+  CHECK(all.found()->differ == 5);
+}
+
+TEST_CASE("a call without pairs whose text differs is told the FORMAT") {
+  fault_finder all;
+  small_call<double> c({});
+  answered_call right = c.ask().answered();
+  right.text = "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n";
+  const call_outputs other{c.smin, {}, {}, "  NO EVENTS. RETURNING. SCALE FACTOR =   0.10E+01\n"};
+  all.note(right, 8, other, false);
+  CHECK(line_of(all) == 44);
+}
