@@ -49,7 +49,7 @@ std::string follower_words(const fuzz_follower& f, const std::string& leader) {
   return fmt::format("{} is NOT equal to {}{}; {} of {} values differ; closest equality that holds: {}{}",
                      f.name, leader, fp.strict() ? "" : " (environment, not kernel)", f.compared.mismatches,
                      f.compared.values, name_of(f.highest),
-                     f.highest == equality_level::ulps ? fmt::format(" (within {})", f.most_ulps) : "");
+                     f.highest == equality_level::ulps ? fmt::format(" (within {})", f.near.most_ulps) : "");
 }
 
 check_report report_of(const fuzz_result& r, const std::string& missed) {

@@ -88,14 +88,12 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
   followers.push_back(make_kernel("cpp"));
   lockstep compared(facts_of_kernel("cpp"), std::move(followers));
   compared.put({led, in.isep, {}, 1});
-  fuzz_follower r;
-  r.note(compared.last_answers()[0]);
+  const nearness& r = compared.followers()[0].near;
   CHECK(r.most_ulps == 2);
   CHECK(r.same_events);
   CHECK(r.always_answered);
   led.isep[0] = separated;
   compared.put({led, in.isep, {}, 2});
-  r.note(compared.last_answers()[0]);
   CHECK_FALSE(r.same_events);
 }
 

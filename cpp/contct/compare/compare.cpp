@@ -164,7 +164,9 @@ std::optional<mismatch> follower::compare(const answered_call& c) {
 
 const std::optional<mismatch>& follower::ask(const answered_call& c) {
   refuse_beyond_limits(c.c, c.isep_before);
+  const tally before = compared;
   difference_ = compare(c);
+  measure(c.c, before);
   if (difference_) note(*difference_, c);
   if (!answered()) return difference_;
   answered_call with_text = c;
@@ -179,12 +181,17 @@ void follower::note(const mismatch& found, const answered_call& c) {
                            narrowest_decision(c, leader_.real_bytes, answer_)};
 }
 
-void nearness::note(const call<double>& leader, const call_outputs& other, bool answered) {
-  same_events = same_events && answered && std::ranges::equal(leader.isep, other.isep);
-  if (!answered) return;
-  most_ulps = std::max(most_ulps, ulps_between(leader.smin, other.smin));
-  for (std::size_t i = 0; i < other.ss.size(); ++i)
-    most_ulps = std::max(most_ulps, ulps_between(leader.ss[i], other.ss[i]));
+void follower::measure(const call<double>& leader, const tally& before) {
+  last_ = {compared.values - before.values, compared.mismatches - before.mismatches};
+  last_.failed = difference_ && difference_->field == "answer";
+  near.always_answered = near.always_answered && !last_.failed;
+  near.same_events = near.same_events && !last_.failed;
+  if (last_.failed || last_.mismatches == 0) return;
+  last_.smin_ulps = ulps_between(leader.smin, answer_.smin);
+  for (std::size_t i = 0; i < leader.ss.size(); ++i)
+    last_.ss_ulps = std::max(last_.ss_ulps, ulps_between(leader.ss[i], answer_.ss[i]));
+  near.most_ulps = std::max({near.most_ulps, last_.smin_ulps, last_.ss_ulps});
+  near.same_events = near.same_events && std::ranges::equal(leader.isep, answer_.isep);
 }
 
 bool comparable(const trace_header& h, const kernel_facts& k) {
@@ -204,9 +211,10 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
     const answered_call recorded = c.answered();
     report.branches.count(recorded.c, recorded.isep_before);
     if (progress) progress(report.calls);
-    if (asked.ask(recorded)) report.near.note(recorded.c, asked.answer(), asked.answered());
+    (void)asked.ask(recorded);
   }
   report.compared = asked.compared;
+  report.near = asked.near;
   report.first = asked.first();
   report.faults = std::move(asked.faults);
   return report;

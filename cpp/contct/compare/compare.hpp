@@ -121,6 +121,21 @@ struct mismatch_report {
 /// equal to the bit.
 void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower);
 
+/// How a follower answered one call of the leader.
+struct follower_answer {
+  std::int64_t values = 0, mismatches = 0;
+  std::uint64_t smin_ulps = 0;  ///< distance of SMIN
+  std::uint64_t ss_ulps = 0;    ///< largest distance of an s
+  bool failed = false;          ///< it gave no answer
+};
+
+/// How near a kernel came that is not equal to the bit, over all calls.
+struct nearness {
+  std::uint64_t most_ulps = 0;  ///< of SMIN and SS
+  bool same_events = true;      ///< ISEP was equal in all calls, and every call was answered
+  bool always_answered = true;
+};
+
 /// Asks a kernel the calls of a leader, counts what is compared, and keeps the first mismatch.
 class follower {
  public:
@@ -140,28 +155,24 @@ class follower {
   /// The outputs of the last call, and where they differ first from the leader's.
   [[nodiscard]] const call_outputs& answer() const { return answer_; }
   [[nodiscard]] const std::optional<mismatch>& difference() const { return difference_; }
-  [[nodiscard]] bool answered() const { return !difference_ || difference_->field != "answer"; }
+  /// How far that answer is from the leader's.
+  [[nodiscard]] const follower_answer& last() const { return last_; }
+  [[nodiscard]] bool answered() const { return !last_.failed; }
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
   tally compared;
+  nearness near;
   fault_finder faults;  ///< has every answer
 
  private:
   std::optional<mismatch> compare(const answered_call& c);
+  void measure(const call<double>& leader, const tally& before);
 
   kernel_facts leader_;
   kernel* kernel_;
   call_outputs answer_;
   std::optional<mismatch> difference_;
+  follower_answer last_;
   std::optional<mismatch_report> first_;
-};
-
-/// How near a kernel came that is not equal to the bit.
-struct nearness {
-  std::uint64_t most_ulps = 0;  ///< of SMIN and SS, over all calls
-  bool same_events = true;      ///< ISEP was equal in all calls, and every call was answered
-
-  /// Note the answer to a call of another.
-  void note(const call<double>& leader, const call_outputs& other, bool answered);
 };
 
 /// The result of a replay.

@@ -7,20 +7,6 @@
 namespace contct {
 namespace {
 
-/// How far the answer is from the leader's.
-follower_answer measured(const call<double>& leader, const follower& f, const tally& before) {
-  follower_answer m;
-  m.values = f.compared.values - before.values;
-  m.mismatches = f.compared.mismatches - before.mismatches;
-  m.failed = !f.answered();
-  if (m.failed || m.mismatches == 0) return m;
-  m.smin_ulps = ulps_between(leader.smin, f.answer().smin);
-  for (std::size_t i = 0; i < leader.ss.size(); ++i)
-    m.ss_ulps = std::max(m.ss_ulps, ulps_between(leader.ss[i], f.answer().ss[i]));
-  m.same_events = std::ranges::equal(leader.isep, f.answer().isep);
-  return m;
-}
-
 std::vector<std::unique_ptr<kernel>> made(const kernel_facts& leader, std::span<const std::string> names) {
   for (const std::string& name : names) refuse_unequal(leader, facts_of_kernel(name));
   std::vector<std::unique_ptr<kernel>> kernels(names.size());
@@ -45,9 +31,8 @@ void lockstep::put(const answered_call& c) {
   ++calls_;
   last_answers_.clear();
   for (follower& f : followers_) {
-    const tally before = f.compared;
     (void)f.ask(c);
-    last_answers_.push_back(measured(c.c, f, before));
+    last_answers_.push_back(f.last());
   }
 }
 

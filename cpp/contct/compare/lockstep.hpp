@@ -12,15 +12,6 @@
 
 namespace contct {
 
-/// How one follower answered one call of the leader.
-struct follower_answer {
-  std::int64_t values = 0, mismatches = 0;
-  std::uint64_t smin_ulps = 0;  ///< distance of SMIN
-  std::uint64_t ss_ulps = 0;    ///< largest distance of an s
-  bool failed = false;          ///< it gave no answer
-  bool same_events = true;      ///< ISEP is the leader's
-};
-
 /// Puts each call that the leader answered to every follower, with identical inputs, and compares SMIN, all
 /// of SS, all of ISEP and the unit-26 text.
 class lockstep {

@@ -62,8 +62,10 @@ class fuzzing final : public observer {
     put_calls();
     for (std::int64_t number = request_.shard; number <= request_.problems; number += request_.shards)
       follow_problem(number);
-    for (std::size_t f = 0; f < firsts_.size(); ++f)
+    for (std::size_t f = 0; f < firsts_.size(); ++f) {
       run_.result.followers[f].compared = followers()[f].compared;
+      run_.result.followers[f].near = followers()[f].near;
+    }
     compared_.reset();  // unit 26 belongs to the process: the kernels make room for fresh ones
     leader_.reset();
     for (std::size_t f = 0; f < firsts_.size(); ++f) conclude(run_.result.followers[f], firsts_[f]);
@@ -112,10 +114,7 @@ class fuzzing final : public observer {
   void compare(const answered_call& c) {
     run_.result.count(c.c, c.isep_before);
     compared_->put(c);
-    for (std::size_t f = 0; f < firsts_.size(); ++f) {
-      run_.result.followers[f].note(compared_->last_answers()[f]);
-      (void)followers()[f].asked().take_text();  // if it was not compared
-    }
+    for (const follower& f : followers()) (void)f.asked().take_text();  // where it was not compared
   }
 
   /// Keep what shows the first mismatch of each follower; `up_to(number)`: the calls up to that one.
@@ -150,15 +149,15 @@ class fuzzing final : public observer {
 
   equality_level level_of(const fuzz_follower& total) {
     if (total.compared.mismatches == 0) return equality_level::bits;
-    if (total.always_answered && total.same_events)
-      return total.most_ulps <= few_ulps ? equality_level::ulps : equality_level::events;
+    if (total.near.same_events)
+      return total.near.most_ulps <= few_ulps ? equality_level::ulps : equality_level::events;
     return certified_paths(total) ? equality_level::certificate : equality_level::none;
   }
 
   /// Are the follower's own paths certified: of the first problems, and of those in which a follower
   /// differed?
   bool certified_paths(const fuzz_follower& total) {
-    if (request_.problems == 0 || !total.always_answered) return false;
+    if (request_.problems == 0 || !total.near.always_answered) return false;
     std::vector<std::int64_t> asked = differing_problems_;
     for (std::int64_t n = 1; n <= std::min(problems_certified, request_.problems); ++n) asked.push_back(n);
     return std::ranges::all_of(asked, [&](std::int64_t n) {
@@ -202,12 +201,6 @@ void fuzz_result::count(const call<double>& answered, std::span<const int> isep_
     const double gap = std::abs(answered.cc[i] - answered.dd[dof]);
     events.stationary += gap < constants<double>::epsgap ? 1 : 0;
   }
-}
-
-void fuzz_follower::note(const follower_answer& a) {
-  most_ulps = std::max({most_ulps, a.smin_ulps, a.ss_ulps});
-  same_events = same_events && a.same_events;
-  always_answered = always_answered && !a.failed;
 }
 
 std::string_view name_of(equality_level l) {

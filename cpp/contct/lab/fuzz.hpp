@@ -70,15 +70,9 @@ enum class equality_level {
 struct fuzz_follower {
   std::string name;
   tally compared;
-  // How near it came where it was not equal to the bit:
-  std::uint64_t most_ulps = 0;  ///< of SMIN and SS, over all calls
-  bool same_events = true;      ///< ISEP was equal in all calls
-  bool always_answered = true;
+  nearness near;
   equality_level highest = equality_level::bits;
   std::vector<std::string> mismatch_reports;  ///< the first mismatch, in lines
-
-  /// Note how near it came in a call.
-  void note(const follower_answer& a);
 };
 
 /// Events by kind. A pair at its face when its event came is counted as stationary, too.

@@ -15,7 +15,7 @@ json json_of(const fuzz_follower& f) {
           {"values_compared", f.compared.values},
           {"mismatches", f.compared.mismatches},
           {"rung", std::string(name_of(f.highest))},
-          {"most_ulps", f.most_ulps},
+          {"most_ulps", f.near.most_ulps},
           {"findings", f.mismatch_reports}};
 }
 
