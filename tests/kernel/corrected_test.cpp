@@ -1,10 +1,9 @@
 // The corrected rule, one call at a time.
-#include "contct/kernel/corrected.hpp"
-
 #include <cmath>
 #include <limits>
 
 #include "catch.hpp"
+#include "contct/kernel/contct.hpp"
 #include "contct/number/bits.hpp"
 #include "contct/number/random.hpp"
 #include "support/one_pair.hpp"

@@ -1,8 +1,7 @@
 // A function of this process as a kernel.
-#include "contct/kernel/own_kernel.hpp"
-
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
+#include "contct/kernel/child_kernel.hpp"
 
 using namespace contct;
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "catch.hpp"
-#include "contct/kernel/corrected.hpp"
+#include "contct/kernel/contct.hpp"
 #include "support/beams.hpp"
 #include "support/made_kernel.hpp"
 

@@ -28,7 +28,6 @@
 #include <vector>
 
 #include "contct/kernel/fortran.hpp"
-#include "contct/kernel/own_kernel.hpp"
 #include "contct/kernel/trace.hpp"
 
 namespace contct {

@@ -1,5 +1,6 @@
-// External kernels: a shared library with the plug-in ABI, or a command that speaks the trace format.
-// Each has a process of its own: it may crash, hang or answer nonsense, and the run goes on.
+// External kernels: a shared library with the plug-in ABI, or a command that speaks the trace format. Each
+// has a process of its own: it may crash, hang or answer nonsense, and the run goes on. And functions of this
+// process: the caller's, or a plug-in's in its own process.
 #pragma once
 
 #include <chrono>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "contct/kernel/kernel.hpp"
+#include "contct/kernel/plugin.h"
 
 namespace contct {
 
@@ -25,5 +27,18 @@ struct outside_limits {
 /// "pipe:COMMAND", run by the shell.
 [[nodiscard]] std::unique_ptr<kernel> make_pipe(const std::string& command,
                                                 const outside_limits& limits = {});
+
+using kernel_procedure = decltype(contct_kernel);
+
+/// Throws std::invalid_argument where a function may not have that name, as where another kernel has it.
+void refuse_name_of_function(const std::string& name);
+
+/// Put a call to `procedure`, which gets copies of all arrays, between bytes that it must not touch. Throws
+/// kernel_failure, "changed its input DD", where it wrote what it must not; `c` is then as it was.
+void put_guarded(call<double>& c, kernel_procedure* procedure);
+
+/// A kernel that is put each call by put_guarded.
+[[nodiscard]] std::unique_ptr<kernel> make_function_kernel(const std::string& name,
+                                                           kernel_procedure* procedure);
 
 }  // namespace contct

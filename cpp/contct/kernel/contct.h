@@ -13,26 +13,10 @@ extern "C" {
 #endif
 
 /* One call of CONTCT: how much of the remaining load can be applied before a pair makes or breaks contact,
- * and which pairs do so there. The arguments stand in the listing's order, then COMMON /DOF/; n is the number
- * of dofs of the structure.
- *
- *   dd      in   [n]   D, the deflections so far
- *   dtest   in   [n]   d*, what the whole remaining load would add to them
- *   cc      in   [nc]  c, the position of each pair's face
- *   ss      out  [nc]  s, each pair's scale factor, a share of the remaining load (pure number)
- *   smin    out        the least positive s below 1; 1 when there is none: the whole load can be applied
- *   id      in   [nc]  each pair's node, from 1
- *   isep    both [nc]  +1 separated, -1 in contact; the pairs with an event at smin come back toggled
- *   isurf   in   [nc]  the side on which a pair's face stands: +1 above, -1 below
- *   nc      in         number of pairs
- *   indof   in         which dof of a node deflects, from 1
- *   ndofpn  in         dofs of a node
- *
- * Pair i looks at element (id[i] - 1) * ndofpn + indof - 1 of dd and dtest. Nothing checks that it is
- * there. No argument may be null unless nc is 0 (smin never), and none may overlap another. Answers are
- * defined, and equal to those of C++, where nc < 2^31 - 1 and neither isep[i] * isurf[i] nor
- * (id[i] - 1) * ndofpn + indof leaves 32 bits on the way.
- */
+ * and which pairs do so there. The arguments are those of contct_kernel (contct/kernel/plugin.h), but for the
+ * length of dd and dtest. No argument may be null unless nc is 0 (smin never). Answers are defined, and equal
+ * to those of C++, where nc < 2^31 - 1 and neither isep[i] * isurf[i] nor (id[i] - 1) * ndofpn + indof leaves
+ * 32 bits on the way. */
 
 /* As printed: REAL is 4 bytes. */
 void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,

@@ -1,4 +1,4 @@
-// CONTCT in C++: the listing's arithmetic, operation for operation.
+// CONTCT in C++: the listing's arithmetic, operation for operation, and the corrected rule.
 #pragma once
 
 #include <cmath>
@@ -71,5 +71,9 @@ int contct(call<Real>& c, std::span<event> events) noexcept {
   }
   return happened;
 }
+
+/// One call under the corrected rule (reference/corrected-rule.md), one event at a time: sets c.ss and c.smin
+/// and toggles at most one pair in c.isep.
+void contct_corrected(call<double>& c) noexcept;
 
 }  // namespace contct

@@ -1,11 +1,11 @@
-#include "contct/kernel/own_kernel.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <span>
 #include <stdexcept>
 #include <vector>
+
+#include "contct/kernel/child_kernel.hpp"
 
 namespace contct {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "contct/kernel/child_kernel.hpp"
 #include "contct/kernel/contct.hpp"
-#include "contct/kernel/corrected.hpp"
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/log_text.hpp"
 #include "contct/text/strings.hpp"

@@ -1,7 +1,7 @@
 // contct_judge: a function of the caller's, put the calls and problems of contct fuzz.
 #include <stdexcept>
 
-#include "contct/kernel/own_kernel.hpp"
+#include "contct/kernel/child_kernel.hpp"
 #include "contct/lab/fuzz.hpp"
 #include "contct/serve/answer.hpp"
 #include "contct/serve/serve.h"
