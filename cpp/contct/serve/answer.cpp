@@ -89,57 +89,50 @@ request::request(const char* text, std::initializer_list<std::string_view> known
           fmt::format("options: found \"{}\"; allowed: {}", name, fmt::join(known, ", ")));
 }
 
-void request::refuse(std::string_view name, std::string_view allowed) const {
-  throw std::invalid_argument(
-      fmt::format("options: {}: found {}; allowed: {}", name, json_text(*find(name)), allowed));
-}
-
-const nlohmann::json* request::find(std::string_view name) const {
+template <class Value, class Fits>
+Value request::get(std::string_view name, Value otherwise, std::string_view allowed, Fits fits) const {
   const auto at = options_.find(std::string(name));
-  return at == options_.end() ? nullptr : &*at;
+  if (at == options_.end()) return otherwise;
+  if (fits(*at)) return at->template get<Value>();
+  throw std::invalid_argument(
+      fmt::format("options: {}: found {}; allowed: {}", name, json_text(*at), allowed));
 }
 
 bool request::flag(std::string_view name) const {
-  const nlohmann::json* const value = find(name);
-  if (value != nullptr && !value->is_boolean()) refuse(name, "true or false");
-  return value != nullptr && value->get<bool>();
+  return get(name, false, "true or false", [](const auto& value) { return value.is_boolean(); });
 }
 
 std::string request::text(std::string_view name, std::string_view otherwise) const {
-  const nlohmann::json* const value = find(name);
-  if (value != nullptr && !value->is_string()) refuse(name, "text");
-  return value == nullptr ? std::string(otherwise) : value->get<std::string>();
+  return get(name, std::string(otherwise), "text", [](const auto& value) { return value.is_string(); });
 }
 
 std::vector<std::string> request::texts(std::string_view name, std::vector<std::string> otherwise) const {
-  const nlohmann::json* const value = find(name);
-  if (value == nullptr) return otherwise;
-  const auto is_text = [](const auto& entry) { return entry.is_string(); };
-  if (!value->is_array() || value->empty() || !std::all_of(value->begin(), value->end(), is_text))
-    refuse(name, "a list of texts, at least one");
-  return value->get<std::vector<std::string>>();
+  return get(name, std::move(otherwise), "a list of texts, at least one", [](const auto& value) {
+    return value.is_array() && !value.empty() &&
+           std::all_of(value.begin(), value.end(), [](const auto& entry) { return entry.is_string(); });
+  });
 }
 
 int request::whole(std::string_view name, int otherwise, int least, int most) const {
-  const nlohmann::json* const value = find(name);
-  if (value == nullptr) return otherwise;
-  const auto number = value->is_number_integer() ? value->get<std::int64_t>() : std::int64_t{least} - 1;
-  if (number < least || number > most) refuse(name, fmt::format("a whole number from {} to {}", least, most));
-  return static_cast<int>(number);
+  const auto within = [&](const auto& value) {
+    const auto number =
+        value.is_number_integer() ? value.template get<std::int64_t>() : std::int64_t{least} - 1;
+    return number >= least && number <= most;
+  };
+  return get(name, otherwise, fmt::format("a whole number from {} to {}", least, most), within);
 }
 
 std::vector<std::vector<double>> request::lists(std::string_view name) const {
-  const nlohmann::json* const value = find(name);
-  if (value == nullptr) return {};
   const auto is_number = [](const auto& entry) {
     return entry.is_number() && std::isfinite(entry.template get<double>());
   };
   const auto is_list = [&](const auto& entry) {
     return entry.is_array() && std::all_of(entry.begin(), entry.end(), is_number);
   };
-  if (!value->is_array() || !std::all_of(value->begin(), value->end(), is_list))
-    refuse(name, "a list of lists of finite numbers");
-  return value->get<std::vector<std::vector<double>>>();
+  return get(name, std::vector<std::vector<double>>{}, "a list of lists of finite numbers",
+             [&](const auto& value) {
+               return value.is_array() && std::all_of(value.begin(), value.end(), is_list);
+             });
 }
 
 std::string request::file() const {

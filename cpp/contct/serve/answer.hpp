@@ -52,9 +52,9 @@ class request {
   [[nodiscard]] problem problem_in(const char* text, served_answer& a) const;
 
  private:
-  /// An option's value; null where it is not there.
-  [[nodiscard]] const nlohmann::json* find(std::string_view name) const;
-  [[noreturn]] void refuse(std::string_view name, std::string_view allowed) const;
+  /// An option's value as a Value, or `otherwise`; refused where it is not `allowed`.
+  template <class Value, class Fits>
+  [[nodiscard]] Value get(std::string_view name, Value otherwise, std::string_view allowed, Fits fits) const;
 
   nlohmann::json options_ = nlohmann::json::object();
 };
