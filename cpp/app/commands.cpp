@@ -17,7 +17,7 @@
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/exact_output.hpp"
+#include "contct/write/outputs.hpp"
 
 namespace contct {
 

@@ -193,9 +193,9 @@ void declare_pictures(CLI::App* c, run_options& o) {
   add_file(c, "--csv", o.csv,
            "Write a table with a row for each increment to this file (- is standard output), and beside "
            "F.csv a file F.pairs.csv with a row for each pair and increment, and a file F.states.csv with "
-           "w, slope, moment, shear and bearing pressure along the beam at the end of each step, or of the "
-           "nodes of a plate. Columns of the first two: step, increment, "
-           "kind, s, share, force, events, closed, open, at_face, smin, kernels; and step, increment, "
+           "w, slope, moment, shear, bearing pressure and stress along the beam at the end of each step, or "
+           "of the nodes of a plate. Columns of the first two: step, increment, kind, s, share, force, "
+           "events, closed, open, at_face, smin, kernels; and step, increment, "
            "pair, node, surface, state, look, w, gap, force, face");
   add_file(c, "--vtu", o.vtu,
            "For ParaView: write the final state to this file, and beside F.vtu the files F.000.vtu, "

@@ -14,7 +14,6 @@
 #include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
-#include "contct/write/table.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {

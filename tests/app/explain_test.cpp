@@ -85,6 +85,15 @@ TEST_CASE("an increment is explained pair by pair, with the listing's lines and 
   CHECK_THAT(f.out, Contains("fortran and cpp are equal to the bit in the whole run"));
 }
 
+TEST_CASE("a pair between two dofs of a matrix is explained by both their labels") {
+  const finished f =
+      explained({"reference/problems/pb15-two-beams.toml", "--increment", "1.1", "--quiet", "--json", "-"});
+  CHECK(f.exit == 0);
+  const json pair = json::parse(f.out)["increments"].at(0)["pairs"].at(0);
+  CHECK(pair["dof"] == "left.y");
+  CHECK(pair["other"] == "right.y");
+}
+
 TEST_CASE("the lines of an explanation fit their terminal, from 40 columns to 160") {
   for (const char* columns : {"40", "59", "80", "119", "160"}) {
     const finished f = explained({pb7, "--increment", "2.1"}, columns);

@@ -1,11 +1,10 @@
 // An exact path as text and as JSON.
-#include "contct/write/exact_output.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
+#include "contct/write/outputs.hpp"
 #include "support/scratch_folder.hpp"
 
 using namespace contct;

@@ -89,7 +89,8 @@ TEST_CASE("a plate has a row for each node, with its slopes, and a matrix one fo
   const a_run r(std::string(good_plate), "corrected");
   const csv_rows rows = csv_table(r, write_states_csv);
   REQUIRE(rows.size() == 1 + 6);
-  CHECK(rows[0] == csv_rows::value_type{"step", "name", "node", "x", "y", "w", "wx", "wy", "pressure"});
+  CHECK(rows[0] ==
+        csv_rows::value_type{"step", "name", "node", "x", "y", "w", "wx", "wy", "pressure", "von_mises"});
   const std::vector<double>& u = r.result.record.steps[0].end.displacement;
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t dof = 0; dof < 3; ++dof) CHECK(value_in(rows[1 + i][5 + dof]) == u[3 * i + dof]);
@@ -98,6 +99,31 @@ TEST_CASE("a plate has a row for each node, with its slopes, and a matrix one fo
   const csv_rows of_frame = csv_table(a_run(portal_frame(), "cpp"), write_states_csv);
   CHECK(of_frame.size() == 1 + 3 * 33);
   CHECK(of_frame[0][2] == "dof");
+}
+
+TEST_CASE("with a section modulus each row of a beam has its stress, M / W") {
+  const a_run r(
+      "[beam]\nlength = 4\nelements = 2\nsection = { E = 10, I = 1, W = 0.5 }\n[[support]]\nnodes = [1, 3]\n"
+      "fix = \"w\"\n[[step]]\npoint = [ { node = 2, w = -6 } ]\n",
+      "corrected");
+  const csv_rows rows = csv_table(r, write_states_csv);
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0].back() == "stress");
+  CHECK(value_in(rows[2].back()) == Approx(6.0 * 4 / 4 / 0.5).epsilon(1e-14));  // P L / 4 W
+  CHECK(value_in(rows[4].back()) == Approx(0.0).margin(1e-13));
+}
+
+TEST_CASE("with a thickness each node of a plate has its von Mises stress, 6 m / t^2 in pure bending") {
+  const a_run r(
+      "[plate]\nsize = [2, 1]\nelements = [2, 1]\nnu = 0\nE = 1e7\nthickness = 0.1\n[[support]]\n"
+      "nodes = [1, 4]\nfix = [\"w\", \"wx\"]\n[[step]]\n"
+      "point = [ { node = 3, wx = 1.5 }, { node = 6, wx = 1.5 } ]\n",
+      "corrected");
+  const csv_rows rows = csv_table(r, write_states_csv);
+  REQUIRE(rows.size() == 1 + 6);
+  CHECK(rows[0].back() == "von_mises");
+  for (std::size_t node = 1; node <= 6; ++node)
+    CHECK(value_in(rows[node].back()) == Approx(6 * 3 / 0.01).epsilon(1e-9));
 }
 
 TEST_CASE("the envelope's table has the curves place by place") {

@@ -1,6 +1,4 @@
 // The run as tables; what a whole one looks like on the terminal is tested on the program itself (tests/app).
-#include "contct/write/table.hpp"
-
 #include <cstdlib>
 
 #include "catch.hpp"

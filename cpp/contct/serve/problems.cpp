@@ -18,7 +18,6 @@
 #include "contct/serve/serve.h"
 #include "contct/session/run.hpp"
 #include "contct/solve/engine.hpp"
-#include "contct/write/exact_output.hpp"
 #include "contct/write/explain.hpp"
 #include "contct/write/outputs.hpp"
 #include "contct/write/result_json.hpp"
@@ -108,11 +107,8 @@ void put_places(json& out, const problem& p, const char* text, const std::string
   json& pairs = out["pair_list"] = json::array();
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const contact_pair& at = p.pairs[i];
-    json pair = {{"pair", i + 1},
-                 {"node", at.node + 1},
-                 {"surface", surface_name(at.surface)},
-                 {"face", at.face},
-                 {"stiffness", at.stiffness}};
+    json pair = pair_json(p, i);
+    pair.update({{"face", at.face}, {"stiffness", at.stiffness}});
     if (i < p.keys.size())
       pair.update({{"face_key", p.keys[i].face}, {"stiffness_key", p.keys[i].stiffness}});
     pairs.push_back(std::move(pair));
@@ -131,9 +127,8 @@ void check(const char* text, const char* options, served_answer& a) {
               {"elements", elements(p.geometry)},
               {"pairs", p.pairs.size()},
               {"steps", json::array()},
-              {"units", nullptr}};
+              {"units", units_json(p.units)}};
   for (const load& step : p.steps) out["steps"].push_back(step.name);
-  if (!p.units.length.empty()) out["units"] = {{"length", p.units.length}, {"force", p.units.force}};
   for (int node = 0; node < nodes(p.geometry) && !std::holds_alternative<assembled>(p.geometry.kind);
        ++node) {
     const place at = place_of_node(p.geometry, node);

@@ -1,11 +1,10 @@
-#include "contct/write/exact_output.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "contct/text/strings.hpp"
+#include "contct/write/outputs.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 

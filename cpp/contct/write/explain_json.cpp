@@ -42,11 +42,9 @@ json both_json(const explained_kernels& of, double first, const double* second) 
   return out;
 }
 
-json pair_json(const explained_kernels& of, const explained_increment& i, const explained_pair& p) {
-  json out = {{"pair", p.pair + 1}};
-  put_place(out, of.what.geometry, p.node - 1);
-  out.update({{"surface", surface_name(p.surface)},
-              {"before", state_name(p.isep_before)},
+json explained_json(const explained_kernels& of, const explained_increment& i, const explained_pair& p) {
+  json out = pair_json(of.what, p.pair);
+  out.update({{"before", state_name(p.isep_before)},
               {"after", state_name(p.isep_after)},
               {"kind", kind_name(p)},
               {"c", p.c},
@@ -113,7 +111,7 @@ void explain_json::write(const explained_increment& i) {
   out["pairs"] = nullptr;
   const bool all = of_.pair == 0;
   document_.add(out, {{"pairs", all ? i.call.pairs.size() : 1, [&](std::size_t k) {
-                         return pair_json(of_, i, i.call.pairs[all ? k : of_.pair - 1]);
+                         return explained_json(of_, i, i.call.pairs[all ? k : of_.pair - 1]);
                        }}});
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -103,6 +104,11 @@ json numbered(const std::vector<int>& from_0) {
   return list_of(from_0, [](int i) { return i + 1; });
 }
 
+json units_json(const unit_labels& units) {
+  if (units.length.empty()) return nullptr;
+  return {{"length", units.length}, {"force", units.force}};
+}
+
 json certificate_json(const std::optional<certificate>& c) {
   if (!c) return nullptr;
   json out = {{"exact", c->certified},         {"displacement_error", c->displacement_error},
@@ -175,21 +181,16 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
     entry["elements"] = elements_json(d.elements);
   }
   for (const placed_load& p : l.placed) put_placed(out, m, p);
-  for (const point_load& p : l.points) {
-    json& point = out["point"].emplace_back();
-    put_place(point, m, p.node);
-    point[names[p.dof]] = product_of<double>(p.value, p.factor);
-  }
-  for (const prescribed_displacement& g : l.settlements) {
-    json& settled = out["settlement"].emplace_back();
-    put_place(settled, m, g.node);
-    settled[names[g.dof]] = product_of<double>(g.value, g.factor);
-  }
-  for (const face_move& g : l.moves) {
-    json& moved = out["move"].emplace_back();
-    put_place(moved, m, g.node);
-    moved[names[g.dof]] = product_of<double>(g.value, g.factor);
-  }
+  const auto put_all = [&](const char* key, const auto& all) {
+    for (const auto& at : all) {
+      json& entry = out[key].emplace_back();
+      put_place(entry, m, at.node);
+      entry[names[at.dof]] = product_of<double>(at.value, at.factor);
+    }
+  };
+  put_all("point", l.points);
+  put_all("settlement", l.settlements);
+  put_all("move", l.moves);
   return out;
 }
 
@@ -202,21 +203,22 @@ void put_place(json& entry, const model& m, int node, int other) {
   }
 }
 
+json pair_json(const problem& p, std::size_t i) {
+  json entry = {{"pair", i + 1}};
+  put_place(entry, p.geometry, p.pairs[i].node, p.pairs[i].other);
+  entry["surface"] = surface_name(p.pairs[i].surface);
+  return entry;
+}
+
 json event_json(const problem& p, const event& e) {
-  const contact_pair& at = p.pairs[e.pair];
-  json entry = {{"pair", e.pair + 1}};
-  put_place(entry, p.geometry, at.node, at.other);
-  entry.update({{"surface", surface_name(at.surface)}, {"change", change_name(e.what)}});
+  json entry = pair_json(p, e.pair);
+  entry["change"] = change_name(e.what);
   return entry;
 }
 
 json pair_state_json(const problem& p, std::size_t i, int isep, const json& gap, const json& force) {
-  json entry = {{"pair", i + 1}};
-  put_place(entry, p.geometry, p.pairs[i].node, p.pairs[i].other);
-  entry.update({{"surface", surface_name(p.pairs[i].surface)},
-                {"state", state_name(isep)},
-                {"gap", gap},
-                {"force", force}});
+  json entry = pair_json(p, i);
+  entry.update({{"state", state_name(isep)}, {"gap", gap}, {"force", force}});
   return entry;
 }
 
@@ -261,10 +263,8 @@ json structure_json(const problem& p) {
     return entry;
   });
   out["pairs"] = list_of(p.pairs, [&p, i = 0](const contact_pair& at) mutable {
-    json entry = {{"pair", ++i}};
-    put_place(entry, p.geometry, at.node, at.other);
-    entry.update({{"surface", surface_name(at.surface)},
-                  {"face", at.face},
+    json entry = pair_json(p, i++);
+    entry.update({{"face", at.face},
                   {"stiffness", at.stiffness},
                   {"state", state_name(at.closed ? in_contact : separated)}});
     return entry;
@@ -272,6 +272,75 @@ json structure_json(const problem& p) {
   for (const bed& b : p.beds)
     for (std::size_t i = 0; i < b.share.size(); ++i) out["pairs"][b.first_pair + i]["bed"] = b.share[i];
   return out;
+}
+
+namespace {
+
+/// Sums of two doubles each.
+json sums(const std::vector<double_double>& all) {
+  return list_of(all, [](const double_double& x) -> json { return {x.hi, x.lo}; });
+}
+
+/// Rows of L, each from its first entry in the band to its diagonal.
+template <class Band, class Number>
+json rows_of(const Band& l, const Number& number) {
+  json rows = json::array();
+  for (int i = 0; i < l.order(); ++i) {
+    json row = json::array();
+    for (int j = l.first(i); j <= i; ++j) row.push_back(number(l.at(i, j)));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void put_stiffness(json& step, const stiffness_proof& s) {
+  step["scale"] = list_of(s.scale, [](double x) { return std::ilogb(x); });
+  step["row_of"] = s.row_of;
+  step["shift"] = s.shift;
+  std::visit([&](const auto& l) { step["L"] = rows_of(l, [](const double_double& x) { return x.hi; }); },
+             s.factor);
+  if (const auto* const l = std::get_if<long_band>(&s.factor))
+    step["L_low"] = rows_of(*l, [](const double_double& x) { return x.lo; });
+}
+
+json step_json(const step_proof& s) {
+  json step = {{"force", s.numbers.pair_forces},
+               {"reactions", s.numbers.reactions},
+               {"elements", s.numbers.element_values}};
+  if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
+  step["displacement"] = s.displacement;
+  step["state"] = list_of(s.isep, state_name);
+  step["u"] = sums(s.state);
+  step["closed"] = numbered(s.closed);
+  step["z"] = sums(s.z);
+  put_stiffness(step, *s.of_stiffness);
+  return step;
+}
+
+std::string reason_without_proof(const std::optional<certificate>& c) {
+  if (!c) return "the step did not reach its load";
+  if (!c->proved) return c->problem;
+  if (!c->unique) return "the structure balances, which this proof does not cover";
+  return "the bounds are proved with a sparse factor, which is not written";
+}
+
+}  // namespace
+
+std::string proof_json(const problem& p, const certifier& judged) {
+  json steps = json::array();
+  for (std::size_t i = 0; i < judged.steps().size(); ++i) {
+    const auto& c = judged.steps()[i];
+    json step = {{"step", i + 1}, {"certified", c && c->certified}, {"error", nullptr}};
+    if (c && c->proof) {
+      step["error"] = error_json(p, c);
+      step.update(step_json(*c->proof));
+    } else {
+      step["because"] = reason_without_proof(c);
+    }
+    steps.push_back(std::move(step));
+  }
+  const json all = {{"format", "contct-proof-2"}, {"steps", std::move(steps)}};
+  return json_text(all) + "\n";
 }
 
 }  // namespace contct

@@ -119,11 +119,6 @@ json errors_json(const problem& p, const std::optional<certificate>& c, const st
   return out;
 }
 
-json units_json(const unit_labels& units) {
-  if (units.length.empty()) return nullptr;
-  return {{"length", units.length}, {"force", units.force}};
-}
-
 json lockstep_json(const lockstep& compared) {
   json out = agreement_json(compared.calls(), compared.compared());
   if (!compared.first()) return out;
@@ -333,23 +328,19 @@ class result_writer {
 
   [[nodiscard]] json foot() const {
     const path_end& end = r_.end;
-    json members = {{"end",
-                     {{"reason", end_reason(end.status)},
-                      {"step", end.step},
-                      {"fraction", end.fraction},
-                      {"pairs", numbered(end.pairs)}}},
+    const auto end_json = [](const path_end& e) -> json {
+      return {{"reason", end_reason(e.status)},
+              {"step", e.step},
+              {"fraction", e.fraction},
+              {"pairs", numbered(e.pairs)}};
+    };
+    json members = {{"end", end_json(end)},
                     {"engine_work",
                      {{"factors", end.work.factors},
                       {"solves", end.work.solves},
                       {"updates", end.work.updates},
                       {"checks", end.work.checks}}}};
-    if (!end.others.empty())
-      members["end"]["others"] = list_of(end.others, [](const path_end& e) -> json {
-        return {{"reason", end_reason(e.status)},
-                {"step", e.step},
-                {"fraction", e.fraction},
-                {"pairs", numbered(e.pairs)}};
-      });
+    if (!end.others.empty()) members["end"]["others"] = list_of(end.others, end_json);
     if (placed_nodes_of(r_.what.geometry) > 0) members["nodes"] = nullptr;
     if (!r_.free_runs.empty()) members["free_run"] = nullptr;
     const lockstep_on_path* const calls = r_.compared_calls();

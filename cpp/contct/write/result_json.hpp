@@ -57,6 +57,9 @@ class json_document {
 /// Numbers from 1.
 [[nodiscard]] nlohmann::ordered_json numbered(const std::vector<int>& from_0);
 
+/// The labels that a problem gives; null where it gives none.
+[[nodiscard]] nlohmann::ordered_json units_json(const unit_labels& units);
+
 /// { "w", .. }: the proved bounds on the errors of a step's numbers; null where nothing is proved.
 [[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
 
@@ -83,7 +86,9 @@ class json_document {
 /// What a support holds: its place, and its "dof".
 [[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
 
-/// An event, and pair `i`, from 0, in a state: results and exact paths have the same keys.
+/// Pair `i`, from 0: its number, place and surface. An event, and a pair in a state: results and exact paths
+/// have the same keys.
+[[nodiscard]] nlohmann::ordered_json pair_json(const problem& p, std::size_t i);
 [[nodiscard]] nlohmann::ordered_json event_json(const problem& p, const event& e);
 [[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,
                                                      const nlohmann::ordered_json& gap,

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "contct/session/path_states.hpp"
 #include "contct/session/step_results.hpp"
@@ -27,6 +29,12 @@ std::string csv_field(std::string_view raw) {
 
 namespace {
 
+/// Fields that need no quotes, or have them.
+template <class... Fields>
+std::string row_of(const Fields&... fields) {
+  return fmt::format("{}\r\n", fmt::join(std::forward_as_tuple(fields...), ","));
+}
+
 /// The row of a moment. A step that ends without an increment has none of its numbers.
 std::string csv_row(const run_result& r, const load_path& loads, const path_moment& m,
                     const std::vector<pair_reading>& pairs, int watched, std::optional<double> w) {
@@ -41,15 +49,13 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
   const int step = m.step->end.step;
   const double fraction = i == nullptr ? m.step->end.fraction : i->fraction;
   const bool is_compared = i != nullptr && i->smin && r.compared;
-  return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", step, i == nullptr ? 0 : i->number, kind,
-      i == nullptr ? "" : number(i->s), fraction, loads.resultant_at(step, fraction).force,
-      csv_field(i == nullptr ? "" : event_names(i->events)), count(pair_state::closed),
-      count(pair_state::open), count(pair_state::at_face), i == nullptr ? "" : number(i->smin),
-      !is_compared ? ""
-      : i->equal   ? "equal"
-                   : "differ",
-      csv_field(place_name(r.what.geometry, watched)), number(w), csv_field(r.what.steps[step - 1].name));
+  const std::string_view kernels = !is_compared ? "" : i->equal ? "equal" : "differ";
+  return row_of(step, i == nullptr ? 0 : i->number, kind, i == nullptr ? "" : number(i->s), fraction,
+                loads.resultant_at(step, fraction).force,
+                csv_field(i == nullptr ? "" : event_names(i->events)), count(pair_state::closed),
+                count(pair_state::open), count(pair_state::at_face), i == nullptr ? "" : number(i->smin),
+                kernels, csv_field(place_name(r.what.geometry, watched)), number(w),
+                csv_field(r.what.steps[step - 1].name));
 }
 
 /// Within a step by the path's own D.
@@ -82,6 +88,100 @@ int node_that_deflects_most(const run_result& r) {
   return at;
 }
 
+/// A state at the end of a step, and what is read off it.
+struct end_of_step {
+  const problem& what;
+  const structure_state& state;
+  load acting = load_path(what).at(state.step, state.fraction);
+  step_results read = results_of(what, acting, state);
+  std::string step = fmt::format("{},{}", state.step, csv_field(what.steps[state.step - 1].name));
+  std::vector<double> pressure = bed_pressure(what, read.pairs);
+
+  [[nodiscard]] double u(int dof) const { return state.displacement[dof]; }
+  [[nodiscard]] std::string pressure_at(int node) const {
+    return what.beds.empty() ? "" : fmt::format("{}", pressure[node]);
+  }
+};
+
+/// What stands behind the columns that every beam or plate has.
+std::string_view stress_column(const beam& b) {
+  return b.sections.empty() || b.sections.front().W == 0.0 ? "" : ",stress";
+}
+
+std::string_view stress_column(const plate& p) {
+  return p.thickness == 0.0 ? "" : ",von_mises";
+}
+
+std::string rows_of(const beam& b, const end_of_step& s) {
+  const beam_lines lines(b, s.acting, s.state.displacement, s.read.elements.values);
+  std::string rows;
+  const auto add = [&](int e, const std::string& node, double x, double w, double slope, double moment,
+                       double shear, const std::string& pressure) {
+    const std::string stress = stress_column(b).empty() ? "" : fmt::format(",{}", moment / b.sections[e].W);
+    rows += row_of(s.step, e + 1, node, x, w, slope, moment, shear, pressure + stress);
+  };
+  const auto add_end = [&](int e, int right, double slope) {
+    const int node = e + right;
+    add(e, std::to_string(node + 1), b.x[node], s.u(2 * node), slope, lines.ends().at(e, 1)[right],
+        lines.ends().at(e, 0)[right], s.pressure_at(node));
+  };
+  const auto add_inside = [&](int e, const element_line& at, double x, double t) {
+    add(e, "", x, polynomial_at(at.w, t), polynomial_at(at.slope, t), polynomial_at(at.moment, t),
+        polynomial_at(at.shear, t), "");
+  };
+  for (int e = 0; e < b.elements(); ++e) {
+    const std::vector<element_line> pieces = lines.pieces(e);
+    add_end(e, 0, s.u(2 * e + 1));
+    for (const element_line& at : pieces) {
+      if (&at != &pieces.front()) add_inside(e, at, at.left, 0.0);
+      for (const double t : extreme_places(at)) add_inside(e, at, at.left + t * at.h, t);
+      if (&at != &pieces.back()) add_inside(e, at, at.right, 1.0);
+    }
+    // At a hinge the node's slope is that on its right.
+    add_end(e, 1, b.has_hinge(e + 1) ? polynomial_at(pieces.back().slope, 1.0) : s.u(2 * e + 3));
+  }
+  return rows;
+}
+
+/// At each node the largest of its elements, which may differ there.
+std::vector<double> von_mises_at_nodes(const model& m, const element_results& stresses) {
+  std::vector<double> most(nodes(m));
+  for (std::size_t e = 0; e < stresses.elements(); ++e)
+    for (std::size_t corner = 0; const int node : nodes_of_element(m, static_cast<int>(e)))
+      most[node] = std::max(most[node], stresses.at(e, stresses.names.size() - 1)[corner++]);
+  return most;
+}
+
+std::string rows_of(const plate& p, const end_of_step& s) {
+  const std::vector<double> stresses = von_mises_at_nodes(s.what.geometry, s.read.stresses);
+  std::string rows;
+  for (int node = 0; node < p.nodes(); ++node) {
+    const place at = place_of_node(s.what.geometry, node);
+    const std::string stress = stress_column(p).empty() ? "" : fmt::format(",{}", stresses[node]);
+    rows += row_of(s.step, node + 1, at.x, at.y, s.u(3 * node), s.u(3 * node + 1), s.u(3 * node + 2),
+                   s.pressure_at(node) + stress);
+  }
+  return rows;
+}
+
+std::string rows_of(const assembled& a, const end_of_step& s) {
+  std::string rows;
+  for (int dof = 0; dof < a.dofs(); ++dof) rows += row_of(s.step, csv_field(a.label_of(dof)), s.u(dof));
+  return rows;
+}
+
+std::string columns_of(const beam& b) {
+  return fmt::format("element,node,x,w,slope,moment,shear,pressure{}", stress_column(b));
+}
+
+std::string columns_of(const plate& p) {
+  return fmt::format("node,x,y,w,wx,wy,pressure{}", stress_column(p));
+}
+
+std::string columns_of(const assembled& /*a*/) {
+  return "dof,value";
+}
+
 }  // namespace
 
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs) {
@@ -101,14 +201,39 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
     for (std::size_t i = 0; i < readings.size() && pairs != nullptr; ++i) {
       const contact_pair& at = p.pairs[i];
       const pair_reading& now = readings[i];
-      pairs->write(fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", s.step, s.number, i + 1,
-                               csv_field(place_name(p.geometry, at.node)), surface_name(at.surface),
-                               state_name(s.isep[i]), look_name(now.look), now.w, now.gap, now.force,
-                               now.face));
+      pairs->write(row_of(s.step, s.number, i + 1, csv_field(place_name(p.geometry, at.node)),
+                          surface_name(at.surface), state_name(s.isep[i]), look_name(now.look), now.w,
+                          now.gap, now.force, now.face));
     }
   }
   increments.finish();
   if (pairs != nullptr) pairs->finish();
+}
+
+void write_states_csv(const run_result& r, output_file& out) {
+  std::visit(
+      [&](const auto& kind) {
+        out.write(row_of("step", "name", columns_of(kind)));
+        for (const step_record& s : r.record.steps) out.write(rows_of(kind, end_of_step{r.what, s.end}));
+      },
+      r.what.geometry.kind);
+  out.finish();
+}
+
+void write_envelope_csv(const run_result& r, output_file& out) {
+  const envelope_curves all = curves_of(r);
+  std::string row = "x";
+  for (const std::string_view name : {"w", "moment", "shear"})
+    row += fmt::format(",{0}_min,{0}_min_step,{0}_max,{0}_max_step", name);
+  out.write(row_of(row));
+  for (std::size_t i = 0; i < all.x.size(); ++i) {
+    row = fmt::format("{}", all.x[i]);
+    for (const envelope_curves::curve& c : all.curves)
+      row += fmt::format(",{},{},{},{}", c.at[i].least.value, c.at[i].least.step, c.at[i].most.value,
+                         c.at[i].most.step);
+    out.write(row_of(row));
+  }
+  out.finish();
 }
 
 }  // namespace contct

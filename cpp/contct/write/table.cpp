@@ -1,5 +1,3 @@
-#include "contct/write/table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,18 +11,10 @@
 #include "contct/session/rule_1989.hpp"
 #include "contct/session/step_results.hpp"
 #include "contct/text/strings.hpp"
+#include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
-
-std::string share_words(double x) {
-  for (int digits = 8; digits > 1; --digits) {
-    std::string text = fmt::format("{:.{}g}", x, digits);
-    if (x < 1.0 && text == "1") return fmt::format("1-{:.0e}", 1.0 - x);
-    if (text.size() <= 9) return text;
-  }
-  return fmt::format("{:.1g}", x);
-}
 
 namespace {
 
@@ -37,6 +27,9 @@ constexpr int events_width_at_least = 22;
 constexpr std::size_t most_events_shown = 12;
 /// Of more steps the extremes are in tables of their own below the steps.
 constexpr std::size_t few_steps = 6;
+/// More combinations than this have a row each, instead of one for each increment.
+constexpr std::size_t most_combinations_in_full = 12;
+constexpr std::size_t name_width_at_most = 24;
 
 /// "node 3 below", of a pair from 0.
 std::string face_words(const problem& p, std::size_t pair) {
@@ -66,6 +59,18 @@ double without_rounding(std::string_view name, double value, sizes_so_far& sizes
   double& size = sizes[std::string(name)];
   size = std::max(size, std::abs(value));
   return std::abs(value) <= 1e-12 * size ? 0.0 : value;
+}
+
+/// The quantity whose extremes stand for the bending of the structure; null where nothing bends.
+const value_range* bending(const std::vector<value_range>& ranges) {
+  const value_range* most = nullptr;
+  for (const value_range& r : ranges) {
+    const bool is_moment = r.name == "moment" || r.name == "mx" || r.name == "my" || r.name == "mxy";
+    if (is_moment &&
+        (most == nullptr || std::abs(r.largest().value) > (1 + 1e-9) * std::abs(most->largest().value)))
+      most = &r;
+  }
+  return most;
 }
 
 /// The largest deflection, moment, contact force and reaction with their places, a line each, of at most
@@ -215,12 +220,12 @@ class table_printer {
   run_table print() {
     const bool of_combinations = starts_from_zero(problem_);
     if (of_combinations && !detail_ && problem_.steps.size() > most_combinations_in_full) {
-      text_ = combination_rows(run_, terminal_);
+      print_combinations();
     } else {
       for (std::size_t step = 0; step < run_.record.steps.size(); ++step) print_step(step);
     }
     if (of_combinations && problem_.steps.size() > 1) print_envelope();
-    if (!whole_ends_) text_ += extremes_text(problem_, terminal_, extremes_);
+    if (!whole_ends_) print_extremes();
     return {std::move(text_), legend()};
   }
 
@@ -231,24 +236,227 @@ class table_printer {
   [[nodiscard]] std::string_view column() const {
     return run_.beside ? "1989" : run_.compared ? "kernels" : "";
   }
-  [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const;
-  void print_step(std::size_t number);
-  void print_first_load(increments begun, const row_of_1989& other);
-  void print_row(const increment_record& i, bool equal, std::vector<std::string> events,
-                 const row_of_1989& other);
-  [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const;
-  void print_end(const step_record& s, const std::optional<certificate>& judged);
-  [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const;
-  [[nodiscard]] std::vector<std::string> events_of(const increment_record& i) const;
+
+  /// Increments at which the step's load has only begun share a row.
+  void print_step(std::size_t number) {
+    const step_record& s = run_.record.steps[number];
+    const increments all = s.increments;
+    for (std::size_t i = 0; i < all.size();) {
+      const std::size_t first = i;
+      while (!detail_ && i < all.size() && all[i].fraction <= first_load) ++i;
+      if (i > first) {
+        print_first_load(all.subspan(first, i - first), beside(number, first, i - first));
+      } else {
+        const increment_record row = ties_from(all, i);
+        print_row(row, row.equal, events_of(row), beside(number, first, i - first));
+      }
+    }
+    print_end(s, run_.judged.steps()[number]);
+  }
+
+  /// Of both rules' runs, increments without a share of their own are one row: which pair comes first is
+  /// rounding of the solver. `i` moves behind them.
+  [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const {
+    constexpr double no_share = 1e-12;
+    increment_record row = all[i++];
+    if (!run_.beside || detail_) return row;
+    const double s = row.s;
+    std::vector<event> events = row.events;
+    for (; i < all.size() && all[i].s < 1.0 && !all[i].snaps && all[i].fraction - row.fraction <= no_share;
+         ++i) {
+      events.insert(events.end(), all[i].events.begin(), all[i].events.end());
+      row = all[i];
+      row.s = s;
+    }
+    std::ranges::stable_sort(events, {}, &event::pair);
+    row.events = std::move(events);
+    return row;
+  }
+
+  [[nodiscard]] std::vector<std::string> events_of(const increment_record& i) const {
+    const std::size_t shown = detail_ ? i.events.size() : std::min(i.events.size(), most_events_shown);
+    std::vector<std::string> events;
+    for (const event& e : std::span(i.events).first(shown))
+      events.push_back(event_words(problem_, e.what, e.pair));
+    if (i.events.size() > shown) events.push_back(fmt::format("{} more in --json", i.events.size() - shown));
+    return events;
+  }
+
+  /// One such increment with a few events has a row as any other.
+  void print_first_load(increments begun, const row_of_1989& other) {
+    std::set<int> makes;
+    std::set<int> breaks;
+    for (const increment_record& i : begun)
+      for (const event& e : i.events) (e.what == change::make ? makes : breaks).insert(e.pair);
+    const auto toggled = [](std::size_t n, const char* what) {
+      return n == 0 ? "" : fmt::format("{} pair{} {}{}", n, n == 1 ? "" : "s", what, n == 1 ? "s" : "");
+    };
+    std::vector<std::string> words;
+    for (const std::string& part : {toggled(breaks.size(), "break"), toggled(makes.size(), "make")})
+      if (!part.empty()) words.push_back(part);
+    if (!words.empty()) words.back() += " at first load";
+    const bool few = begun.size() == 1 && makes.size() + breaks.size() <= 3;
+    print_row(begun.back(), std::ranges::all_of(begun, &increment_record::equal),
+              few ? events_of(begun.back()) : words, other);
+  }
+
   [[nodiscard]] std::string row(std::string_view number, std::string_view share, std::string_view s,
                                 std::string_view kernels, std::string_view load,
-                                std::string_view events) const;
-  [[nodiscard]] std::vector<std::string> legend() const;
+                                std::string_view events) const {
+    std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
+    if (!column().empty()) line += fmt::format("{:<7}  ", kernels);
+    if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
+    if (!events_below_) line += events;
+    return line.erase(line.find_last_not_of(' ') + 1);
+  }
 
+  /// What the 1989 rule did in these increments of a step.
+  [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const {
+    row_of_1989 all;
+    if (!run_.beside) return all;
+    for (const row_of_1989& row : std::span(run_.beside->rows[step]).subspan(first, count)) {
+      all.otherwise.insert(all.otherwise.end(), row.otherwise.begin(), row.otherwise.end());
+      all.reached = all.reached && row.reached;
+    }
+    return all;
+  }
+
+  /// Seven columns, or nothing.
+  [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const {
+    if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
+    if (!run_.compared) return "";
+    return equal ? painted(terminal_, paint::good, "equal") + "  "
+                 : painted(terminal_, paint::bad, "DIFFER") + " ";
+  }
+
+  void print_row(const increment_record& i, bool equal, std::vector<std::string> events,
+                 const row_of_1989& other) {
+    for (std::string& words : words_of_1989(other)) events.push_back(std::move(words));
+    if (!std::exchange(headed_, true)) print_heading(row("incr", "share", "s", column(), "load", "events"));
+    std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
+    if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
+    snapped_ = snapped_ || i.snaps;
+    text_ += row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
+                 i.snaps ? "snap" : share_words(i.s), cell(equal, other),
+                 loads_.words_at(i.step, i.fraction, load_width_), lines.front()) +
+             '\n';
+    for (const std::string& more : std::span(lines).subspan(1))
+      text_ += fmt::format("{:{}}{}\n", "", indent_, more);
+  }
+
+  void print_end(const step_record& s, const std::optional<certificate>& judged) {
+    // If the path ends as a pair separates, the pair keeps its status, without force.
+    auto closed = std::ranges::count(s.end.isep, in_contact);
+    if (!s.increments.empty())
+      for (const event& e : s.increments.back().events)
+        if (e.what == change::break_ && s.end.closed(e.pair)) --closed;
+    std::string label = events_below_ ? "end " : "   end  ";
+    const int width = terminal_.width - static_cast<int>(label.size());
+    std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.end.isep.size())};
+    if (judged) items.push_back(digits_words(*judged));
+    items.emplace_back(!judged ? "no certificate" : judged->certified ? "certified" : "NOT certified");
+    if (const std::string& name = problem_.steps[s.end.step - 1].name; !name.empty())
+      items.insert(items.begin(), on_one_line(name));
+    if (s.from_exact_path)
+      items.emplace_back("from the exact path");
+    else if (s.from_fallback)
+      items.emplace_back("from the reference solution");
+    for (const std::string& line : wrap(items, width)) {
+      text_ += label + line + '\n';
+      label.assign(label.size(), ' ');
+    }
+    const load acting = loads_.at(s.end.step, s.end.fraction);
+    const step_results r = results_of(problem_, acting, s.end);
+    for (std::size_t i = 0; i < r.ranges.size(); ++i) extremes_[i].emplace_back(s.end.step, r.ranges[i]);
+    std::vector<std::string> lines = largest_lines(problem_, r, width, sizes_, whole_ends_);
+    if (whole_ends_)
+      std::ranges::move(sum_lines(problem_, acting, s.end, r, sizes_), std::back_inserter(lines));
+    for (const std::string& unbroken : lines)
+      for (const std::string& line : wrap({unbroken}, width))
+        text_ += painted(terminal_, paint::strong, label + line) + '\n';
+    if (detail_) text_ += detail_tables(problem_, s.end, r);
+  }
+
+  [[nodiscard]] std::vector<std::string> legend() const {
+    std::vector<std::string> words;
+    if (headed_)
+      words = {"share: share of the step applied so far",
+               "s: share of the remaining load that the increment applies"};
+    if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
+    if (headed_ && run_.compared) words.emplace_back("kernels: whether their bits are equal");
+    if (headed_ && run_.beside) words.emplace_back("1989: whether that rule has the same events");
+    if (!run_.record.steps.empty()) words.emplace_back("digits: correct in every number");
+    return words;
+  }
+
+  void print_heading(std::string_view words) { text_ += painted(terminal_, paint::strong, words) + '\n'; }
+
+  /// Combinations one a row.
+  void print_combinations() {
+    std::size_t width = 11;
+    for (const load& l : problem_.steps) width = std::max(width, std::min(l.name.size(), name_width_at_most));
+    print_heading(fmt::format("{:<{}}  {:>4}  {:>7}  {:<38} {}", "combination", width, "incr", "contact",
+                              "largest", "at its end"));
+    for (std::size_t i = 0; i < run_.record.steps.size(); ++i) {
+      const step_record& s = run_.record.steps[i];
+      const std::optional<certificate>& judged = run_.judged.steps()[i];
+      const std::string verdict = s.end.fraction < 1.0
+                                      ? "share " + share_words(s.end.fraction) + " of its load"
+                                  : !judged           ? "no equilibrium"
+                                  : judged->certified ? "certified, " + digits_words(*judged)
+                                                      : "NOT certified";
+      const step_results r = results_of(problem_, loads_.at(s.end.step, s.end.fraction), s.end);
+      std::string largest;
+      std::string place;
+      if (!r.ranges.empty()) {
+        const value_range* const moment = bending(r.ranges);
+        const value_range& range = moment != nullptr ? *moment : r.ranges.front();
+        largest = fmt::format("{} {:.6g}", range.name, range.largest().value);
+        place = place_words(problem_.geometry, range.largest());
+      }
+      text_ += fmt::format("{:<{}}  {:>4}  {:>7}  {:<20}{:<18} {}\n",
+                           printable(problem_.steps[s.end.step - 1].name, name_width_at_most - 3), width,
+                           s.increments.size(), std::ranges::count(s.end.isep, in_contact), largest, place,
+                           verdict);
+    }
+  }
+
+  /// The least and largest of all combinations, a line each, with their names.
   void print_envelope() {
-    const std::string lines = envelope_text(problem_, envelope_of(run_));
+    const envelope e = envelope_of(run_);
+    std::string lines;
+    const auto add = [&](const std::string& what, double value, const std::string& place, int step,
+                         std::string_view quantity) {
+      lines += fmt::format("{:<15} {:<19} {:<22} {}\n", what,
+                           fmt::format("{:.6g}{}", value, unit_words(problem_, quantity)), place,
+                           on_one_line(problem_.steps[step - 1].name));
+    };
+    for (std::size_t i = 0; i < e.names.size(); ++i)
+      for (const auto& [word, at] :
+           {std::pair("least", &e.values[i].least), std::pair("largest", &e.values[i].most)})
+        add(fmt::format("{} {}", word, e.names[i]), at->value.value,
+            place_words(problem_.geometry, at->value), at->step, e.names[i]);
+    const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
+    if (force != e.pairs.end() && force->value > 0.0)
+      add("largest contact", force->value, fmt::format("pair {}", force - e.pairs.begin() + 1), force->step,
+          "force");
     if (lines.empty()) return;
-    text_ += "\n" + painted(terminal_, paint::strong, "all combinations") + "\n" + lines;
+    text_ += '\n';
+    print_heading("all combinations");
+    text_ += lines;
+  }
+
+  /// A table for each quantity, a step a row.
+  void print_extremes() {
+    for (const auto& [number, of_steps] : extremes_) {
+      text_ += '\n';
+      print_heading(fmt::format("{:<8}  {:>12}  {:<24}  {:>12}  at", of_steps.front().second.name, "least",
+                                "at", "largest"));
+      for (const auto& [step, v] : of_steps)
+        text_ += fmt::format("step {:<3}  {:>12.6g}  {:<24}  {:>12.6g}  {}\n", step, v.least.value,
+                             place_words(problem_.geometry, v.least), v.most.value,
+                             place_words(problem_.geometry, v.most));
+    }
   }
 
   const run_result& run_;
@@ -262,175 +470,12 @@ class table_printer {
   bool events_below_ = false;              // on a narrow terminal they stand on lines of their own
   bool headed_ = false, snapped_ = false;  // what the rows so far have shown
   sizes_so_far sizes_;
-  extremes_of_steps extremes_;
+  /// Of each quantity, by its place among the ranges: the number of a step, and its range.
+  std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;
   std::string text_;
 };
 
-/// Increments at which the step's load has only begun share a row.
-void table_printer::print_step(std::size_t number) {
-  const step_record& s = run_.record.steps[number];
-  const increments all = s.increments;
-  for (std::size_t i = 0; i < all.size();) {
-    const std::size_t first = i;
-    while (!detail_ && i < all.size() && all[i].fraction <= first_load) ++i;
-    if (i > first) {
-      print_first_load(all.subspan(first, i - first), beside(number, first, i - first));
-    } else {
-      const increment_record row = ties_from(all, i);
-      print_row(row, row.equal, events_of(row), beside(number, first, i - first));
-    }
-  }
-  print_end(s, run_.judged.steps()[number]);
-}
-
-/// Of both rules' runs, increments without a share of their own are one row: which pair comes first is
-/// rounding of the solver. `i` moves behind them.
-increment_record table_printer::ties_from(increments all, std::size_t& i) const {
-  constexpr double no_share = 1e-12;
-  increment_record row = all[i++];
-  if (!run_.beside || detail_) return row;
-  const double s = row.s;
-  std::vector<event> events = row.events;
-  for (; i < all.size() && all[i].s < 1.0 && !all[i].snaps && all[i].fraction - row.fraction <= no_share;
-       ++i) {
-    events.insert(events.end(), all[i].events.begin(), all[i].events.end());
-    row = all[i];
-    row.s = s;
-  }
-  std::ranges::stable_sort(events, {}, &event::pair);
-  row.events = std::move(events);
-  return row;
-}
-
-std::vector<std::string> table_printer::events_of(const increment_record& i) const {
-  const std::size_t shown = detail_ ? i.events.size() : std::min(i.events.size(), most_events_shown);
-  std::vector<std::string> events;
-  for (const event& e : std::span(i.events).first(shown))
-    events.push_back(event_words(problem_, e.what, e.pair));
-  if (i.events.size() > shown) events.push_back(fmt::format("{} more in --json", i.events.size() - shown));
-  return events;
-}
-
-/// One such increment with a few events has a row as any other.
-void table_printer::print_first_load(increments begun, const row_of_1989& other) {
-  std::set<int> makes;
-  std::set<int> breaks;
-  for (const increment_record& i : begun)
-    for (const event& e : i.events) (e.what == change::make ? makes : breaks).insert(e.pair);
-  const auto toggled = [](std::size_t n, const char* what) {
-    return n == 0 ? "" : fmt::format("{} pair{} {}{}", n, n == 1 ? "" : "s", what, n == 1 ? "s" : "");
-  };
-  std::vector<std::string> words;
-  for (const std::string& part : {toggled(breaks.size(), "break"), toggled(makes.size(), "make")})
-    if (!part.empty()) words.push_back(part);
-  if (!words.empty()) words.back() += " at first load";
-  const bool few = begun.size() == 1 && makes.size() + breaks.size() <= 3;
-  print_row(begun.back(), std::ranges::all_of(begun, &increment_record::equal),
-            few ? events_of(begun.back()) : words, other);
-}
-
-std::string table_printer::row(std::string_view number, std::string_view share, std::string_view s,
-                               std::string_view kernels, std::string_view load,
-                               std::string_view events) const {
-  std::string line = fmt::format("{:>6}  {:<9}  {:<9}  ", number, share, s);
-  if (!column().empty()) line += fmt::format("{:<7}  ", kernels);
-  if (load_width_ > 0) line += fmt::format("{:<{}}  ", load, load_width_);
-  if (!events_below_) line += events;
-  return line.erase(line.find_last_not_of(' ') + 1);
-}
-
-/// What the 1989 rule did in these increments of a step.
-row_of_1989 table_printer::beside(std::size_t step, std::size_t first, std::size_t count) const {
-  row_of_1989 all;
-  if (!run_.beside) return all;
-  for (const row_of_1989& row : std::span(run_.beside->rows[step]).subspan(first, count)) {
-    all.otherwise.insert(all.otherwise.end(), row.otherwise.begin(), row.otherwise.end());
-    all.reached = all.reached && row.reached;
-  }
-  return all;
-}
-
-/// Seven columns, or nothing.
-std::string table_printer::cell(bool equal, const row_of_1989& other) const {
-  if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
-  if (!run_.compared) return "";
-  return equal ? painted(terminal_, paint::good, "equal") + "  "
-               : painted(terminal_, paint::bad, "DIFFER") + " ";
-}
-
-void table_printer::print_row(const increment_record& i, bool equal, std::vector<std::string> events,
-                              const row_of_1989& other) {
-  for (std::string& words : words_of_1989(other)) events.push_back(std::move(words));
-  if (!std::exchange(headed_, true))
-    text_ += painted(terminal_, paint::strong, row("incr", "share", "s", column(), "load", "events")) + '\n';
-  std::vector<std::string> lines = wrap(events, terminal_.width - indent_);
-  if (events_below_ || lines.empty()) lines.insert(lines.begin(), "");
-  snapped_ = snapped_ || i.snaps;
-  text_ += row(fmt::format("{}.{}", i.step, i.number), share_words(i.fraction),
-               i.snaps ? "snap" : share_words(i.s), cell(equal, other),
-               loads_.words_at(i.step, i.fraction, load_width_), lines.front()) +
-           '\n';
-  for (const std::string& more : std::span(lines).subspan(1))
-    text_ += fmt::format("{:{}}{}\n", "", indent_, more);
-}
-
-void table_printer::print_end(const step_record& s, const std::optional<certificate>& judged) {
-  // If the path ends as a pair separates, the pair keeps its status, without force.
-  auto closed = std::ranges::count(s.end.isep, in_contact);
-  if (!s.increments.empty())
-    for (const event& e : s.increments.back().events)
-      if (e.what == change::break_ && s.end.closed(e.pair)) --closed;
-  std::string label = events_below_ ? "end " : "   end  ";
-  const int width = terminal_.width - static_cast<int>(label.size());
-  std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.end.isep.size())};
-  if (judged) items.push_back(digits_words(*judged));
-  items.emplace_back(!judged ? "no certificate" : judged->certified ? "certified" : "NOT certified");
-  if (const std::string& name = problem_.steps[s.end.step - 1].name; !name.empty())
-    items.insert(items.begin(), on_one_line(name));
-  if (s.from_exact_path)
-    items.emplace_back("from the exact path");
-  else if (s.from_fallback)
-    items.emplace_back("from the reference solution");
-  for (const std::string& line : wrap(items, width)) {
-    text_ += label + line + '\n';
-    label.assign(label.size(), ' ');
-  }
-  const load acting = loads_.at(s.end.step, s.end.fraction);
-  const step_results r = results_of(problem_, acting, s.end);
-  for (std::size_t i = 0; i < r.ranges.size(); ++i) extremes_[i].emplace_back(s.end.step, r.ranges[i]);
-  std::vector<std::string> lines = largest_lines(problem_, r, width, sizes_, whole_ends_);
-  if (whole_ends_)
-    std::ranges::move(sum_lines(problem_, acting, s.end, r, sizes_), std::back_inserter(lines));
-  for (const std::string& unbroken : lines)
-    for (const std::string& line : wrap({unbroken}, width))
-      text_ += painted(terminal_, paint::strong, label + line) + '\n';
-  if (detail_) text_ += detail_tables(problem_, s.end, r);
-}
-
-std::vector<std::string> table_printer::legend() const {
-  std::vector<std::string> words;
-  if (headed_)
-    words = {"share: share of the step applied so far",
-             "s: share of the remaining load that the increment applies"};
-  if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
-  if (headed_ && run_.compared) words.emplace_back("kernels: whether their bits are equal");
-  if (headed_ && run_.beside) words.emplace_back("1989: whether that rule has the same events");
-  if (!run_.record.steps.empty()) words.emplace_back("digits: correct in every number");
-  return words;
-}
-
 }  // namespace
-
-const value_range* bending(const std::vector<value_range>& ranges) {
-  const value_range* most = nullptr;
-  for (const value_range& r : ranges) {
-    const bool is_moment = r.name == "moment" || r.name == "mx" || r.name == "my" || r.name == "mxy";
-    if (is_moment &&
-        (most == nullptr || std::abs(r.largest().value) > (1 + 1e-9) * std::abs(most->largest().value)))
-      most = &r;
-  }
-  return most;
-}
 
 run_table table_of(const run_result& r, const terminal& t, bool detail) {
   return table_printer(r, t, detail).print();

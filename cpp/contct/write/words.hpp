@@ -50,6 +50,10 @@ constexpr std::string_view end_reason(path_status status) {
   return reasons[static_cast<std::size_t>(status)];
 }
 
+/// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
+/// which means the whole load: "1-3e-09".
+[[nodiscard]] std::string share_words(double x);
+
 /// "7 digits" of every number of a state, as proved; "10+ digits" where there are more, which depend on the
 /// LAPACK in use.
 [[nodiscard]] std::string digits_words(const certificate& c);
