@@ -207,6 +207,21 @@ TEST_CASE("The largest of each quantity has its unit, and moves to the left wher
   CHECK_THAT(table_of(r.result, {44, false}, false).text, Contains("moment -36.2791 kN m, node 1, x = 0\n"));
 }
 
+TEST_CASE("Below a step's end stands where a face is that it has moved, and no other face") {
+  const std::string text =
+      table_of(
+          a_run("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", "
+                "\"theta\"]\n[[contact]]\nnodes = [2, 3]\nsurface = \"below\"\nface = -1\nstiffness = 1e5\n"
+                "[[step]]\nuniform = -1\n[[step]]\nmove = [ { node = 3, w = 0.25 } ]\n")
+              .result,
+          {80, false}, false)
+          .text;
+  const std::string line = "moved face    -0.75             pair 2, node 3 below\n";
+  CHECK_THAT(text, Contains(line));
+  CHECK(text.find("moved face") == text.find(line));
+  CHECK(text.find("   2.1  ") < text.find(line));
+}
+
 TEST_CASE("The detailed tables have every pair, reaction and end of an element, within 80 columns") {
   const std::string text = table_of(a_run(good_problem).result, {80, false}, true).text;
   CHECK_THAT(text, Contains("       1          3  below    contact                 0       41.86047 2\n"));

@@ -113,6 +113,13 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
               fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
   if (const auto i = r.hardest_support(p))
     add_force("reaction", r.reactions[*i], p.supports[*i].node, place_words(p.geometry, p.supports[*i].node));
+  constexpr std::size_t most_faces = 4;
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < r.pairs.size() && all; ++i)
+    if (r.pairs[i].face != p.pairs[i].face && ++moved <= most_faces)
+      add("moved face", r.pairs[i].face, unit_words(p, "w", p.pairs[i].node),
+          fmt::format("pair {}, {}", i + 1, face_words(p, i)));
+  if (moved > most_faces) lines.push_back(fmt::format("{} more moved faces in --json", moved - most_faces));
   return lines;
 }
 
