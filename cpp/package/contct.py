@@ -1,20 +1,9 @@
 """CONTCT from Python: the 1989 contact subroutine, its reimplementation, and the program around them.
 
-    import contct
-
-    beam = contct.read("beam.toml")
-    for face in (-0.002, -0.003, -0.004):
-        beam["contact"][0]["face"] = face
-        print(face, contct.run(beam).steps[-1].pairs[0].force)
-
 `run`, `exact`, `explain`, `check` and `certify` take a problem: the name of a file (a text that ends in ".toml", or a
-path), the text of a problem file (it has a line break), or a dict with the same keys. reference/problem-file.md has every
-key, with shapes and units; nodes, elements, pairs and steps are numbered from 1 there. Python's own lists begin with 0:
-`result.steps[0]` is step 1.
-
-What comes back is the program's JSON, each key an attribute and an item: `result.steps[0].w` is `result["steps"][0]["w"]`.
-Arrays of numbers are NumPy arrays where NumPy can be imported, and lists otherwise. Bad input raises `InputError`, with
-file, line and column. Functions may be called from several threads. reference/python.md has an example of everything.
+path), the text of a problem file (it has a line break), or a dict with the same keys. What comes back is the program's JSON,
+each key an attribute and an item. Bad input raises `InputError`. Functions may be called from several threads.
+reference/python.md has an example and the options of everything.
 """
 from __future__ import annotations
 
@@ -58,13 +47,8 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """A problem, a trace or an argument is refused: exit status 2 of the program.
-
-    message  what was found, and what is allowed
-    file     the file; "problem" for a text or a dict; None where the message has no place
-    line     in the file, from 1; of a dict, in the text that `to_toml` writes; or None
-    column   in the line, from 1; or None
-    """
+    """A problem, a trace or an argument is refused: exit status 2 of the program. `file`, `line` and `column`, from 1, are None
+    where the message has no place; of a dict they are those of the text that `to_toml` writes, in the file "problem"."""
 
     def __init__(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
                  column: Optional[int] = None) -> None:
@@ -77,11 +61,8 @@ class InputError(Error, ValueError):
 
 
 class NotSolved(Error):
-    """Under strict=True: a run that is not solved, equal and certified; and whatever else ends without a result.
-
-    exit    exit status of the program: 1 kernels disagree, 3 not certified, 4 no equilibrium, 5 the path ended early
-    result  the Result, with all that was computed; None where there is none
-    """
+    """Under strict=True: a run that is not solved, equal and certified; and whatever else ends without a result. `exit` is the exit
+    status of the program; `result`, the Result with all that was computed, may be None."""
 
     def __init__(self, message: str, exit: int, result: Optional[Result] = None) -> None:
         super().__init__(message, exit, result)
@@ -164,12 +145,8 @@ class Record(Mapping[str, Any]):
 
 
 class Answer(Record):
-    """A result of its own, with what the program said beside it.
-
-    exit      exit status of the program: 0 solved and equal, 1 kernels disagree, 4 no equilibrium, 5 the path
-              ended early; reference/running.md
-    messages  warnings, and what the program prints on standard error, a text each
-    """
+    """A result of its own, with the exit status of the program (reference/running.md) and, as `messages`, its warnings and what it
+    prints on standard error."""
     exit: int
     messages: list[str]
 
@@ -255,13 +232,9 @@ class Result(Answer):
 
 
     def plot(self, quantity: str = "w", step: int = -1, ax: Any = None) -> Any:
-        """Draw the end of a step with matplotlib, and return the axes. The first use runs the problem again, for its structure.
-
-        quantity  "w", of a beam also "moment" or "shear": dots are at extremes, squares at pairs in contact, bars at the faces of
-                  the others. Of a plate: the deflection in colours
-        step      which of `steps`: 0 is step 1, -1 the last one
-        ax        where to draw; None: axes of a new figure
-        """
+        """Draw the end of a step, one of `steps`, with matplotlib, and return the axes. The first use runs the problem again. Of a beam
+        "w", "moment" or "shear": dots are at extremes, squares at pairs in contact, bars at the faces of the others. Of a plate
+        the deflection in colours."""
         shown = self._with_structure()
         kind, end = shown.structure.kind, shown.steps[step]
         allowed = {"beam": ["w", "moment", "shear"], "plate": ["w"]}.get(kind, [])
@@ -394,13 +367,7 @@ class Judgement(Answer):
 
 
 class Call(NamedTuple):
-    """What one call of a kernel answers.
-
-    ss    s of each pair, a share of the remaining load (eqs. 4, 10 to 12)
-    smin  the least positive s below 1, or 1 (eq. 9)
-    isep  status of each pair after the call: +1 separated, -1 in contact
-    text  what the kernel wrote to unit 26
-    """
+    """What one call of a kernel answers: s of each pair, SMIN, the new status of each pair, and what was written to unit 26."""
     ss: Any
     smin: float
     isep: Any
@@ -586,10 +553,7 @@ def _toml_value(value: Any, where: str) -> str:
 
 def to_toml(problem: Mapping[str, Any]) -> str:
     """The text of a problem file for a dict; `run` reads this text, and its lines are those of an `InputError`.
-
-    Exact: floats are written with all their digits, a `decimal.Decimal` as it is. NumPy's numbers and arrays may stand
-    wherever numbers and lists may. Whatever TOML does not have is refused, with its place: `contact[1].face`, counted from 1 as in
-    all messages of the program."""
+    Whatever TOML does not have is refused, with its place: `contact[1].face`."""
     lines, tables = [], []
     for key, value in problem.items():
         name = _toml_key(key, "")
@@ -615,22 +579,9 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional[str] = None, final_only: bool = False,
         envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
         folder: Folder = None, allow_outside: bool = False) -> Result:
-    """Follow the path of a problem: `contct run`.
-
-    kernels         names, or one text with commas; the first one leads. None: both rules: the corrected one gives the answer,
-                    and FORTRAN and C++ in lockstep follow the 1989 path beside it: `rule_1989`
-    engine          how the stiffness equations are solved; None: what suits the leading kernel
-    final_only      True: no path, the equilibrium under each step's load
-    envelope        True: also least and largest values over all increments
-    states          True: also the structure and the states within steps: reference/result-file.md
-    max_increments  limit for a step; 0: the program's own
-    strict          True: raise NotSolved unless all steps are solved and certified, and the kernels equal
-    folder          where files that a text or a dict names are looked for; None: where the process runs. Of a problem file
-                    it is the file's own
-    allow_outside   True: the problem may name files that are not below that folder; one from a stranger must not
-
-    Raises InputError for a bad problem or a bad option, and OSError if the file cannot be read.
-    """
+    """Follow the path of a problem: `contct run`; reference/python.md has the options. `kernels` are names, or one text with commas;
+    None: both rules. `strict`: raise NotSolved unless all steps are solved and certified, and the kernels equal. `folder`: where
+    files that a text or a dict names are looked for. Raises InputError for a bad problem or option."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     options = {"kernels": None if final_only or kernels is None else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
                "envelope": envelope or None, "states": states or None, "max_increments": max_increments or None}
@@ -643,19 +594,15 @@ def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional
 
 
 def check(problem: Problem, *, folder: Folder = None, allow_outside: bool = False) -> Answer:
-    """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind` ("beam", "plate" or "matrix"), counts,
-    names of the steps, `units`, and of a beam or a plate `x` (and `y`) of every node. Raises InputError if the problem is refused."""
+    """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind`, counts, and where the nodes are."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Answer(_ask(_library.contct_check, source, {}))
 
 
 def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
           folder: Folder = None, allow_outside: bool = False) -> Exact:
-    """Follow the path in rational arithmetic, from the decimals that the file's numbers mean: `contct exact`.
-
-    rule     "corrected", or "1989" for the 1989 rule without rounding
-    kernels  are compared with it: how many of their digits are right
-    """
+    """Follow the path in rational arithmetic, from the decimals that the file's numbers mean, by the rule "corrected" or "1989":
+    `contct exact`. `kernels` are compared with it: how many of their digits are right."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Exact(_ask(_library.contct_exact, source, {"rule": rule, "kernels": _kernel_list(kernels) if kernels else None}))
 
@@ -663,11 +610,8 @@ def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
 def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None,
             step: Optional[int] = None, increment: Optional[int] = None,
             folder: Folder = None, allow_outside: bool = False) -> Answer:
-    """What each line of the listing did, and why: `contct explain`; reference/explain-format.md has the keys.
-
-    kernels          one or two of the 1989 rule
-    step, increment  only these, from 1; None: all
-    """
+    """What each line of the listing did, and why: `contct explain`; reference/explain-format.md has the keys. `kernels` are one or
+    two of the 1989 rule; None for `step` and `increment`: all of them."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Answer(_ask(_library.contct_explain, source, {"kernels": _kernel_list(kernels), "engine": engine, "step": step,
                                                          "increment": increment}))
@@ -676,23 +620,11 @@ def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: 
 def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] = None, pairs: Iterable[Sequence[Any]] = (),
             loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, folder: Folder = None,
             allow_outside: bool = False) -> Result:
-    """Bounds on the errors of states that another program, or a formula, gives.
-
-    problem       a problem as `run` takes it; or a stiffness matrix: a SciPy sparse matrix, or what else has `tocoo()`
-    displacement  for each of the first steps the displacement of every dof, under the step's whole load: a list of states,
-                  an array with a row for each, or one state. Beams have w, theta of node 1, then of node 2, ..; plates w,
-                  wx, wy; lengths and slopes, positive up. With a matrix: one state, in the order of its rows
-    closed        for each state the numbers of the pairs that are in contact, from 1. None: those whose faces it touches
-                  or enters. With a matrix: one list
-
-    With a matrix also, where a dof is a row of the matrix, from 0, or a label:
-    pairs         the one-sided springs: (dof, "below" or "above", face, stiffness)
-    loads         a vector, or a dict {dof: load}
-    supports      fixed dofs; or a dict {dof: stiffness of a spring, or None where it is fixed}. The matrix is that without
-                  them, or with them where it is positive definite
-    labels        a name for each dof, as messages and results have it. None: "0", "1", ..
-
-    The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments; its `answer` is the right one.
+    """Bounds on the errors of states that another program, or a formula, gives: the displacement of every dof under the whole load
+    of each of the first steps. `problem` is one, or a stiffness matrix: a SciPy sparse matrix, or what else has `tocoo()`;
+    reference/python.md has what goes with it. `closed`: for each state the pairs that are in contact, from 1; None: those whose
+    faces it touches or enters. The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments; its
+    `answer` is the right one.
     """
     if hasattr(problem, "tocoo"):
         with tempfile.TemporaryDirectory() as files:
@@ -804,14 +736,8 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
          ndofpn: int = 1) -> Call:
     """One call of a kernel, by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 19 of the listing.
 
-    dd, dtest  D and d*, of every dof: what deflects so far, and what the whole remaining load would add; lengths
-    cc         c, the position of each pair's face: a length
-    id         each pair's node, from 1; its dof is (id - 1) * ndofpn + indof, from 1
-    isep       +1 separated, -1 in contact; it is not changed, the new one is in the answer
-    isurf      the side of each pair's face: +1 above, -1 below
-    indof, ndofpn  the members of COMMON /DOF/: which dof of a node deflects, from 1; dofs of a node
-
-    Raises InputError if lengths differ, or if an id leads outside dd, or a product isep * isurf out of 32 bits.
+    contct/kernel/plugin.h says what each argument is. `isep` is not changed: the new one is in the answer. Raises InputError if
+    lengths differ, or if an id leads outside dd, or a product isep * isurf out of 32 bits.
     """
     d, cc = _argument("dd", dd, True), _argument("cc", cc, True)
     ndof, nc = len(d), len(cc)
@@ -841,14 +767,10 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
           leader: str = "fortran", name: Optional[str] = None) -> Judgement:
     """Is a Python function CONTCT? Random and adversarial calls, and the paths of whole problems: `contct fuzz`.
 
-    function  is given `Inputs` and returns (ss, smin, isep): s of each pair, SMIN, and the new status of each pair, as lists
-              or arrays. It must be a function of its inputs alone
-    calls, problems, seed  how many, and which. With 1000 calls or more, every branch of the listing must have been taken
-              often enough to compare; otherwise `exit` is 2, `equal` is False, and `messages` say what was missed
-    leader    the kernel with which it is compared, to the bit
-    name      in messages; None: the function's own
-
-    An exception in the function, KeyboardInterrupt too, ends the judgement and is raised after it, with the call as a note.
+    The function is given `Inputs` and returns (ss, smin, isep), as lists or arrays, from its inputs alone; it is compared with the
+    kernel `leader` to the bit. With 1000 calls or more, every branch of the listing must have been taken often enough to
+    compare; otherwise `exit` is 2, `equal` is False, and `messages` say what was missed. An exception in the function,
+    KeyboardInterrupt too, ends the judgement and is raised after it, with the call as a note.
     """
     raised: list[BaseException] = []
 
@@ -878,20 +800,14 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
 
 def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Record:
     """Put a recorded trace to a kernel, and compare every answer: `contct replay`. The record has `calls`, `values_compared`,
-    `mismatches`, and the `first` mismatch in words, or None.
-
-    trace   the name of a file (it ends in ".trace"), a path, or the text of a trace, such as `Result.trace`
-    kernel  its name; None: the 1989 code in the precision of the trace
-    """
+    `mismatches`, and the `first` mismatch in words, or None. None for `kernel`: the 1989 code in the precision of the trace."""
     return Record(_ask(_library.contct_replay, _source(trace, ".trace", "trace"), {"kernel": kernel})["result"])
 
 
 def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, str]:
     """Prove that the machine code of each kernel in an ELF file is CONTCT: `contct prove`. It needs capstone and z3.
-
-    symbol  the name of a function with the plug-in's interface, if it is not contct_kernel
-
-    Each kernel's verdict, by its symbol: "proved: ..", "differs: .." or "undecided: ..".
+    The verdict on each, by its symbol, is "proved: ..", "differs: .." or "undecided: ..". `symbol` names a function with the
+    plug-in's interface, if it is not contct_kernel.
     """
     prover = importlib.import_module("contct_prove.__main__")
     path = os.fspath(library)
