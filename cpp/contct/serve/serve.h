@@ -80,9 +80,10 @@ CONTCT_SERVE_EXPORT char* contct_exact(const char* problem, const char* options)
 CONTCT_SERVE_EXPORT char* contct_explain(const char* problem, const char* options);
 
 /* Bounds on the errors of states from elsewhere. "result" is as contct_run's, without increments: `w`,
- * `pairs`, `error` and `certificate` of each state as it was given. "displacement"  [[..], ..]: a state for
- * each of the first steps, every dof, under the step's whole load. A pair counts as closed where the state
- * touches or enters its face "closed"        [[..], ..]: the pairs that are closed instead, from 1 */
+ * `pairs`, `error` and `certificate` of each state as it was given.
+ *   "displacement"  [[..], ..]: a state for each of the first steps, every dof, under the step's whole load. A
+ *                   pair counts as closed where the state touches or enters its face
+ *   "closed"        [[..], ..]: the pairs that are closed instead, from 1 */
 CONTCT_SERVE_EXPORT char* contct_certify(const char* problem, const char* options);
 
 /* One call of a kernel: the arguments of contct_kernel (contct/kernel/plugin.h), behind the kernel's name.
