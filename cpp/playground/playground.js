@@ -121,7 +121,7 @@ function afterPause() {
 
 /** Something that can be dragged, or moved by the arrow keys. `begin` gives what takes pixels from where the drag began. */
 function handle(attributes, words, begin) {
-  const made = svg("rect", { class: "handle", tabindex: "0", role: "slider", "aria-label": words, rx: 4, ...attributes }, svg("title", {}, words));
+  const made = svg("rect", { class: "handle", tabindex: "0", role: "slider", "aria-label": words, rx: 4, fill: "none", ...attributes }, svg("title", {}, words));
   made.addEventListener("pointerdown", (event) => {
     event.preventDefault();
     dragging = { to: begin(), x: event.clientX, y: event.clientY };

@@ -192,7 +192,7 @@ class ContactScene {
 
   addHandle(root, x, top) {
     const words = `load ${rough(this.force)} at x = ${rough(this.nodes[this.node])}; arrow keys move it`;
-    const made = svg("rect", { x: x - 24, y: top - 8, width: 48, height: 72, rx: 8, class: "handle across", tabindex: "0", role: "slider", "aria-label": words,
+    const made = svg("rect", { x: x - 24, y: top - 8, width: 48, height: 72, rx: 8, fill: "none", class: "handle across", tabindex: "0", role: "slider", "aria-label": words,
       "aria-valuenow": String(this.force), "aria-valuemin": String(-this.most), "aria-valuemax": "0" }, svg("title", {}, words));
     made.addEventListener("pointerdown", (event) => this.drag(event));
     keepTouch(made);
@@ -337,7 +337,8 @@ class ContactScene {
     const [x, tip] = [X(this.nodes[this.node]), Y(u[2 * this.node]) - 4];
     const length = 48 + (44 * Math.abs(this.force)) / this.most;
     const size = this.shown === "path" ? ` · ${rough(100 * this.frames[this.k].share)} %` : "";
-    root.append(arrow(x, tip - length, 0, length, "load-arrow"), label(x, tip - length - 8, `${rough(Math.abs(this.force))}${size}`, { "text-anchor": "middle", class: "value halo" }));
+    const inside = Math.min(x, this.page.width - (size ? 44 : 24));
+    root.append(arrow(x, tip - length, 0, length, "load-arrow"), label(inside, tip - length - 8, `${rough(Math.abs(this.force))}${size}`, { "text-anchor": "middle", class: "value halo" }));
     this.addHandle(root, x, tip - length);
   }
 
