@@ -113,7 +113,7 @@ def main():
     job = mpirun(sys.argv[3], int(sys.argv[4]))
     compare(contct, reference, job)
     ends([*job, contct], MECHANISM.replace("EI", "IE"), 2, "p.toml:4")
-    ends([*job, contct], MECHANISM, 4, "mechanism")
+    ends([*job, contct], MECHANISM, 4, "rigid-body motion")
 
 
 main()
