@@ -157,13 +157,15 @@ std::size_t writer_of(const text_line& right, const text_line& got, int last_nod
   const auto same = [](double a, double b) {
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
   };
-  const double power = expected.empty() || found.empty() ? 0.0 : std::log10(found.back() / expected.back());
+  const bool as_many = expected.size() == found.size();
+  const double power = as_many && !found.empty() ? std::log10(found.back() / expected.back()) : 0.5;
   if (std::abs(power - std::round(power)) < rounding) found.back() = expected.back();  // another exponent
-  const bool only_form = expected.size() != found.size() || form != other_form ||
-                         std::equal(expected.begin(), expected.end(), found.begin(), same);
+  const bool only_form =
+      !as_many || form != other_form || std::equal(expected.begin(), expected.end(), found.begin(), same);
   if (format == 20) return only_form ? at(l::format_20) : at(l::write_20);
   if (only_form) return at(l::format_60);
-  const bool node_alone = expected[0] == found[0] && expected[1] != found[1] && found[1] == last_node;
+  const bool node_alone =
+      found.size() > 1 && expected[0] == found[0] && expected[1] != found[1] && found[1] == last_node;
   return node_alone ? at(l::node_again) : at(l::write_60);
 }
 
