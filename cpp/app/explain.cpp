@@ -2,6 +2,7 @@
 #include "contct/write/explain.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -66,9 +67,101 @@ void print_comparison(const std::vector<std::string>& kernels, const explained_r
                  counts_of(run.told)});
 }
 
+bool is_trace(const std::string& file) {
+  std::string line;
+  std::ifstream in(file, std::ios::binary);
+  return std::getline(in, line) && line.starts_with("contct-trace-1");
+}
+
+void print_story(const std::vector<sentence>& story) {
+  constexpr int margin = 6;
+  for (const sentence& t : story) {
+    std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
+    const std::string words = t.equation.empty() ? t.words : t.words + " " + t.equation;
+    for (const std::string& line : wrap({words}, look_at_terminal().width - margin)) {
+      print_text(head + line + "\n");
+      head.assign(margin, ' ');
+    }
+  }
+}
+
+/// The IFs that one pair reached, and by how much each was decided.
+std::vector<sentence> margins_of(const explained_pair& p) {
+  std::vector<sentence> margins;
+  for (std::size_t b = 0; b < p.taken.size(); ++b) {
+    const taken_branch& t = p.taken[b];
+    if (t.reached && static_cast<branch>(b) != branch::was_separated)
+      margins.push_back({no_line, words_of(decision{static_cast<branch>(b), -1, t.outcome, t.ulps})});
+  }
+  return margins;
+}
+
+void print_call(const recorded_call& c, const explained_call& told, int only_pair) {
+  print_text(fmt::format("\nCall {}{}\n", c.number, c.note.empty() ? "" : ": " + whole_line(c.note)));
+  for (const explained_pair& p : told.pairs) {
+    if (only_pair != 0 && only_pair != p.pair + 1) continue;
+    print_text(fmt::format("\nPair {}, node {}, face {}, {}: {}\n", p.pair + 1, p.node,
+                           surface_name(p.surface), p.isep_before == separated ? "separated" : "in contact",
+                           kind_name(p)));
+    print_story(scale_factor_story(p));
+    if (told.winner >= 0) print_story(toggle_story(told, p));
+    print_story(margins_of(p));
+  }
+  print_text("\nThe smallest s\n");
+  print_story(winner_story(told));
+  if (told.narrowest)
+    print_story({{no_line, "The narrowest decision of this call: " + words_of(*told.narrowest) + "."}});
+}
+
+void refuse_for_trace(const explain_options& o, const trace_header& h) {
+  if (!o.json.empty() || o.step)
+    throw std::invalid_argument(
+        o.file +
+        ": found a trace with --json or --step; allowed with a trace: --increment for "
+        "a call, --pair, --kernels, --quiet");
+  if (h.rule != contact_rule::listing)
+    throw std::invalid_argument(o.file +
+                                ": found a trace of the corrected rule; allowed: the 1989 rule, "
+                                "whose lines are explained");
+}
+
+/// The calls of a trace, and what another kernel makes of them.
+exit_status explain_trace(const explain_options& options) {
+  const std::string text = read_input(options.file, "trace", 2048);
+  trace_reader calls(text, options.file);
+  const trace_header h = calls.read_header();
+  refuse_for_trace(options, h);
+  const std::string& asked = options.kernels.back();
+  const std::unique_ptr<kernel> k =
+      make_kernel(comparable(h, facts_of_kernel(asked)) ? asked : usual_kernel(h));
+  follower other({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, *k);
+  const int wanted = number_from_1(options.increment);
+  double largest = 0.0;
+  std::int64_t told = 0;
+  for (recorded_call c; calls.next(c);) {
+    const answered_call recorded = c.answered();
+    const explained_call explained = explain(recorded, h.real_bytes, largest);
+    const std::optional<mismatch>& apart = other.ask(recorded);
+    if (!options.increment.empty() && c.number != wanted) continue;
+    ++told;
+    if (!options.quiet) print_call(c, explained, options.pair.value_or(0));
+    flush_standard_output();
+    if (apart) complain_of(words_of(other.report_of(*apart, recorded)));
+  }
+  if (told == 0)
+    throw std::invalid_argument(fmt::format("--increment: found {}; allowed: the number of a call of {}",
+                                            options.increment, options.file));
+  if (const std::optional<faulty_line> line = other.faults.found())
+    complain("{}: at fault: {}", k->facts().name, words_of(*line));
+  if (other.first()) return exit_status::kernels_differ;
+  if (!options.quiet) print_text(fmt::format("\n{} answers as the trace, to the bit\n", k->facts().name));
+  return exit_status::solved;
+}
+
 }  // namespace
 
 exit_status run_command(const explain_options& options) {
+  if (is_trace(options.file)) return explain_trace(options);
   const increments_wanted wanted = wanted_of(options);
   refuse_engine_option(options.engine);
   refuse_other_rules(options.kernels);

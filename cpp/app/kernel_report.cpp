@@ -10,6 +10,9 @@
 #include "contct/text/strings.hpp"
 
 namespace contct {
+
+extern const std::string_view hints_toml;
+
 namespace {
 
 /// A JSON text.
@@ -41,6 +44,19 @@ std::string rung_of(const nearness& n, const tally& compared) {
   if (compared.mismatches == 0) return "bits";
   if (!n.same_events) return "none";
   return n.most_ulps <= few_ulps ? "ulps" : "events";
+}
+
+std::vector<std::string_view> known_faults(const fault_finder& answers) {
+  std::vector<std::string_view> found;
+  const std::string digest = fmt::format("digest = \"{:08x}\"", answers.digest());
+  constexpr std::string_view says = "{ says = \"";
+  for (std::size_t at = hints_toml.find(digest); at != std::string_view::npos;
+       at = hints_toml.find(digest, at + 1)) {
+    const std::size_t begin = hints_toml.rfind(says, at) + says.size();
+    found.push_back(hints_toml.substr(begin, hints_toml.find('"', begin) - begin));
+  }
+  std::erase(found, std::string_view());
+  return found;
 }
 
 void refuse_many_reported(std::size_t kernels, const std::string& outputs) {

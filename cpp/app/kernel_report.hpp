@@ -36,6 +36,10 @@ void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 /// As a badge: "CONTCT", and the rung.
 [[nodiscard]] std::string badge_svg(const kernel_report& r);
 
+/// What is wrong with a kernel that gave these answers to the golden set in 8-byte REAL, in its order: the
+/// sentences of reference/course/hints.toml, for faults that are known to give them all.
+[[nodiscard]] std::vector<std::string_view> known_faults(const fault_finder& answers);
+
 /// Of several replays the lowest rung: "bits", "ulps", "events" or "none".
 [[nodiscard]] std::string rung_of(const nearness& n, const tally& compared);
 

@@ -253,8 +253,9 @@ void declare_run(option_parser& p, CLI::App* c) {
 void declare_explain(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<explain_options>(c);
   add_problem(c, o);
-  c->add_option("--increment", o.increment,
-                "Only this increment, from 1; STEP.INCREMENT as in 2.1 names its step too")
+  c->add_option(
+       "--increment", o.increment,
+       "Only this increment, from 1; STEP.INCREMENT as in 2.1 names its step too; of a trace, this call")
       ->type_name("INCREMENT");
   c->add_option("--step", o.step, "Only this step, from 1");
   c->add_option("--pair", o.pair, "Only this pair, from 1");

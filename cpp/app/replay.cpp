@@ -111,6 +111,8 @@ exit_status run_command(const replay_options& options) {
   for (const auto& [kernel, faults] : all.faults) {
     if (const std::optional<faulty_line> line = faults.found())
       complain("{}: at fault: {}", kernel, words_of(*line));
+    for (const std::string_view advice : known_faults(faults))
+      complain("{}: known fault: {}", kernel, advice);
   }
   if (report.count(outcome::skipped) == static_cast<std::int64_t>(report.results.size()))
     throw std::invalid_argument(

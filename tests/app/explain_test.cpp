@@ -262,3 +262,27 @@ TEST_CASE("no s of PB1 to PB11 is off by more than 2 ULP for its call's numbers,
   }
   CHECK(compared > 10'000);
 }
+
+TEST_CASE(
+    "a call of a trace is explained, and a kernel that answers otherwise is told both lines and the line at "
+    "fault") {
+  const std::string plugin = "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so";
+  const finished f =
+      explained({"reference/traces/ties.trace", "--increment", "4", "--kernels", "fortran," + plugin});
+  INFO(f.out << f.err);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.out, Contains("\nCall 4: ") && Contains("\nPair 2, node 2") && !Contains("\nCall 5"));
+  CHECK_THAT(f.out, Contains("IF (DIFF.LT.EPSMUL) was false, exactly on the threshold"));
+  CHECK_THAT(f.err, Contains("the trace left ISEP; " + plugin + " took line 55, ISEP(I) = -1"));
+  CHECK_THAT(f.err, Contains("at fault: line 52, IF (DIFF.LT.EPSMUL) THEN: explains all"));
+}
+
+TEST_CASE("a trace of the listing itself is explained without a difference, and has neither steps nor JSON") {
+  const finished f = explained({"reference/traces/ties-r4.trace", "--increment", "1", "--pair", "1"});
+  CHECK(f.exit == 0);
+  CHECK_THAT(f.out, Contains("fortran-r4 answers as the trace, to the bit") && !Contains("Pair 2, node"));
+  CHECK(explained({"reference/traces/ties.trace", "--json", "-"}).exit == 2);
+  const finished beyond = explained({"reference/traces/ties.trace", "--increment", "999"});
+  CHECK(beyond.exit == 2);
+  CHECK_THAT(beyond.err, Contains("--increment: found 999; allowed: the number of a call"));
+}

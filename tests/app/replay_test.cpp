@@ -1,4 +1,5 @@
 // contct run --trace, contct replay and contct-replay: recorded calls, and who answers them otherwise.
+#include <algorithm>
 #include <filesystem>
 
 #include "app/process.hpp"
@@ -63,6 +64,20 @@ TEST_CASE("a trace whose answer differs is exit 1, with the branch margin, and a
   CHECK_THAT(f.out, Contains("mismatch; 6 calls, 24 values compared, 1 mismatches"));
   CHECK_THAT(dir.read("r.xml"), Contains("failures=\"1\""));
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
+}
+
+TEST_CASE("the golden set tells a kernel with a known fault its line and the course's sentence about it") {
+  std::vector<std::string> arguments = {
+      "replay", "--quiet", "--kernel", "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so"};
+  std::vector<std::string> traces;
+  for (const auto& entry : fs::directory_iterator(root / "reference/traces"))
+    traces.push_back(entry.path().string());
+  std::sort(traces.begin(), traces.end());
+  arguments.insert(arguments.end(), traces.begin(), traces.end());
+  const finished f = contct_program(root, arguments);
+  CHECK(f.exit == 1);
+  CHECK_THAT(f.err, Contains("at fault: line 52, IF (DIFF.LT.EPSMUL) THEN: explains all"));
+  CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
 }
 
 TEST_CASE("a file that is not a trace is refused with file and line") {

@@ -8,8 +8,6 @@
 #include "support/one_pair.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
-using Catch::Matchers::EndsWith;
 
 namespace {
 
@@ -122,6 +120,20 @@ TEST_CASE("a value that the named line cannot have made wrong is counted as not 
   CHECK(all.found()->differ == 5);
 }
 
+TEST_CASE("the lines that two kernels took stand beside GAP, DTEST and SSCHK") {
+  small_call<double> c = four_pairs(5e-10);
+  call_outputs other{c.smin, c.ss, c.isep, ""};
+  other.ss[2] = 1e-20;
+  CHECK(lines_taken(c.answered(), 8, other, "a", "b") ==
+        "pair 3: GAP = 5e-10, DTEST = 1; a took line 38, SS(I) = GAP / DTEST(NDOF); b has the SS of line 36, "
+        "IF "
+        "(SSCHK.GT.0.) SS(I) = SSCHK * DELTA");
+  other.ss[1] = -1e-20;
+  CHECK(lines_taken(c.answered(), 8, other, "a", "b") ==
+        "pair 2: GAP = 0, DTEST = -1, SSCHK = -1; a took line 34, SS(I) = 1.0; b has the SS of line 36, IF "
+        "(SSCHK.GT.0.) SS(I) = SSCHK * DELTA");
+}
+
 TEST_CASE("a call without pairs whose text differs is told the FORMAT") {
   fault_finder all;
   small_call<double> c({});
@@ -130,4 +142,13 @@ TEST_CASE("a call without pairs whose text differs is told the FORMAT") {
   const call_outputs other{c.smin, {}, {}, "  NO EVENTS. RETURNING. SCALE FACTOR =   0.10E+01\n"};
   all.note(right, 8, other, false);
   CHECK(line_of(all) == 44);
+}
+
+TEST_CASE("a text that has no line of the listing is told a FORMAT, and has no numbers to compare") {
+  fault_finder all;
+  small_call<double> c = four_pairs(0.25);
+  answered_call right = c.answered();
+  right.text = "  ******* NAKING CONTACT ********\n";
+  all.note(right, 8, {c.smin, c.ss, c.isep, "  ******* MAKING CONTACT ********\n"}, false);
+  CHECK(line_of(all) == 66);
 }

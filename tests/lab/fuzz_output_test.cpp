@@ -30,7 +30,7 @@ TEST_CASE("a case as a trace is read back, and says what differed") {
   trace_reader reader(text, "a case");
   const trace_header h = reader.read_header();
   REQUIRE_FALSE(h.about.empty());
-  CHECK(h.about[0] == "call 1: mine differs in SS(1): fortran has 0x1p+0, mine has 0x1p-1 (1 ULP)");
+  CHECK(h.about[0] == "call 1: mine differs in SS(1): fortran has 0x1p+0 = 1, mine has 0x1p-1 = 0.5 (1 ULP)");
   recorded_call read;
   REQUIRE(reader.next(read));
   CHECK(read.in.id == c.calls[0].id);

@@ -1,18 +1,22 @@
 """consumers.py ROOT LANGUAGE [PROGRAM [REPLAY]]: the consumer of reference/vectors/consumers in that language finds the kernel that is
 CONTCT equal, and finds each fault of faults.toml. With PROGRAM, which is contct, `replay` and `fuzz` judge the same kernels, and
-have to agree; with REPLAY, which is the static contct-replay, it judges them as commands, and has to agree too. Exit status 77: the language is not installed.
+have to agree, in the line of the listing at fault too, which is that of the mutant of the same name.
+With REPLAY, which is the static contct-replay, it judges them as commands, and has to agree as well. Exit status 77: the language is not installed.
 """
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import tomllib
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "support"))
+sys.path[:0] = [str(HERE.parent / "support"), str(HERE.parent / "mutants")]
+import mutants  # noqa: E402
 from edits import edited  # noqa: E402
 
 STRICT = "-O2 -ffp-contract=off"
@@ -40,19 +44,20 @@ PIPES = {
 
 
 def run(command, folder):
+    begun = time.monotonic()
     done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True, text=True, errors="replace", check=False, timeout=300,
                           env={**os.environ, "GOCACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"})
-    return done.returncode, done.stdout + done.stderr
+    return done.returncode, done.stdout + done.stderr, time.monotonic() - begun
 
 
 def built(command, root, folder):
-    status, said = run(command.replace("ROOT", str(root)), folder)
+    status, said, _ = run(command.replace("ROOT", str(root)), folder)
     if status != 0:
         raise ValueError(f"{command}: {said}")
 
 
 def judgements(root, language, folder, program, replay):
-    """{who judges: (exit status, what is said)}"""
+    """{who judges: (exit status, what is said, seconds)}"""
     _, _, build, judge, kind = LANGUAGES[language]
     built(build, root, folder)
     found = {"vectors": run(judge.replace("VECTORS", f"{root}/reference/vectors/contct-vectors-1.{kind}"), folder)}
@@ -66,6 +71,14 @@ def judgements(root, language, folder, program, replay):
         built(build, root, folder)
         found["static replay"] = run(f"{replay} --quiet --kernel 'pipe:{kernel}' {root}/reference/traces/*.trace", folder)
     return found
+
+
+def lines_at_fault(name):
+    """Of the mutant of the listing."""
+    table = tomllib.loads((HERE.parent / "mutants/mutants.toml").read_text())
+    source = table["source"][0]
+    edit, = ([(old, new)] for mutant, old, new in source["mutants"] if mutant == name)
+    return mutants.lines_of(source["file"], name, edit, {n: lines for lines, names in table["lines"] for n in names})
 
 
 def main(root, language, program=None, replay=None):
@@ -84,10 +97,13 @@ def main(root, language, program=None, replay=None):
             shutil.copytree(folders[0], work, dirs_exist_ok=True)
             (Path(work) / kernel).write_text(edited(source, [edit] if edit else []))
             found = judgements(root, language, Path(work), program, replay)
-        print(name, {who: status for who, (status, _) in found.items()}, flush=True)
-        for who, (status, said) in found.items():
+        print(name, {who: f"{status}, {seconds:.1f} s" for who, (status, _, seconds) in found.items()}, flush=True)
+        for who, (status, said, _) in found.items():
             if status != (1 if edit else 0) or (not edit and who == "vectors" and f"{calls} calls" not in said):
                 return f"{language}, {name}, judged by {who}: found exit status {status}, allowed: {1 if edit else 0}\n{said[-2000:]}"
+            named = {int(line) for line in re.findall(r"at fault: line (\d+),", said)}
+            if edit and who != "vectors" and not (named and named <= lines_at_fault(name)):
+                return f"{language}, {name}, judged by {who}: found lines {named}, allowed: {lines_at_fault(name)}\n{said[-2000:]}"
     print(f"{language}: {len(faults)} faults are found")
     return 0
 

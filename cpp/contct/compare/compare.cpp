@@ -48,6 +48,12 @@ std::string place_words(const mismatch& d) {
          (d.field == "text" ? "" : ")");
 }
 
+/// "0x1p-1 = 0.5", where it is a number.
+std::string value_words(const mismatch& d, const std::string& value) {
+  if (d.field != "SS" && d.field != "SMIN") return value;
+  return value + " = " + short_decimal(std::strtod(value.c_str(), nullptr));
+}
+
 /// " (3 ULP)", where numbers were compared.
 std::string ulp_words(const mismatch& d) {
   if (d.field != "SS" && d.field != "SMIN") return "";
@@ -124,9 +130,11 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
 std::vector<std::string> words_of(const mismatch_report& f) {
   std::string line = std::string("call ") + std::to_string(f.call) + ": " + f.follower;
   if (f.where.field == "answer") return {line + " gave no answer: " + f.where.follower};
-  line += " differs in " + place_words(f.where) + ": " + f.leader + " has " + f.where.leader + ", " +
-          f.follower + " has " + f.where.follower + ulp_words(f.where);
-  return {line, margin_words(f)};
+  line += " differs in " + place_words(f.where) + ": " + f.leader + " has " +
+          value_words(f.where, f.where.leader) + ", " + f.follower + " has " +
+          value_words(f.where, f.where.follower) + ulp_words(f.where);
+  if (f.lines.empty()) return {line, margin_words(f)};
+  return {line, margin_words(f), f.lines};
 }
 
 void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower) {
@@ -177,8 +185,18 @@ const std::optional<mismatch>& follower::ask(const answered_call& c) {
 
 void follower::note(const mismatch& found, const answered_call& c) {
   if (first_ && first_->call <= c.number) return;
-  first_ = mismatch_report{c.number, leader_.name, kernel_->facts().name, found,
-                           narrowest_decision(c, leader_.real_bytes, answer_)};
+  first_ = report_of(found, c);
+}
+
+mismatch_report follower::report_of(const mismatch& found, const answered_call& c) const {
+  const std::string& name = kernel_->facts().name;
+  const bool has_answer = found.field != "answer";
+  return {c.number,
+          leader_.name,
+          name,
+          found,
+          narrowest_decision(c, leader_.real_bytes, answer_),
+          has_answer ? lines_taken(c, leader_.real_bytes, answer_, leader_.name, name) : ""};
 }
 
 void follower::measure(const call<double>& leader, const tally& before) {

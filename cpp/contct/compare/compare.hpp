@@ -111,10 +111,12 @@ struct mismatch_report {
   std::string follower;
   mismatch where;
   std::optional<decision> narrowest;  ///< of the leader in that call, on which the difference depends
+  std::string lines = {};             ///< as lines_taken
 };
 
-/// Two lines: "call 7: mine differs in SS(3): fortran has 0x1p-1, mine has 0x1p-2 (4503599627370496 ULP)",
-/// and its branch margin: the narrowest decision on which that depends, and what follows from it.
+/// "call 7: mine differs in SS(3): fortran has 0x1p-1 = 0.5, mine has 0x1p-2 = 0.25 (4503599627370496 ULP)";
+/// its branch margin: the narrowest decision on which that depends, and what follows from it; lines_taken, if
+/// any.
 [[nodiscard]] std::vector<std::string> words_of(const mismatch_report& f);
 
 /// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be
@@ -148,6 +150,8 @@ class follower {
   const std::optional<mismatch>& ask(const answered_call& c);
   /// Keep a mismatch that was found in a call, unless an earlier call has one.
   void note(const mismatch& found, const answered_call& c);
+  /// A mismatch of the call that was asked last, with all that is known of it.
+  [[nodiscard]] mismatch_report report_of(const mismatch& found, const answered_call& c) const;
 
   [[nodiscard]] kernel& asked() const { return *kernel_; }
   /// How its text is compared with the leader's.
@@ -196,7 +200,8 @@ struct replay_report {
 
 /// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
 /// both have it, by what it means where one of them is f2c. `progress` gets the number of calls done, after
-/// each. `before` has the kernel's answers to earlier traces. Throws input_error where the trace is malformed.
+/// each. `before` has the kernel's answers to earlier traces. Throws input_error where the trace is
+/// malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr,
                                    fault_finder before = {});

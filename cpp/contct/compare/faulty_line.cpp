@@ -149,32 +149,31 @@ std::size_t writer_of(const text_line& right, const text_line& got, int last_nod
   if (format == 40 || format == 50)
     return got.format() == format ? (format == 40 ? at(l::format_40) : at(l::format_50))
                                   : (format == 40 ? at(l::write_40) : at(l::write_50));
-  std::vector<double> expected, found;
-  std::string form, other_form;
+  std::vector<double> expected;
+  std::vector<double> found;
+  std::string form;
+  std::string other_form;
   right.split(expected, form);
   got.split(found, other_form);
   constexpr double rounding = 6e-4;  // of four digits
   const auto same = [](double a, double b) {
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
   };
-  const bool as_many = expected.size() == found.size();
-  const double power = as_many && !found.empty() ? std::log10(found.back() / expected.back()) : 0.5;
-  if (std::abs(power - std::round(power)) < rounding) found.back() = expected.back();  // another exponent
-  const bool only_form =
-      !as_many || form != other_form || std::equal(expected.begin(), expected.end(), found.begin(), same);
+  if (!expected.empty() && !found.empty()) {
+    const double power = std::log10(found.back() / expected.back());
+    if (std::abs(power - std::round(power)) < rounding) found.back() = expected.back();  // another exponent
+  }
+  const bool only_form = expected.size() != found.size() || form != other_form ||
+                         std::equal(expected.begin(), expected.end(), found.begin(), same);
   if (format == 20) return only_form ? at(l::format_20) : at(l::write_20);
-  if (only_form) return at(l::format_60);
-  const bool node_alone =
-      found.size() > 1 && expected[0] == found[0] && expected[1] != found[1] && found[1] == last_node;
+  if (only_form || expected.size() < 2) return at(l::format_60);
+  const bool node_alone = expected[0] == found[0] && expected[1] != found[1] && found[1] == last_node;
   return node_alone ? at(l::node_again) : at(l::write_60);
 }
 
 }  // namespace
 
-fault_finder::fault_finder() : suspects_(at(l::format_60) + 10) {
-  least_true_ = least_false_ = std::numeric_limits<double>::infinity();
-  most_true_ = most_false_ = -least_true_;
-}
+fault_finder::fault_finder() : suspects_(at(l::format_60) + 10) {}
 
 void fault_finder::note(const answered_call& c, int real_bytes, const call_outputs& other, bool equal) {
   if (real_bytes == 8) note_digest(other);
@@ -242,7 +241,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   call<Real> swapped = c;
   std::swap(swapped.dd, swapped.dtest);
   could_give(at(l::arguments), pair_values<Real>(swapped, status, i, c.dof.dof_of(c.id[i]) - 1).s, got);
-  could_give(at(l::node), at_dof(c.dof.dof_of(static_cast<int>(i) + 1) - 1).s, got);
+  could_give(at(l::node), at_dof(static_cast<std::int64_t>(i) * c.dof.ndofpn + c.dof.indof - 1).s, got);
   could_give(at(l::if_no_response), p.responds ? Real(1) : p.without_first(), p.d_star);
   ++suspects_[at(l::ndof)].reached;
   const auto of_some_dof = [&](auto s_of) {  // what lies outside the arrays is unknown
@@ -404,8 +403,6 @@ void fault_finder::note_toggle(int before, int got, Real diff_now, const std::op
   if (wrong && went_in != is_within && got == (went_in ? by_branch : before)) {
     explain_if(suspects_[at(l::if_within)], left);
     explain_if(suspects_[at(l::diff)], left);
-    const double off = std::abs(left * 256.0 - 1.0);
-    rounded_only_ = rounded_only_ && off > 0.0 && off < 1e-6;
   }
   if (!is_within || (has_text && !told)) return;
   suspect& assigned = suspects_[was_separated ? at(l::make) : at(l::break_)];
@@ -458,6 +455,9 @@ std::optional<faulty_line> fault_finder::found() const {
                                 at(l::moving, loop_left),  at(l::smallest, loop_left),
                                 at(l::write_60, loop_left)};
   const bool by_threshold = most_true_ < least_false_ || most_false_ < least_true_;
+  // EPSMUL is a power of 2: no wrong constant is next to it, but what rounds DIFF looks so.
+  const auto next_to = [](double x) { return x != 1.0 / 256.0 && std::abs(x * 256.0 - 1.0) < 1e-6; };
+  const bool is_rounded = next_to(most_true_) && next_to(least_false_);
   double least = std::numeric_limits<double>::infinity();
   std::size_t best = 0;
   for (std::size_t name = 0; name < suspects_.size(); ++name) {
@@ -466,7 +466,7 @@ std::optional<faulty_line> fault_finder::found() const {
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
     // What IF (DIFF.LT.EPSMUL) does wrong follows from DIFF, and what IF (ISEP(I).EQ.1) does, from ISEP.
     if (name == at(l::if_within))
-      bits += !by_threshold || rounded_only_ ? 1e6 : 1.0;
+      bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (name != at(l::if_separated))
       bits += choice_bits(s.reached, s.wrong);
     if (std::ranges::find(always, name) != std::end(always))
@@ -488,11 +488,61 @@ std::optional<faulty_line> fault_finder::found() const {
   return line;
 }
 
+namespace {
+
+std::string cited(const listing_line& line) {
+  return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
+}
+
+/// Whose value an SS is: that of a branch of the listing, where it is one.
+template <class Real>
+std::string way_words(const pair_values<Real>& p, Real s) {
+  if (p.responds && !p.is_stationary && same_bits(s, p.moving)) return cited(l::moving);
+  if (same_bits(s, p.event) && s != Real(1)) return cited(l::if_check_positive);
+  if (same_bits(s, p.moving)) return cited(l::moving);
+  if (s == Real(1)) return cited(p.responds ? l::stationary : l::no_response);
+  return "";
+}
+
+template <class Real>
+std::string lines_in(const call<Real>& c, const answered_call& right, const call_outputs& other,
+                     const std::string& leader, const std::string& follower) {
+  std::size_t ss = 0;
+  std::size_t isep = 0;
+  while (ss < other.ss.size() && same_bits(c.ss[ss], static_cast<Real>(other.ss[ss]))) ++ss;
+  while (isep < other.isep.size() && right.c.isep[isep] == other.isep[isep]) ++isep;
+  const std::size_t i = ss < other.ss.size() ? ss : isep;
+  if (i >= other.isep.size()) return "";
+  const int before = right.isep_before[i];
+  const pair_values<Real> p(c, before, i, c.dof.dof_of(c.id[i]) - 1);
+  std::string words = "pair " + std::to_string(i + 1) + ": GAP = " + short_decimal(p.gap) +
+                      ", DTEST = " + short_decimal(p.d_star);
+  if (p.responds && p.is_stationary) words += ", SSCHK = " + short_decimal(p.sschk);
+  if (i == ss) {
+    const std::string way = way_words(p, static_cast<Real>(other.ss[i]));
+    return words + "; " + leader + " took " + way_words(p, c.ss[i]) + "; " + follower + " has the SS of " +
+           (way.empty() ? "no line" : way);
+  }
+  const auto set_by = [before](int status) {
+    return status == before ? "left ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
+  };
+  return words + "; " + leader + " " + set_by(right.c.isep[i]) + "; " + follower + " " +
+         set_by(other.isep[i]);
+}
+
+}  // namespace
+
+std::string lines_taken(const answered_call& c, int real_bytes, const call_outputs& other,
+                        const std::string& leader, const std::string& follower) {
+  if (real_bytes == 8) return lines_in(c.c, c, other, leader, follower);
+  return as_float_call(c.c, [&](const call<float>& f) { return lines_in(f, c, other, leader, follower); });
+}
+
 std::string words_of(const faulty_line& f) {
-  std::string words =
-      "line " + std::to_string(f.at.number) + ", " + std::string(f.at.statement) + ": explains " +
-      (f.explained == f.differ ? "all " : std::to_string(f.explained) + " of ") + std::to_string(f.differ) +
-      " values that differ, in " + std::to_string(f.calls) + " call(s)";
+  std::string words = cited(f.at) + ": explains " +
+                      (f.explained == f.differ ? "all " : std::to_string(f.explained) + " of ") +
+                      std::to_string(f.differ) + " values that differ, in " + std::to_string(f.calls) +
+                      " call(s)";
   if (!f.compared.empty()) words += "; there " + f.compared;
   return words;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -33,6 +34,11 @@ struct faulty_line {
 
 /// "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 12 values that differ, in 5 calls".
 [[nodiscard]] std::string words_of(const faulty_line& f);
+
+/// Of the first pair that differs in SS, else in ISEP: what its branches are decided by, and the line that
+/// either kernel took; of the other kernel as far as its value tells it. Empty where neither differs.
+[[nodiscard]] std::string lines_taken(const answered_call& c, int real_bytes, const call_outputs& other,
+                                      const std::string& leader, const std::string& follower);
 
 /// Looks at answers to calls of one precision. A stage of the listing is judged by what the stages before it
 /// gave in the other kernel: SMIN by its SS, ISEP by its SS and SMIN, the text where all of these are right.
@@ -72,9 +78,11 @@ class fault_finder {
   double last_smin_ = not_an_answer;
   std::vector<std::size_t> left_by_;  // suspects that explain where this call's DO 10 loop was left
   std::map<int, bool> separated_;     // by status, how the other's IF (ISEP(I).EQ.1) went
-  double least_true_, most_true_, least_false_,
-      most_false_;            // DIFF, by how the other's IF (DIFF.LT.EPSMUL) went
-  bool rounded_only_ = true;  // it went wrong only next to EPSMUL, which is a power of 2
+  // DIFF, by how the other's IF (DIFF.LT.EPSMUL) went.
+  double least_true_ = std::numeric_limits<double>::infinity();
+  double most_true_ = -std::numeric_limits<double>::infinity();
+  double least_false_ = std::numeric_limits<double>::infinity();
+  double most_false_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace contct

@@ -65,6 +65,7 @@ class fuzzing final : public observer {
     for (std::size_t f = 0; f < firsts_.size(); ++f) {
       run_.result.followers[f].compared = followers()[f].compared;
       run_.result.followers[f].near = followers()[f].near;
+      run_.result.followers[f].at_fault = followers()[f].faults.found();
     }
     compared_.reset();  // unit 26 belongs to the process: the kernels make room for fresh ones
     leader_.reset();
@@ -134,6 +135,7 @@ class fuzzing final : public observer {
     if (!first) return;
     std::vector<std::string>& lines = total.mismatch_reports;
     lines = words_of(first->what);
+    if (total.at_fault) lines.push_back("at fault: " + words_of(*total.at_fault));
     const std::unique_ptr<kernel> leader = make_(request_.kernels[0]);
     const std::string& field = first->what.where.field;
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs takes its time for every try

@@ -72,6 +72,7 @@ struct fuzz_follower {
   tally compared;
   nearness near;
   equality_level highest = equality_level::bits;
+  std::optional<faulty_line> at_fault;        ///< by all mismatches
   std::vector<std::string> mismatch_reports;  ///< the first mismatch, in lines
 };
 

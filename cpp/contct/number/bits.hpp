@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -50,6 +51,16 @@ template <class Real>
   // printf, and not to_chars: %a writes the 0x that every language reads back.
   const int length = std::snprintf(text, sizeof text, "%a", x);
   return {text, static_cast<std::size_t>(length)};
+}
+
+/// A decimal that reads as `x`, of as few digits as possible.
+[[nodiscard]] inline std::string short_decimal(double x) {
+  char text[40];
+  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, x);
+    if (same_bits(std::strtod(text, nullptr), x)) break;
+  }
+  return text;
 }
 
 }  // namespace contct
