@@ -594,7 +594,8 @@ def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional
 
 
 def check(problem: Problem, *, folder: Folder = None, allow_outside: bool = False) -> Answer:
-    """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind`, counts, and where the nodes are."""
+    """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind` ("beam", "plate" or "matrix"),
+    counts, names of the steps, `units`, and of a beam or a plate `x` (and `y`) of every node."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Answer(_ask(_library.contct_check, source, {}))
 
@@ -621,7 +622,8 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
             loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, folder: Folder = None,
             allow_outside: bool = False) -> Result:
     """Bounds on the errors of states that another program, or a formula, gives: the displacement of every dof under the whole load
-    of each of the first steps. `problem` is one, or a stiffness matrix: a SciPy sparse matrix, or what else has `tocoo()`;
+    of each of the first steps. Beams have w, theta of node 1, then of node 2, ..; plates w, wx, wy; a matrix the order of its rows:
+    lengths and slopes, positive up. `problem` is one, or a stiffness matrix: a SciPy sparse matrix, or what else has `tocoo()`;
     reference/python.md has what goes with it. `closed`: for each state the pairs that are in contact, from 1; None: those whose
     faces it touches or enters. The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments; its
     `answer` is the right one.
