@@ -165,12 +165,6 @@ class plate_elements {
     return formulas::plate_stiffness(own.a, own.b, D_, nu_);
   }
 
-  /// Work of a unit pressure on the shape functions.
-  [[nodiscard]] vector unit_pressure_on(int e) const {
-    const halves own = halves_of(e);
-    return formulas::plate_unit_load(own.a, own.b);
-  }
-
   /// On every element: all the distributed loads together.
   [[nodiscard]] std::vector<summed_pressure<Number>> pressures(const load& l) const {
     if (!std::is_same_v<Number, double> || !l.placed.empty()) return exact_pressures<Number>(plate_, l);
@@ -254,11 +248,12 @@ class plate_elements {
 
  private:
   [[nodiscard]] element_work<Number, 12> work_on(int e, const summed_pressure<Number>& pressure) const {
-    const vector unit = unit_pressure_on(e);
+    const halves own = halves_of(e);
+    const vector unit = formulas::plate_unit_load(own.a, own.b);
     element_work<Number, 12> work{dofs_of(e), {}, {}};
     for (std::size_t i = 0; i < 12; ++i) {
       work.force[i] = pressure.on_parts ? (*pressure.on_parts)[i] : pressure.value * unit[i];
-      work.size[i] = pressure.on_parts ? size_of(work.force[i]) : pressure.size * size_of(unit[i]);
+      work.size[i] = pressure.on_parts ? size_of(work.force[i]) : size_of(pressure.value) * size_of(unit[i]);
     }
     return work;
   }

@@ -214,10 +214,7 @@ std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load&
   }
   for (const placed_load& r : l.placed) add_rectangle(p, r, whole, part);
   std::vector<summed_pressure<Number>> all(p.elements());
-  for (int e = 0; e < p.elements(); ++e) {
-    all[e].value = nearest<Number>(whole[e]);
-    all[e].size = size_of(all[e].value);
-  }
+  for (int e = 0; e < p.elements(); ++e) all[e].value = nearest<Number>(whole[e]);
   const line<rational> along_x(p.x, p.x_runs);
   const line<rational> along_y(p.y, p.y_runs);
   for (const auto& [e, sum] : part) {

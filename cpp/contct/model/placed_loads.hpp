@@ -19,11 +19,10 @@ template <class Number>
 void for_each_exact_work(const beam& b, const load& l,
                          const std::function<void(int, const std::array<Number, 4>&)>& visit);
 
-/// The pressure on an element of a plate, and the magnitudes that it is the sum of.
+/// The pressure on an element of a plate.
 template <class Number>
 struct summed_pressure {
   Number value{};
-  double size = 0.0;
   /// Where some of it acts on a part of the element only: the work of all of it on the shape functions.
   std::optional<std::array<Number, 12>> on_parts = {};
 };

@@ -52,16 +52,6 @@ linear_structure build_kind(const model& m, const Kind& kind, std::span<const su
   return s;
 }
 
-void refuse_without_stiffness(const assembled& a, const linear_structure& s) {
-  for (int dof = 0; dof < s.dofs(); ++dof) {
-    const int row = s.row_of(dof);
-    if (s.stiffness.diagonal(row) > 0.0) continue;
-    throw std::invalid_argument(a.name + ": dof " + a.label_of(dof) +
-                                ": found no stiffness and no support; allowed: a positive entry on the "
-                                "diagonal, or a support");
-  }
-}
-
 linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<const support> supports,
                             std::vector<contact_pair> pairs) {
   linear_structure s;
@@ -74,7 +64,8 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   }
   s.rigid_rows.assign(a.dofs(), rigid_row{});
   put_on_supports(s, supports, std::move(pairs));
-  refuse_without_stiffness(a, s);
+  for (int dof = 0; dof < s.dofs(); ++dof)
+    if (!(s.stiffness.diagonal(s.row_of(dof)) > 0.0)) refuse_without_stiffness(a, dof);
 
   // These are the motions that the supports leave free: the supports hold none of them.
   free_motions motions;
@@ -151,6 +142,12 @@ int subdiagonals(const model& m) {
 linear_structure build(const model& m, std::span<const support> supports, std::vector<contact_pair> pairs) {
   return std::visit([&](const auto& kind) { return build_kind(m, kind, supports, std::move(pairs)); },
                     m.kind);
+}
+
+void refuse_without_stiffness(const assembled& a, int dof) {
+  throw std::invalid_argument(a.name + ": dof " + a.label_of(dof) +
+                              ": found no stiffness and no support; allowed: a positive entry on the "
+                              "diagonal, or a support");
 }
 
 void add_consistent_loads(const model& m, const load& l, std::span<double> f) {

@@ -217,6 +217,9 @@ struct model {
 [[nodiscard]] linear_structure build(const model& m, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 
+/// Throws std::invalid_argument for a dof of a matrix that has neither stiffness nor support.
+[[noreturn]] void refuse_without_stiffness(const assembled& a, int dof);
+
 /// Add the consistent load vector of `l` to `f` [dofs]. Loads on a matrix are forces at dofs. Point loads at
 /// one dof that are 0 as decimals are no load: 0.1, 0.2 and -0.3. Throws std::invalid_argument for a
 /// distributed load on a plate that is not constant.

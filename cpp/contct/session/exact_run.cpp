@@ -39,10 +39,7 @@ auto naming(const std::string& name, const Find& find) {
 void refuse_indefinite(const assembled& a, const problem& of, const exact_problem& p) {
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     if (p.fixed[dof] == 0 && p.stiffness[dof].at(static_cast<int>(dof)) == 0)
-      throw std::invalid_argument(
-          fmt::format("{}: dof {}: found no stiffness and no support; allowed: a positive entry on the "
-                      "diagonal, or a support",
-                      a.name, a.label_of(static_cast<int>(dof))));
+      refuse_without_stiffness(a, static_cast<int>(dof));
   const definiteness found = naming(a.name, [&] { return definiteness_of(of, p); });
   if (found.semidefinite) return;
   if (!found.shown)
