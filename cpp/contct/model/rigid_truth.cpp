@@ -55,6 +55,7 @@ struct rigid_shape {
   }
   /// The straight part that begins at a node or goes through it, or ends at the last one.
   [[nodiscard]] std::size_t part_of(int node) const {
+    if (corners.empty()) return 0;
     const auto right = std::upper_bound(corners.begin(), corners.end() - 1, node);
     return std::min<std::size_t>(right - corners.begin(), corners.size() - 1) - 1;
   }
@@ -84,19 +85,17 @@ struct rigid_shape {
   }
 
   [[nodiscard]] row row_of(int dof) const {
+    const Number x = along_x.points().at(column_of(dof));
+    if (!along_y) return along_beam(x, part_of(static_cast<int>(column_of(dof))), kind_of(dof) != 0);
     row all(motions());
     const Number one(1);
-    if (!corners.empty()) {
-      const std::size_t column = column_of(dof);
-      return along_beam(along_x.points().at(column), part_of(static_cast<int>(column)), kind_of(dof) != 0);
-    }
     if (kind_of(dof) != 0) {
       all[kind_of(dof)] = one / (kind_of(dof) == 1 ? along_x : *along_y).half();
       return all;
     }
     all[0] = one;
-    all[1] = along_x.across(along_x.points().at(column_of(dof)));
-    if (along_y) all[2] = along_y->across(along_y->points().at(line_of(dof)));
+    all[1] = along_x.across(x);
+    all[2] = along_y->across(along_y->points().at(line_of(dof)));
     return all;
   }
 };
@@ -220,8 +219,13 @@ struct rigid_truth::shape : rigid_shape<rational> {
       });
       return;
     }
-    if (d.elements.empty()) add_elements(q[0], 0, 0, columns, along_y->points().intervals(), work);
-    for (const int e : d.elements) add_elements(q[0], e % columns, e / columns, 1, 1, work);
+    const auto add_elements = [&](int left, int below, int beside, int above) {
+      const line<rational>& x = along_x.points();
+      const line<rational>& y = along_y->points();
+      add_rectangle(q[0], {x.at(left), x.at(left + beside)}, {y.at(below), y.at(below + above)}, work);
+    };
+    if (d.elements.empty()) add_elements(0, 0, columns, along_y->points().intervals());
+    for (const int e : d.elements) add_elements(e % columns, e / columns, 1, 1);
   }
 
   /// A curvature does no work.
@@ -243,22 +247,17 @@ struct rigid_truth::shape : rigid_shape<rational> {
   }
 
  private:
+  /// Motions are linear along a straight part: its load works as two forces at the ends.
   void add_strip(const rational_vector& q, const rational& from, const rational& to,
                  rational_vector& work) const {
-    if (corners.empty()) {
-      const rational force = integral_of<rational>({1}, q, from, to);
-      work[0] += force;
-      work[1] += integral_of<rational>({0, 1}, q, from, to) / along_x.half() + force * along_x.across(0);
-      return;
-    }
-    for (std::size_t part = 0; part + 1 < corners.size(); ++part) {
-      const rational& left = std::max(from, corner_x[part]);
-      const rational& right = std::min(to, corner_x[part + 1]);
+    const std::size_t parts = corners.empty() ? 1 : corners.size() - 1;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const rational left = corners.empty() ? from : std::max(from, corner_x[part]);
+      const rational right = corners.empty() ? to : std::min(to, corner_x[part + 1]);
       if (left >= right) continue;
-      const rational at_right =
-          integral_of<rational>({-corner_x[part], 1}, q, left, right) / (corner_x[part + 1] - corner_x[part]);
-      work[part] += integral_of<rational>({1}, q, left, right) - at_right;
-      work[part + 1] += at_right;
+      const rational at_right = integral_of<rational>({-left, 1}, q, left, right) / (right - left);
+      add(work, along_beam(left, part, false), integral_of<rational>({1}, q, left, right) - at_right);
+      add(work, along_beam(right, part, false), at_right);
     }
   }
 
@@ -270,15 +269,6 @@ struct rigid_truth::shape : rigid_shape<rational> {
     work[0] += force;
     work[1] += force * along_x.across((x.first + x.second) / 2);
     work[2] += force * along_y->across((y.first + y.second) / 2);
-  }
-
-  /// On so many elements beside and above that one.
-  void add_elements(const rational& pressure, int left, int below, int beside, int above,
-                    rational_vector& work) const {
-    const auto of = [](const centred_line<rational>& l, int first, int count) {
-      return ends(l.points().at(first), l.points().at(first + count));
-    };
-    add_rectangle(pressure, of(along_x, left, beside), of(*along_y, below, above), work);
   }
 };
 
