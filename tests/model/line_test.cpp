@@ -12,9 +12,15 @@ using namespace contct;
 
 namespace {
 
+std::vector<element_piece> pieces_on(const beam& b, const load& l, int element) {
+  const auto all = pieces_of(b, l);
+  const auto* const pieces = pieces_at(all, element);
+  return pieces == nullptr ? std::vector<element_piece>{} : *pieces;
+}
+
 /// The coefficients of the load on an element that it does not break.
 std::vector<double> load_on(const beam& b, const load& l, int element) {
-  const std::vector<element_piece> pieces = pieces_of(b, l).at(element);
+  const std::vector<element_piece> pieces = pieces_on(b, l, element);
   REQUIRE(pieces.size() == 1);
   std::vector<double> q;
   for (const double_double& coefficient : pieces[0].q) q.push_back(coefficient.hi);
@@ -113,16 +119,26 @@ TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element tha
   const load l{{}, {{sixth_power, {}}}};
   CHECK(load_on(b, l, 0) == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
   CHECK(load_on(b, l, 1) == std::vector<double>{1, 12, 60, 160, 240, 192, 64});  // (1 + 2 t)^6
-  CHECK(pieces_of(b, l).at(0)[0].size == 1.0);
+  CHECK(pieces_on(b, l, 0).at(0).size == 1.0);
 }
 
 TEST_CASE("Parts of a load add up exactly before they are shifted to an element") {
   const beam b{{0.0, 1.0, 2.0}, {1, 1}};
   load l{{}, {{{0.1 + 0.2 - 0.3}, {1}, {{{0.1}}, {{0.2}}, {{-0.3}}}}}};
   CHECK(load_on(b, l, 1) == std::vector<double>{0.0});
-  CHECK(pieces_of(b, l).size() == 1);
-  CHECK(pieces_of(b, l).at(1)[0].size == 0.0);
+  CHECK(pieces_on(b, l, 0).empty());
+  CHECK(pieces_on(b, l, 1).at(0).size == 0.0);
   l.distributed.push_back({{4.0, 2.0}, {}});
   CHECK(load_on(b, l, 0) == std::vector<double>{4.0, 2.0});
   CHECK(load_on(b, l, 1) == std::vector<double>{6.0, 2.0});
+}
+
+TEST_CASE("Equal elements under the same constant loads have their pieces once") {
+  const beam b{{0.0, 0.1, 0.2, 0.3, 0.7}, {1, 1, 1, 1}};
+  const auto all = pieces_of(b, {{}, {{{4.0}, {}}, {{2.0}, {1, 2, 3}}}});
+  REQUIRE(all.size() == 3);
+  CHECK(all.at(0).last == 0);
+  CHECK(all.at(1).last == 2);
+  CHECK(all.at(3).last == 3);  // of another length
+  CHECK(pieces_at(all, 2)->at(0).q[0] == 6.0);
 }

@@ -231,8 +231,8 @@ beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
 }
 
 bool beam_lines::is_broken(int e) const {
-  const auto found = pieces_.find(e);
-  return found != pieces_.end() && (found->second.size() > 1 || !found->second[0].is_plain());
+  const auto* const on = pieces_at(pieces_, e);
+  return on != nullptr && (on->size() > 1 || !on->front().is_plain());
 }
 
 namespace {
@@ -300,9 +300,8 @@ double sum_of_sizes(const poly& p) {
 
 element_line beam_lines::at(int e) const {
   const double h = h_[e];
-  const auto found = pieces_.find(e);
-  const bool is_loaded = found != pieces_.end() && !is_broken(e);
-  const poly q = is_loaded ? in_doubles(found->second[0].q) : poly{};
+  const auto* const on = is_broken(e) ? nullptr : pieces_at(pieces_, e);
+  const poly q = on != nullptr ? in_doubles(on->front().q) : poly{};
   const line_of<double> line({w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]}, q, h,
                              beam_.EI[e], 0.0);
   return completed({beam_.x[e],
@@ -313,7 +312,7 @@ element_line beam_lines::at(int e) const {
                     line.moment,
                     line.shear,
                     q,
-                    is_loaded ? found->second[0].size : 0.0});
+                    on != nullptr ? on->front().size : 0.0});
 }
 
 /// From the left in 32 digits: each coefficient is then rounded once. What that is off by is below 2^-80 of
@@ -323,7 +322,7 @@ std::vector<element_line> beam_lines::pieces(int e) const {
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
   std::vector<element_line> all;
   double size = 0.0;
-  for (const element_piece& p : pieces_.at(e)) {
+  for (const element_piece& p : *pieces_at(pieces_, e)) {
     left.shear += p.force;
     left.moment -= p.moment;  // of a moment that works on the slope
     const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);
@@ -337,6 +336,8 @@ std::vector<element_line> beam_lines::pieces(int e) const {
     left = line.right_end(p.h);
   }
   for (element_line& line : all) line.load_size = size;
+  all.front().left = beam_.x[e];
+  all.back().right = beam_.x[e + 1];
   return all;
 }
 

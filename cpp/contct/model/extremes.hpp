@@ -45,8 +45,8 @@ class beam_lines {
   const beam& beam_;
   std::span<const double> u_;
   element_results ends_;
-  std::vector<double> h_;                             // of each element
-  std::map<int, std::vector<element_piece>> pieces_;  // of those that something acts on
+  std::vector<double> h_;  // of each element
+  std::map<int, alike_pieces> pieces_;
 };
 
 /// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the

@@ -102,6 +102,11 @@ class line {
     return length_in(part_from(interval));
   }
 
+  [[nodiscard]] bool are_equal(std::size_t interval, std::size_t other) const {
+    const bool are_parts_of_one = !parts_.empty() && &part_from(interval) == &part_from(other);
+    return are_parts_of_one || length(interval) == length(other);
+  }
+
   [[nodiscard]] std::vector<Number> lengths() const {
     std::vector<Number> all;
     all.reserve(intervals());

@@ -47,29 +47,29 @@ struct acting {
 /// All loads on a beam, element by element.
 class beam_sources {
  public:
-  beam_sources(const beam& b, const load& l)
-      : beam_(b), points_(b.x, b.runs), h_(points_.lengths()), on_(b.elements()) {
+  beam_sources(const beam& b, const load& l) : beam_(b), points_(b.x, b.runs) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
     for (const distributed_load& d : l.distributed) {
-      for_each_loaded_element(d, b.elements(), [this](int e) { on_[e].push_back(all_.size()); });
+      if (d.elements.empty()) on_all_.push_back(all_.size());
+      for (const int e : d.elements) put_on(e);
       all_.push_back({load_kind::force, -everywhere, everywhere, coefficients_of<rational>(d)});
     }
     for (const placed_load& p : l.placed) {
       const auto [first, last] = intervals_of(b.x, p.from, p.to);
-      for (int e = first; e <= last; ++e) on_[e].push_back(all_.size());
+      for (int e = first; e <= last; ++e) put_on(e);
       all_.push_back({p.what, p.from, p.to, coefficients_of<rational>(p)});
     }
   }
 
-  [[nodiscard]] bool acts_on(int e) const { return !on_[e].empty(); }
-  [[nodiscard]] const rational& h(int e) const { return h_[e]; }
+  [[nodiscard]] bool acts_on(int e) const { return !sources_on(e).empty(); }
+  [[nodiscard]] rational h(int e) const { return points_.length(e); }
   [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
   /// The coordinate of a place in an element.
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
 
   [[nodiscard]] std::vector<acting> on(int e) const {
     std::vector<acting> all;
-    for (const std::size_t i : on_[e]) {
+    for (const std::size_t i : sources_on(e)) {
       const source& s = all_[i];
       acting a{s.what, part_of(points_, beam_.x, e, s.from, s.to), s.values};
       if (s.what == load_kind::force && s.values.size() > 1)
@@ -87,16 +87,27 @@ class beam_sources {
       return s.values.size() == 1 && s.from <= beam_.x[std::min(e, other)] &&
              s.to >= beam_.x[std::max(e, other) + 1];
     };
-    return on_[e] == on_[other] && beam_.is_alike(e, other) && h_[e] == h_[other] &&
-           std::all_of(on_[e].begin(), on_[e].end(), is_same_on_both);
+    const std::vector<std::size_t> own = sources_on(e);
+    return own == sources_on(other) && beam_.is_alike(e, other) && points_.are_equal(e, other) &&
+           std::all_of(own.begin(), own.end(), is_same_on_both);
   }
 
  private:
+  void put_on(int e) {
+    on_.resize(beam_.elements());
+    on_[e].push_back(all_.size());
+  }
+  [[nodiscard]] std::vector<std::size_t> sources_on(int e) const {
+    std::vector<std::size_t> some = on_all_;
+    if (!on_.empty()) some.insert(some.end(), on_[e].begin(), on_[e].end());
+    return some;
+  }
+
   const beam& beam_;
   line<rational> points_;
-  rational_vector h_;
   std::vector<source> all_;
-  std::vector<std::vector<std::size_t>> on_;  // [elements] which of them
+  std::vector<std::size_t> on_all_;           // which of them act on every element
+  std::vector<std::vector<std::size_t>> on_;  // [elements] which others; empty: none
 };
 
 /// Add the work of `a` on Hermite's functions. An imposed curvature does that of EI curvature on their
@@ -228,31 +239,31 @@ std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load&
   return all;
 }
 
-std::map<int, std::vector<element_piece>> pieces_of(const beam& b, const load& l) {
-  std::map<int, std::vector<element_piece>> all;
+std::map<int, alike_pieces> pieces_of(const beam& b, const load& l) {
+  std::map<int, alike_pieces> all;
   const beam_sources sources(b, l);
   for (int e = 0; e < b.elements(); ++e) {
     if (!sources.acts_on(e)) continue;
-    std::vector<element_piece>& pieces = all[e];
     if (e > 0 && sources.are_alike(e, e - 1)) {
-      pieces = all[e - 1];
-      pieces[0].left = b.x[e];
-      pieces[0].right = b.x[e + 1];
+      all.rbegin()->second.last = e;
       continue;
     }
     const std::vector<acting> on = sources.on(e);
     const std::vector<rational> cuts = cuts_of(on);
-    const auto x_at = [&](std::size_t cut) {
-      if (cut == 0) return b.x[e];
-      return cut + 1 == cuts.size() ? b.x[e + 1] : contct::rounded(sources.x_at(e, cuts[cut]));
-    };
+    std::vector<element_piece>& pieces = all.emplace(e, alike_pieces{e, {}}).first->second.pieces;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       pieces.push_back(piece_between(on, cuts[i], cuts[i + 1], sources.h(e), sources.EI(e)));
-      pieces.back().left = x_at(i);
-      pieces.back().right = x_at(i + 1);
+      pieces.back().left = contct::rounded(sources.x_at(e, cuts[i]));
+      pieces.back().right = contct::rounded(sources.x_at(e, cuts[i + 1]));
     }
   }
   return all;
+}
+
+const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all, int element) {
+  const auto next = all.upper_bound(element);
+  if (next == all.begin() || std::prev(next)->second.last < element) return nullptr;
+  return &std::prev(next)->second.pieces;
 }
 
 template void for_each_exact_work(const beam&, const load&,

@@ -32,7 +32,7 @@ template <class Number>
 
 /// A part of a beam's element along which everything that acts is one polynomial, rounded once.
 struct element_piece {
-  double left, right;               ///< x of its ends
+  double left, right;               ///< x of its ends, those within the element
   double_double h, EI;              ///< its length and its stiffness
   std::vector<double_double> q;     ///< the load, in t from 0 to 1 along the piece, constant first
   double_double curvature;          ///< imposed: M = EI (w'' - curvature)
@@ -41,7 +41,15 @@ struct element_piece {
 
   [[nodiscard]] bool is_plain() const { return curvature == 0.0 && force == 0.0 && moment == 0.0; }
 };
-/// The loads of every loaded element, from its left end to its right one.
-[[nodiscard]] std::map<int, std::vector<element_piece>> pieces_of(const beam& b, const load& l);
+/// Those of an element, from its left end to its right one, and of all up to `last`, which are alike.
+struct alike_pieces {
+  int last;
+  std::vector<element_piece> pieces;
+};
+/// Of every element that something acts on, by the first of those that are alike.
+[[nodiscard]] std::map<int, alike_pieces> pieces_of(const beam& b, const load& l);
+/// Null where nothing acts.
+[[nodiscard]] const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all,
+                                                          int element);
 
 }  // namespace contct
