@@ -81,7 +81,7 @@ TEST_CASE("a quotient that is rounded twice is told line 38, and a GAP of the wr
 }
 
 TEST_CASE(
-    "pairs toggled up to another DIFF are told line 52; a larger DIFF toggled without a smaller one, line "
+    "pairs toggled up to another DIFF are told line 52, and a larger DIFF toggled without a smaller one line "
     "51") {
   fault_finder threshold, no_threshold;
   const auto toggle = [](std::size_t i) { return [i](call_outputs& o) { o.isep[i] = in_contact; }; };

@@ -35,7 +35,7 @@ TEST_CASE("JSON of every kind of value is read as TOML's twin") {
   CHECK(top["d"].is_table());
 }
 
-TEST_CASE("what is no JSON is refused with line and column") {
+TEST_CASE("text that is not JSON is refused with line and column") {
   check_refusals(
       {
           {"", "f.json:1:1: ", "the end", "an object"},

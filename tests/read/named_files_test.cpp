@@ -1,10 +1,9 @@
 // A problem file names files below its own folder, and others only where that is allowed.
-#include "contct/read/toml_reader.hpp"
-
 #include <filesystem>
 #include <string>
 
 #include "catch.hpp"
+#include "contct/read/toml_reader.hpp"
 #include "contct/text/input_text.hpp"
 #include "support/scratch_folder.hpp"
 

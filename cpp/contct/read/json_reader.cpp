@@ -22,7 +22,7 @@ class json_parser {
   }
 
  private:
-  /// The next character that is no blank, where the parser stays; 0 at the end.
+  /// the next character that is not a blank, where the parser stays; 0 at the end.
   char next() {
     at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
     return at_ < text_.size() ? text_[at_] : '\0';

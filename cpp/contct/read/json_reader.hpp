@@ -10,8 +10,8 @@ struct json_tree {
   toml_places places;
 };
 
-/// Parse a whole document, an object. Throws input_error with line and column for what is no JSON, a null, a
-/// key that an object has twice, and values that are more than 16 deep.
+/// Parse a whole document, an object. Throws input_error with line and column for text that is not JSON, a
+/// null, a key that an object has twice, and values that are more than 16 deep.
 [[nodiscard]] json_tree parse_json(std::string_view text, std::string_view file);
 
 }  // namespace contct

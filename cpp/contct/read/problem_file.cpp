@@ -179,9 +179,8 @@ class problem_reader {
     if (!t.has("other")) return none;
     const toml_value other = t["other"];
     if (!nodes_->on_matrix())
-      other.refuse(
-          "this key with a beam or a plate",
-          "a face, which a step can move; structures with a gap between them are one [matrix]");
+      other.refuse("this key with a beam or a plate",
+                   "a face, which a step can move; structures with a gap between them are one [matrix]");
     std::vector<int> others = nodes_->labelled(other, at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (others[i] == at[i])

@@ -81,9 +81,9 @@ CONTCT_SERVE_EXPORT char* contct_explain(const char* problem, const char* option
 
 /* Bounds on the errors of states from elsewhere. "result" is as contct_run's, without increments: `w`,
  * `pairs`, `error` and `certificate` of each state as it was given.
- *   "displacement"  [[..], ..]: a state for each of the first steps, every dof, under the step's whole load. A
- *                   pair counts as closed where the state touches or enters its face
- *   "closed"        [[..], ..]: the pairs that are closed instead, from 1 */
+ *   "displacement"  [[..], ..]: a state for each of the first steps, every dof, under the step's whole load.
+ * A pair counts as closed where the state touches or enters its face "closed"        [[..], ..]: the pairs
+ * that are closed instead, from 1 */
 CONTCT_SERVE_EXPORT char* contct_certify(const char* problem, const char* options);
 
 /* One call of a kernel: the arguments of contct_kernel (contct/kernel/plugin.h), behind the kernel's name.
