@@ -31,6 +31,7 @@ listing_line line_of(std::size_t suspect) {
 constexpr std::int64_t most_calls = 1000;
 constexpr std::int64_t most_pairs = 500'000;  // of all calls that are looked at: their time
 constexpr double number_bits = 64.0;          // to tell a number that follows no rule
+constexpr double always_bits = 30.0;          // where what goes wrong every time did not
 constexpr double unexplained_bits = 200.0;    // for a value that the line cannot have made wrong
 
 /// log2 of the number of ways to choose `k` of `n`.
@@ -76,7 +77,8 @@ double value_bits(suspect& s, Real got, Real right, double for_rounding, rule re
 /// What the listing makes of one pair if its dof is `dof`, from 0: NaN where the call has no such dof.
 template <class Real>
 struct pair_values {
-  Real gap, d_star, sschk, event, at_face, moving, s;  // at_face and moving: s if that branch were taken
+  Real gap, d_star, sschk, event, delta_first, at_face, moving,
+      s;  // at_face and moving: s if that branch were taken
   bool responds, is_stationary, check;
 
   pair_values(const call<Real>& c, int status, std::size_t i, std::int64_t dof) {
@@ -88,6 +90,7 @@ struct pair_values {
     gap = c.cc[i] - (is_there ? c.dd[dof] : nan);
     sschk = static_cast<Real>(status * c.isurf[i]) / d_star;
     event = sschk * delta;
+    delta_first = static_cast<Real>(status * c.isurf[i]) * delta / d_star;  // the product in another order
     check = sschk > Real(0);
     at_face = check ? event : Real(1);
     moving = gap / d_star;
@@ -279,8 +282,11 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   if (!wrong || of_a_gap) assigns(at(l::gap), 5.0);
   if (!wrong || got >= Real(0)) assigns(at(l::check_variable), 5.0);
   suspects_[at(l::check_variable)].bits += wrong ? 1.0 : 0.0;  // a ratio that repeats is rather that of DELTA
-  assigns(p.check ? at(l::if_check_positive, wrong_product) : at(l::stationary), 3.0,
-          p.check ? rule::ratio : rule::any);
+  if (!p.check) return assigns(at(l::stationary), 3.0);
+  if (!wrong || !same_bits(got, p.delta_first))
+    return assigns(at(l::if_check_positive, wrong_product), 3.0, rule::ratio);
+  ++suspects_[at(l::if_check_positive, wrong_product)].reached;
+  explain_one(suspects_[at(l::if_check_positive, wrong_product)], 1.0);
 }
 
 /// SS that were left as they came: from where, and what the pair before them did.
@@ -410,9 +416,13 @@ void fault_finder::note_toggle(int before, int got, Real diff_now, const std::op
   const bool other_branch = got == (was_separated ? if_false : if_true);
   const auto [seen, first] = separated_.emplace(before, other_branch != was_separated);
   const bool same_as_before = seen->second == (other_branch != was_separated);
+  // A statement that sets ISEP sets it to the same for each status.
+  const bool is_usual = set_to_.emplace(before, got).first->second == got;
+  assigned.bits += is_usual ? 0.0 : always_bits;
   if (!wrong) return;
-  explain_one(assigned,
-              got == before || got == -before || got == static_cast<int>(assigned.last_value) ? 1.0 : 8.0);
+  if (is_usual)
+    explain_one(assigned,
+                got == before || got == -before || got == static_cast<int>(assigned.last_value) ? 1.0 : 8.0);
   assigned.last_value = got;
   const bool told_so = !told || (*told == change::make) == !was_separated;
   if (other_branch && same_as_before && told_so)
@@ -470,7 +480,7 @@ std::optional<faulty_line> fault_finder::found() const {
     else if (name != at(l::if_separated))
       bits += choice_bits(s.reached, s.wrong);
     if (std::ranges::find(always, name) != std::end(always))
-      bits += 30.0 * static_cast<double>(s.reached - s.wrong);
+      bits += always_bits * static_cast<double>(s.reached - s.wrong);
     if (bits >= least) continue;
     least = bits;
     best = name;

@@ -77,6 +77,7 @@ class fault_finder {
   std::uint32_t digest_ = 2166136261U;
   double last_smin_ = not_an_answer;
   std::vector<std::size_t> left_by_;  // suspects that explain where this call's DO 10 loop was left
+  std::map<int, int> set_to_;         // by status, what the other's lines 55 and 58 set
   std::map<int, bool> separated_;     // by status, how the other's IF (ISEP(I).EQ.1) went
   // DIFF, by how the other's IF (DIFF.LT.EPSMUL) went.
   double least_true_ = std::numeric_limits<double>::infinity();
