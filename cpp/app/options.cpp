@@ -131,9 +131,10 @@ void add_reports(CLI::App* command, report_options& o) {
 
 template <class Options>
 void add_kernel_report(CLI::App* command, Options& o) {
-  add_file(command, "--report", o.kernel_report,
-           "Write the identity of the one kernel that is checked, what was compared and the closest equality "
-           "that holds to this file (- is standard output)");
+  add_file(
+      command, "--report", o.kernel_report,
+      "Write a report on the kernel that is checked to this file (- is standard output): its identity, what "
+      "was compared, the closest equality that holds");
   add_file(command, "--badge", o.badge, "Write the same as a badge, an SVG picture, to this file");
 }
 
@@ -206,10 +207,10 @@ void declare_pictures(CLI::App* c, run_options& o) {
 void declare_run(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<run_options>(c);
   add_problem(c, o);
-  add_kernels(
-      c, "--kernels", o.kernels,
-      "Kernels to run, the first one leads [both rules: corrected gives the answer, and fortran and cpp "
-      "in lockstep follow the 1989 path beside it; under --free-run fortran,cpp]");
+  add_kernels(c, "--kernels", o.kernels,
+              "Kernels to run, the first one leads [corrected, which gives the answer, and besides fortran "
+              "and cpp in "
+              "lockstep on the 1989 path; under --free-run fortran,cpp]");
   c->add_option(
       "--engine", o.engine,
       fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
@@ -285,7 +286,7 @@ void declare_exact(option_parser& p, CLI::App* c) {
       ->capture_default_str();
   add_kernels(c, "--kernels", o.kernels, "Kernels to compare with it, each in free run");
   c->add_option("--digits", o.digits,
-                "Rational numbers of more digits than this are printed as decimals with this many")
+                "Print a rational number that has more digits than this as a decimal of this many digits")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   add_file(c, "--json", o.json, "Write every number as \"p/q\" to this file (- is standard output)");

@@ -74,7 +74,7 @@ TEST_CASE("a bound where nothing is allowed is the worst of all, and so is NaN")
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
   CHECK(worst_bound(error, allowed) ==
-        "a contact force may be off by 1e-20, and no load and no number of its kind gives it a size");
+        "a contact force may be off by 1e-20, and there is no load or number of its kind to compare it with");
   error[quantity::force] = 0.0;
   CHECK(worst_share(error, allowed) == 0.0);
   error[quantity::w] = std::numeric_limits<double>::quiet_NaN();

@@ -109,7 +109,7 @@ std::string worst_bound(const by_quantity& error, const by_quantity& allowed, co
   words.append(name_of_kind(kind)).append(" may be off by ").append(size);
   if (of != nullptr) words += unit_of(*of, kind);
   return words + (std::isfinite(worst) ? ", " + percent_words(worst) + " of the largest"
-                                       : ", and no load and no number of its kind gives it a size");
+                                       : ", and there is no load or number of its kind to compare it with");
 }
 
 }  // namespace contct

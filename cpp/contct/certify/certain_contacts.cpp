@@ -139,7 +139,7 @@ std::string certain_contacts::search(std::span<const double_double> u, const lon
     b.rho = *rho;
     return "";
   }
-  return "which pairs are in contact is not certain";
+  return "it is not certain which pairs are in contact";
 }
 
 bool certain_contacts::find(std::span<const double_double> u, const long_residual& r, contact_set& b) {

@@ -121,7 +121,7 @@ void refuse_repeated(std::span<const read_entry> entries, std::string_view file)
   refuse_line(file, std::next(same)->line,
               fmt::format("the place of row {} and column {} again, which line {} has", same->row + 1,
                           same->column + 1, same->line),
-              "each place once: sum what belongs together");
+              "each place once: write the sum of its entries");
 }
 
 /// Refuse a negative diagonal, and an entry in a row or column that has 0 on its diagonal.

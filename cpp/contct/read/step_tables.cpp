@@ -267,9 +267,9 @@ class step_reader {
         fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
                     here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
                                          : "no support holds, so that loads decide where it goes"),
-        paired_.contains(node) && dof == 0 ? "a dof that a [[support]] fixes, by fix; move, written like "
-                                             "settlement, moves the face of a pair"
-                                           : "a dof that a [[support]] fixes, by fix");
+        paired_.contains(node) && dof == 0 ? "a dof that fix of a [[support]] names; to move the face of a "
+                                             "pair, use move, written like settlement"
+                                           : "a dof that fix of a [[support]] names");
   }
 
   void read_settlements(const toml_value& t, load& l) const {

@@ -173,7 +173,7 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   if (end.status == path_status::not_factored || run.told.explained() == 0)
     throw std::invalid_argument(
         end.status == path_status::solved
-            ? fmt::format("{}: no increment is explained: the path has no such one", r.file())
+            ? fmt::format("{}: found no increment to explain: the path has none of this number", r.file())
             : r.file() + ": " + end_words(p, end));
   written.finish(status_name(end.status, run.equal()), run.told);
   for (const std::string& line : end_lines(p, end)) a.messages.push_back(r.file() + ": " + line);

@@ -320,7 +320,8 @@ json step_json(const step_proof& s) {
 std::string reason_without_proof(const std::optional<certificate>& c) {
   if (!c) return "the step did not reach its load";
   if (!c->proved) return c->problem;
-  if (!c->unique) return "the structure balances, which this proof does not cover";
+  if (!c->unique)
+    return "a rigid-body motion is free on which the load does no work, which this proof does not cover";
   return "the bounds are proved with a sparse factor, which is not written";
 }
 

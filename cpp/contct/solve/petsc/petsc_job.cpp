@@ -280,7 +280,7 @@ class shared_factor final : public sparse_factor {
 
  private:
   static std::logic_error cannot_be_read() {
-    return std::logic_error("a factor that ranks share cannot be read");
+    return std::logic_error("the entries of a factor that MPI ranks share cannot be read");
   }
   petsc_job& job_;
   int number_;
