@@ -7,14 +7,10 @@
 #include "contct/model/problem.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
+#include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
-
-/// "1 node", "3 nodes".
-[[nodiscard]] inline std::string counted(std::size_t n, std::string_view what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
 
 /// The names that --engine takes: auto, those of this process, and "petsc".
 [[nodiscard]] std::vector<std::string> engine_choices();

@@ -58,16 +58,16 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   const std::unique_ptr<class kernel> k = make_kernel(kernel);
   progress shown(1, "trace", quiet);
   const replay_report r = replay(
-      h, calls, *k,
-      [&shown, &file](std::int64_t done) { shown.say(fmt::format("{}: {} calls", file, done)); },
+      h, calls, *k, [&shown, &file](std::int64_t done) { shown.say(file + ": " + counted(done, "call")); },
       std::exchange(all.faults[kernel], {}));
   all.faults[kernel] = r.faults;
   shown.erase();
   if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
   const floating_point fp = probe_floating_point();
   result.what = passed_if(r.compared.mismatches == 0);
-  result.summary = fmt::format("{}; {} calls, {} values compared, {} mismatches", verdict_of(r, fp), r.calls,
-                               r.compared.values, r.compared.mismatches);
+  result.summary =
+      fmt::format("{}; {}, {} compared, {}", verdict_of(r, fp), counted(r.calls, "call"),
+                  counted(r.compared.values, "value"), counted(r.compared.mismatches, "mismatch"));
   all.add(file, text, r, r.first ? words_of(*r.first)[0] : "");
   if (!r.first) return result;
   result.details = joined(words_of(*r.first), "\n") + "\n";

@@ -25,7 +25,7 @@ std::vector<long_work> long_works() {
           {"exact", {"exact", "plate.toml"}, "step 2 of 2, increment "},
           {"verify", {"verify", "--reference", CONTCT_ROOT "/reference"}, " problems"},
           {"fuzz", {"fuzz", "--calls", "2000"}, " % of "},
-          {"replay", {"replay", CONTCT_ROOT "/reference/traces/ties.trace"}, "ties.trace: 1 calls"}};
+          {"replay", {"replay", CONTCT_ROOT "/reference/traces/ties.trace"}, "ties.trace: 1 call"}};
 }
 
 /// At a terminal whose owner waits for so many seconds before he wonders.

@@ -71,5 +71,5 @@ TEST_CASE("the trace that the format's page shows is one, and FORTRAN and C++ an
   const finished f = contct_program(root, {"replay", "--kernel", "fortran,cpp", "-"}, shown);
   INFO(f.out << f.err);
   CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Catch::Matchers::Contains("1 calls") && Catch::Matchers::Contains("2 passed, 0 failed"));
+  CHECK_THAT(f.out, Catch::Matchers::Contains("1 call, ") && Catch::Matchers::Contains("2 passed, 0 failed"));
 }

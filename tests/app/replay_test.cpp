@@ -61,7 +61,7 @@ TEST_CASE("a trace whose answer differs is exit 1, with the branch margin, and a
       contct_program(dir.path(), {"replay", "d.trace", "--junit", "r.xml", "--markdown", "r.md"});
   CHECK(f.exit == 1);
   CHECK_THAT(f.err, Contains("differs in text, line 1") && Contains("branch margin: "));
-  CHECK_THAT(f.out, Contains("mismatch; 6 calls, 24 values compared, 1 mismatches"));
+  CHECK_THAT(f.out, Contains("mismatch; 6 calls, 24 values compared, 1 mismatch"));
   CHECK_THAT(dir.read("r.xml"), Contains("failures=\"1\""));
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
 }

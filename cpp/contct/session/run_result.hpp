@@ -18,6 +18,7 @@
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 #include "contct/path/path_observers.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct {
 
@@ -152,8 +153,8 @@ struct run_result {
 /// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.
 template <class Comparing>
 [[nodiscard]] std::string counts_of(const Comparing& c) {
-  return fmt::format("{} calls, {} values compared, {} mismatches", c.calls(), c.compared().values,
-                     c.compared().mismatches);
+  return fmt::format("{}, {} compared, {}", counted(c.calls(), "call"), counted(c.compared().values, "value"),
+                     counted(c.compared().mismatches, "mismatch"));
 }
 
 /// A title for people: the problem's, or its file's name.

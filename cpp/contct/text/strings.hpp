@@ -13,6 +13,9 @@ namespace contct {
 /// compile wherever it is used.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view between);
 
+/// "1 node", "3 nodes", "2 mismatches".
+[[nodiscard]] std::string counted(std::size_t n, std::string_view what);
+
 /// Without capitals, of ASCII.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
