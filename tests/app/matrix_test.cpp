@@ -25,6 +25,9 @@ TEST_CASE(
   const finished f = contct_program(here.path(), {"run", "p.toml"});
   CHECK_THAT(f.err, Contains("it is not certain that the matrix is positive semidefinite"));
   CHECK_THAT(f.err, !Contains("--kernels corrected"));
+  CHECK_THAT(f.err, Contains("a [[support]] with a weak spring at such a dof helps"));
+  here.write("p.toml", here.read("p.toml") + "[[support]]\ndof = \"1\"\nspring = 1e-6\n");
+  CHECK(contct_program(here.path(), {"run", "p.toml", "--strict"}).exit == 0);  // |K| = 1e-6 - 2e-11 now
 }
 
 TEST_CASE("a matrix in sparse storage is solved by every engine, and certified") {

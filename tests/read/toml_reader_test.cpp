@@ -166,3 +166,17 @@ TEST_CASE("a decimal comma is recognised in a line that is not TOML, and only th
   }
   CHECK_THAT(refusal("n = [4,0]", [](const toml_value& t) { return t["n"].real(any_real); }), Contains(hint));
 }
+
+TEST_CASE("a text without quotes and a name with blanks are recognised in a line that is not TOML") {
+  const auto nothing = [](const toml_value&) { return 0; };
+  for (const char* line : {"n = Crane", "n = tower", "n=below", "n = { a = crane }", "n = [w, theta]"}) {
+    INFO(line);
+    CHECK_THAT(refusal(line, nothing), Contains("not TOML") && Contains("(text stands in quotes)"));
+  }
+  for (const char* line : {"Q pos. 1 = 1.5", "n = { Q pos. 1 = 1.5 }"})
+    CHECK_THAT(refusal(line, nothing), Contains("(a name with blanks stands in quotes)"));
+  for (const char* line : {"n = 4 5", "n = [1, 2", "n = \"Crane", "n 4", "n =", "= 1"}) {
+    INFO(line);
+    CHECK_THAT(refusal(line, nothing), Contains("not TOML") && !Contains("in quotes"));
+  }
+}

@@ -366,7 +366,9 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
   }
   if (!found) return contacts_.find_balanced(l.step, state_.u, state_.left, b);
   if (!is_semidefinite()) {
-    b.not_proved = "it is not certain that the matrix is positive semidefinite";
+    b.not_proved =
+        "it is not certain that the matrix is positive semidefinite. If its body has too few supports, "
+        "rounded entries may be the cause: a [[support]] with a weak spring at such a dof helps";
     return false;
   }
   (void)contacts_.proves(b.closed);  // that of K alone may have replaced its factor and its proof

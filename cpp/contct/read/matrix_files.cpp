@@ -72,6 +72,8 @@ class number_lines : public field_lines {
 bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_array) {
   const std::string allowed = fmt::format("%%MatrixMarket matrix {} real {}",
                                           may_be_array ? "array (or coordinate)" : "coordinate", symmetry);
+  constexpr const char* way_out =
+      ". Python writes it by scipy.io.mmwrite(FILE, scipy.sparse.coo_matrix(A), symmetry=\"symmetric\")";
   if (!lines.next() || lines.line() != 1) lines.refuse("no header", allowed);
   const auto has = [&lines](std::size_t i, std::string_view word) {
     return lines.fields() == 5 && lower_case(lines.field(i)) == word;
@@ -80,7 +82,7 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
   const bool array = sound && may_be_array && has(2, "array");
   if (!sound || (!array && !has(2, "coordinate")))
     lines.refuse(is_like_header(lines.here()) ? in_quotes(lines.here()) : field_words(lines.here(), "a line"),
-                 allowed);
+                 allowed + (may_be_array ? "" : way_out));
   return array;
 }
 

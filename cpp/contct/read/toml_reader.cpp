@@ -76,6 +76,19 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find('\n'));
 }
 
+/// What a line that is not TOML may lack at `column`, from 1, where reading stopped: a text without quotes
+/// ("title = Crane"), or a key with blanks ("Q pos. 1 = 1.5").
+std::string_view quotes_hint(std::string_view line, std::size_t column, std::string_view description) {
+  if (description.find("expected '='") != std::string_view::npos)
+    return line.find('=', column) == std::string_view::npos ? "" : " (a name with blanks stands in quotes)";
+  const std::size_t equals = line.rfind('=', column);
+  const std::size_t first =
+      equals == std::string_view::npos ? equals : line.find_first_not_of(" \t[", equals + 1);
+  const bool is_text =
+      first != std::string_view::npos && ((line[first] | 0x20) >= 'a' && (line[first] | 0x20) <= 'z');
+  return is_text ? " (text stands in quotes)" : "";
+}
+
 /// The numbers from 1 to `count` that "a..b" or "all" names; none where the text is something else.
 std::pair<int, int> range_in(std::string_view text, int count) {
   if (text == "all") return {1, count};
@@ -98,9 +111,10 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
   } catch (const toml::parse_error& e) {
     const toml::source_position at = e.source().begin;
     constexpr std::size_t longest = 300;  // it quotes the file, line ends included
-    throw input_error(fmt::format("{}: not TOML: {}{}", position(file, at),
-                                  printable(e.description(), longest),
-                                  has_decimal_comma(line_of(text, at.line)) ? point_not_comma : ""));
+    const std::string_view line = line_of(text, at.line);
+    throw input_error(fmt::format(
+        "{}: not TOML: {}{}", position(file, at), printable(e.description(), longest),
+        has_decimal_comma(line) ? point_not_comma : quotes_hint(line, at.column, e.description())));
   }
 }
 
