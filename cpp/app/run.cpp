@@ -229,9 +229,9 @@ void report_free_run(shown_run& o, const std::string& name) {
 void report_comparison(shown_run& o) {
   const std::vector<std::string>& kernels = o.run.wanted.kernels;
   if (kernels.empty())
-    return print_verdict(o, paint::quiet,
-                         {"only the end of each step, no path",
-                          fmt::format("{} factorisations", o.run.result.end.work.factors)});
+    return print_verdict(
+        o, paint::quiet,
+        {"only the end of each step, no path", counted(o.run.result.end.work.factors, "factorisation")});
   if (o.run.result.compared_calls() != nullptr) report_lockstep(o);
   for (const std::string& line : rule_1989_words(o.run.result)) print_verdict(o, paint::strong, {line});
   if (!o.run.wanted.free_run) return;
@@ -242,19 +242,11 @@ void report_comparison(shown_run& o) {
 /// Solve once more on half the element size, and print what that changes.
 void report_refinement(shown_run& o) {
   o.run.refine();
-  const problem& p = o.setup.what;
-  std::vector<std::string> items;
-  for (const auto& [kind, change, of] : o.run.result.refined) {
-    const double shown = change <= 1e-9 * of ? 0.0 : change;
-    items.push_back(fmt::format("{}{} by {:.3g}{} ({:.2g} %)",
-                                items.empty() ? "half the element size changes " : "", kind, shown,
-                                unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of));
-  }
-  if (items.empty()) items.emplace_back("the problem with half the element size is not solved");
-  if (std::holds_alternative<beam>(p.geometry.kind))
-    items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
-                                      : "beams are exact between nodes, a bed has twice as many pairs");
-  print_verdict(o, paint::quiet, items);
+  const std::vector<std::string> items = refinement_words(o.run.result);
+  print_verdict(o, paint::quiet,
+                items.empty()
+                    ? std::vector<std::string>{"the problem with half the element size is not solved"}
+                    : items);
 }
 
 /// The report for --junit and --markdown.

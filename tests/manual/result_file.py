@@ -97,6 +97,14 @@ terms = { down = 1.5 }
 [[combination]]
 name = "lifts more"
 terms = { down = -2.0 }
+[[train]]
+name = "cart"
+axles = [ { at = 0, w = -1 } ]
+from = 0.5
+to = 1.5
+by = 1
+terms = { down = 1.5 }
+factor = 1.4
 """
 SETTLED_BEAM = """
 [beam]

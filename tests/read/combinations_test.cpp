@@ -32,6 +32,9 @@ TEST_CASE("a combination has the loads of its cases, each with its factor, and s
   const load& l = steps[0];
   CHECK(l.name == "ULS");
   CHECK(l.from_zero);
+  REQUIRE(l.terms.size() == 2);  // in the order of the cases
+  CHECK((l.terms[0].name == "G" && l.terms[0].factor == 1.35 && !l.terms[0].at));
+  CHECK((l.terms[1].name == "crane left" && l.terms[1].factor == 1.5));
   REQUIRE(l.points.size() == 1);
   CHECK((l.points[0].node == 1 && l.points[0].value == -0.7 && l.points[0].factor == 1.5));
   REQUIRE(l.distributed.size() == 1);
@@ -76,4 +79,6 @@ TEST_CASE("axles act where they stand, times the train's factor, and none beyond
   CHECK(steps[3].points.size() == 1);
   CHECK(steps[4].points.empty());
   CHECK(steps[4].distributed[0].polynomial == std::vector<double>{-2});
+  REQUIRE(steps[4].terms.size() == 2);
+  CHECK((steps[4].terms[1].factor == 1.5 && steps[4].terms[1].at == 3.0));
 }

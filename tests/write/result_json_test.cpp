@@ -414,3 +414,32 @@ TEST_CASE(
   CHECK(json_of(a_run(portal_frame(), "cpp").result)["nodes"][0].contains("z"));
   CHECK_FALSE(json_of(a_run(frame_without_coordinates(), "cpp").result).contains("nodes"));
 }
+
+TEST_CASE("warnings of the problem and of its states are in the result") {
+  CHECK(result_of(good_problem)["warnings"].empty());
+  const auto coarse = result_of(
+      "[beam]\nlength = 4\nelements = 2\nEI = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[step]]\nuniform = -1\n");
+  REQUIRE_FALSE(coarse["warnings"].empty());  // (4 EI / modulus)^(1/4) is 1
+  CHECK_THAT(coarse["warnings"][0].get<std::string>(),
+             Catch::Matchers::StartsWith("bed[1]: the mesh is coarse for this bed") &&
+                 Catch::Matchers::Contains("0.5"));
+  const auto plate = result_of(
+      "[plate]\nsize = [1, 1]\nelements = [2, 2]\nE = 1\nnu = 0.3\nthickness = 1\n[[support]]\nnodes = [1, "
+      "2, 3, 4, 6, 7, 8, 9]\nfix = \"w\"\n[[step]]\npoint = [ { node = 5, w = -1 } ]\n");
+  REQUIRE(plate["warnings"].size() == 1);
+  CHECK_THAT(plate["warnings"][0].get<std::string>(), Catch::Matchers::Contains("under a point load"));
+}
+
+TEST_CASE("a combination has the factors of its cases, and a train its place besides") {
+  const auto steps = result_of(
+      "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nx = [0, 2]\nfix = \"w\"\n[[case]]\nname = "
+      "\"G\"\n"
+      "uniform = -1\n[[combination]]\nname = \"a\"\nterms = { G = 1.35 }\n[[train]]\nname = \"T\"\n"
+      "axles = [ { at = 0, w = -1 } ]\nfrom = 0.5\nto = 0.5\nby = 1\nterms = { G = 0.9 }\nfactor = 1.5\n")
+      ["steps"];
+  CHECK(steps[0]["terms"] == nlohmann::json({{"G", 1.35}}));
+  CHECK_FALSE(steps[0].contains("train"));
+  CHECK(steps[1]["terms"] == nlohmann::json({{"G", 0.9}}));
+  CHECK(steps[1]["train"] == nlohmann::json({{"name", "T"}, {"at", 0.5}, {"factor", 1.5}}));
+  CHECK_FALSE(result_of(good_problem)["steps"][0].contains("terms"));
+}

@@ -1,6 +1,8 @@
 // The words for statuses, events and certificates, as the formats of reference/ have them.
 #include "contct/write/words.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "catch.hpp"
@@ -10,6 +12,7 @@
 
 using namespace contct;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 TEST_CASE("a path that stops short of its load has one of three statuses, and a reason of its own") {
   CHECK(status_name(path_status::solved) == "solved");
@@ -106,4 +109,48 @@ TEST_CASE("a toggle too early by no more than rounding of the step's deflections
   REQUIRE(tiny.all().size() == 1);
   r.result.early = tiny;
   CHECK_THAT(certificate_complaints(r.result).at(0), !Contains("; in increment"));
+}
+
+namespace {
+
+/// On supports along its edges, with this at its middle, node 13.
+std::string square_with(const std::string& tables) {
+  return "[plate]\nsize = [1, 1]\nelements = [4, 4]\nE = 10.92\nnu = 0.3\nthickness = 1\n[[support]]\n"
+         "nodes = [1, 2, 3, 4, 5, 6, 10, 11, 15, 16, 20, 21, 22, 23, 24, 25]\nfix = \"w\"\n" +
+         tables;
+}
+
+std::string warned_of(const std::string& tables) {
+  const a_run r(square_with(tables), "corrected");
+  return concentration_warning(r.what, r.result.record.steps);
+}
+
+}  // namespace
+
+TEST_CASE("a plate's largest stress under a point load is warned of, one under a load of an area is not") {
+  CHECK_THAT(warned_of("[[step]]\npoint = [ { node = 13, w = -1 } ]\n"),
+             StartsWith("step 1: largest von Mises at node 13, (0.5, 0.5), under a point load: "));
+  CHECK(warned_of("[[step]]\nuniform = [ { value = -16, from = [0.375, 0.375], to = [0.625, 0.625] } ]\n")
+            .empty());
+  CHECK(warned_of("[[step]]\nuniform = -1\npoint = [ { node = 13, w = 0 } ]\n").empty());
+}
+
+TEST_CASE("a force at a free corner of a plate is not warned of: its twisting moments are half of it") {
+  const a_run r(
+      "[plate]\nsize = [1, 1]\nelements = [4, 4]\nE = 10.92\nnu = 0.3\nthickness = 1\n[[support]]\n"
+      "nodes = [1, 5, 21]\nfix = \"w\"\n[[step]]\npoint = [ { node = 25, w = -1 } ]\n",
+      "corrected");
+  CHECK(std::abs(results_of(r.what, r.what.steps[0], r.result.record.steps[0].end).elements.values[8]) ==
+        Approx(0.5));
+  CHECK(concentration_warning(r.what, r.result.record.steps).empty());
+}
+
+TEST_CASE("a plate's largest stress at a pair is warned of where the pair is in contact") {
+  const auto stop = [](const char* face) {
+    return fmt::format(
+        "[[contact]]\nnode = 13\nsurface = \"below\"\nface = {}\nstiffness = 1e4\n[[step]]\nuniform = -1\n",
+        face);
+  };
+  CHECK_THAT(warned_of(stop("0")), Contains(" at node 13, (0.5, 0.5), under the force of pair 1: "));
+  CHECK(warned_of(stop("-1")).empty());
 }

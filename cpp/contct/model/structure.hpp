@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -58,6 +59,13 @@ struct placed_load {
 /// Its polynomial times its factor, in doubles.
 [[nodiscard]] std::vector<double> values_of(const placed_load& p);
 
+/// What a combination has of a case, or of a train, which stands at a place.
+struct load_term {
+  std::string name;
+  double factor = 1.0;
+  std::optional<double> at = {};
+};
+
 /// Everything that acts on the structure at one moment.
 struct load {
   std::vector<point_load> points;
@@ -67,6 +75,7 @@ struct load {
   std::string name = {};  ///< of the step that ends with it, for people; may be empty
   std::vector<placed_load> placed = {};
   bool from_zero = false;  ///< its step starts from the unloaded structure, whatever stands before it
+  std::vector<load_term> terms = {};  ///< of a combination, which its parts have come from
 };
 /// The values at nodes that a load has.
 inline constexpr std::array nodal_values = {&load::points, &load::settlements, &load::moves};

@@ -71,6 +71,7 @@ class combination_reader {
       const rational at = from + k * by;
       load l = besides;
       l.name = fmt::format("{} at {}", name, rounded(at));
+      l.terms.push_back({name, factor, rounded(at)});
       for (const point& axle : axles) put_axle(*b, rounded(at + decimal_of(axle.x)), axle.w, factor, l);
       put(t, std::move(l));
     }
@@ -109,7 +110,10 @@ class combination_reader {
                                               : "the name of a [[case]]: " + joined(names, ", "));
     }
     for (const load& c : cases_)
-      if (terms.has(c.name)) add(l, c, terms[c.name].real(any_real));
+      if (terms.has(c.name)) {
+        l.terms.push_back({c.name, terms[c.name].real(any_real)});
+        add(l, c, l.terms.back().factor);
+      }
   }
 
   [[nodiscard]] static std::vector<point> read_axles(const toml_value& axles) {

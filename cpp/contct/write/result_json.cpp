@@ -228,6 +228,7 @@ class result_writer {
             {"certificate", certificate_summary(r_, r_.status() == "solved")},
             {"complaints", complaints_of(r_)},
             {"rule_1989", rule_1989_words(r_)},
+            {"refined", refinement_words(r_)},
             {"program", r_.facts}};
   }
 
@@ -268,6 +269,12 @@ class result_writer {
     json members = {
         {"step", s.end.step}, {"name", r_.what.steps[s.end.step - 1].name}, {"fraction", s.end.fraction}};
     if (r_.what.steps[s.end.step - 1].from_zero) members["start"] = "zero";
+    for (const load_term& t : r_.what.steps[s.end.step - 1].terms) {
+      if (t.at)
+        members["train"] = {{"name", t.name}, {"at", *t.at}, {"factor", t.factor}};
+      else
+        members["terms"][t.name] = t.factor;
+    }
     const bool whole = !left_out_.contains(number);
     if (whole)
       members.update({{"increments", nullptr},
@@ -351,6 +358,7 @@ class result_writer {
       members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
+    members["warnings"] = warnings_of(r_);
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},
                     {"calls_made", r_.record_of_calls().all_calls},

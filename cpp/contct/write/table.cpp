@@ -392,7 +392,11 @@ class table_printer {
     if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
     if (headed_ && run_.compared) words.emplace_back("kernels: whether their bits are equal");
     if (headed_ && run_.beside) words.emplace_back("1989: whether that rule has the same events");
-    if (!run_.record.steps.empty()) words.emplace_back("digits: correct in every number");
+    if (run_.record.steps.empty()) return words;
+    words.emplace_back("digits: correct in every number");
+    if (const auto* const b = std::get_if<beam>(&problem_.geometry.kind);
+        b != nullptr && !b->sections.empty() && b->sections.front().W > 0.0)
+      words.emplace_back("stress: M / W of the lower fibre, the upper one has the other sign");
     return words;
   }
 

@@ -231,6 +231,55 @@ std::string passage_warning(const problem& p, std::span<const step_record> steps
       worst->x);
 }
 
+namespace {
+
+/// What acts at `node` of a plate alone: moments are infinite there, but at a corner, where a force makes
+/// twisting moments of half its size. Pairs of beds do not: each stands for an area. Empty where nothing
+/// acts.
+std::string concentrated_at(const problem& p, const load& l, const step_results& r, int node) {
+  const auto& on = std::get<plate>(p.geometry.kind);
+  const place at = place_of_node(p.geometry, node);
+  const bool is_at_end = at.x == on.x.front() || at.x == on.x.back();
+  if (is_at_end && (at.y == on.y.front() || at.y == on.y.back())) return "";
+  for (const point_load& f : l.points)
+    if (f.node == node && f.value * f.factor != 0.0) return "a point load";
+  const std::size_t pairs = p.beds.empty() ? p.pairs.size() : p.beds.front().first_pair;
+  for (std::size_t i = 0; i < pairs; ++i)
+    if (p.pairs[i].node == node && r.pairs[i].force != 0.0) return fmt::format("the force of pair {}", i + 1);
+  return "";
+}
+
+}  // namespace
+
+std::string concentration_warning(const problem& p, std::span<const step_record> steps) {
+  if (!std::holds_alternative<plate>(p.geometry.kind)) return "";
+  constexpr std::string_view names[] = {"von_mises", "mx", "my"};
+  const load_path loads(p);
+  std::size_t rank = std::size(names);
+  double most = 0.0;
+  std::string warning;
+  for (const step_record& s : steps) {
+    const load acting = loads.at(s.end.step, s.end.fraction);
+    const step_results r = results_of(p, acting, s.end);
+    for (const value_range& v : r.ranges) {
+      const auto here = static_cast<std::size_t>(std::ranges::find(names, v.name) - std::begin(names));
+      const placed_value& at = v.largest();
+      const double size = std::abs(at.value);
+      if (here == std::size(names) || here > rank || (here == rank && size <= most)) continue;
+      const std::string what = concentrated_at(p, acting, r, at.node);
+      if (what.empty()) continue;
+      rank = here;
+      most = size;
+      warning = fmt::format(
+          "{}: largest {} at {}, under {}: the moments of a thin plate grow there with every finer mesh. "
+          "A load, or the force of a bolt, spread over an area (uniform with from and to) has a largest "
+          "stress",
+          step_words(p, s.end.step), here == 0 ? "von Mises" : v.name, place_words(p.geometry, at), what);
+    }
+  }
+  return warning;
+}
+
 std::string digit_warning(std::span<const step_record> steps) {
   int fewest = 5;  // a state with as many needs no warning
   const step_record* worst = nullptr;
@@ -294,14 +343,48 @@ std::vector<std::string> complaints_of(const run_result& r) {
   return lines;
 }
 
+namespace {
+
+std::vector<std::string> state_warnings(const run_result& r) {
+  std::vector<std::string> lines = {r.end.status == path_status::solved ? digit_warning(r.record.steps) : "",
+                                    passage_warning(r.what, r.record.steps),
+                                    concentration_warning(r.what, r.record.steps)};
+  std::erase(lines, "");
+  return lines;
+}
+
+}  // namespace
+
 std::vector<std::string> end_messages(const run_result& r) {
   std::vector<std::string> lines = complaints_of(r);
   const std::vector<std::string> why = end_lines(r.what, r.end);
   for (const std::string& w : why) lines.push_back(r.file + ": " + w);
-  for (const std::string& w :
-       {why.empty() ? digit_warning(r.record.steps) : "", passage_warning(r.what, r.record.steps)})
-    if (!w.empty()) lines.push_back("warning: " + w);
+  for (const std::string& w : state_warnings(r)) lines.push_back("warning: " + w);
   return lines;
+}
+
+std::vector<std::string> warnings_of(const run_result& r) {
+  std::vector<std::string> lines = r.what.warnings;
+  const std::string begin = (r.file == "-" ? "standard input" : r.file) + ":";
+  for (std::string& line : lines)  // a result is the same wherever its problem stands
+    if (line.starts_with(begin)) line.erase(0, line.find(": ", begin.size()) + 2);
+  std::ranges::move(state_warnings(r), std::back_inserter(lines));
+  return lines;
+}
+
+std::vector<std::string> refinement_words(const run_result& r) {
+  const problem& p = r.what;
+  std::vector<std::string> items;
+  for (const auto& [kind, change, of] : r.refined) {
+    const double shown = change <= 1e-9 * of ? 0.0 : change;
+    items.push_back(fmt::format("{}{} by {:.3g}{} ({:.2g} %)",
+                                items.empty() ? "half the element size changes " : "", kind, shown,
+                                unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of));
+  }
+  if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
+    items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
+                                      : "beams are exact between nodes, a bed has twice as many pairs");
+  return items;
 }
 
 namespace {

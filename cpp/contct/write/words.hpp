@@ -88,11 +88,21 @@ constexpr std::string_view end_reason(path_status status) {
 /// where it does not.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
+/// A warning where a plate's largest stress or moment is where a point load or a [[contact]] pair acts; empty
+/// where it is not.
+[[nodiscard]] std::string concentration_warning(const problem& p, std::span<const step_record> steps);
+
+/// Of the problem, without file and line, and of the states that the run came to.
+[[nodiscard]] std::vector<std::string> warnings_of(const run_result& r);
+
+/// What half the element size changes, in parts; empty where it was not asked for, or not solved.
+[[nodiscard]] std::vector<std::string> refinement_words(const run_result& r);
+
 /// What is wrong with the ends of steps, and where the 1989 rule leads the command that follows the
 /// problem by the corrected one.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
-/// The same, why the path ended, and warnings.
+/// The same, why the path ended, and warnings but for the problem's.
 [[nodiscard]] std::vector<std::string> end_messages(const run_result& r);
 
 }  // namespace contct
