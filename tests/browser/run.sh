@@ -34,6 +34,7 @@ page free "$work/free.toml" 0
 page alone "$work/alone.toml" 0 --kernels cpp
 page settling "$work/settling.toml" 0 --envelope
 page strip "$work/strip.toml" 0 --envelope
+page yard "$work/yard.toml" 0 --envelope --refine
 page two-faces "$work/two-faces.toml" 0
 page own-ways "$work/own-ways.toml" 0 --free-run --kernels fortran,corrected
 (cd "$work" && "$build/contct" run no-pairs.toml --quiet --html no-pairs.html) || wrong=1

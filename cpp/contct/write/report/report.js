@@ -89,7 +89,7 @@ function cellOf(value, words) {
 
 // Texts are to the left, as their headings are; the first cell of a row is its head. Of very many rows there are the first,
 // or those of the largest size; what is cut is told in the title and at the end of the page.
-function tableOf(title, names, rows, most = 40, sizeOf = null) {
+function tableOf(title, names, rows, most = Infinity, sizeOf = null) {
   if (rows.length === 0) return [];
   const how = `${sizeOf ? "largest" : "first"} ${most} of ${rows.length}`;
   const whole = rows.length <= most;
@@ -157,14 +157,15 @@ function showCalls() {
 // ---- the ends of steps, the envelope and the input ----
 
 const markOf = (c) => (!c ? "no certificate" : c.exact ? "certified" : "NOT certified");
-const quantityHead = (name) => inUnit(/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1), name);
+const fibre = (name) => (name === "stress" ? "Stress, lower fibre (upper: other sign)" : null);
+const quantityHead = (name) => inUnit(fibre(name) ?? (/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
+const mostReactions = 1000;  // a spring at every node makes more
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
 // The ends of so many steps, in their order: those with the largest values, of each quantity relative to the largest of all.
-function endsOf(what, most) {
-  const steps = result.steps.filter((s) => s.extremes);
+function endsOf(what, most, steps = result.steps) {
   if (steps.length <= most) return steps;
   cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
   const sizes = Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)));
@@ -174,32 +175,41 @@ function endsOf(what, most) {
 }
 
 function endTables() {
-  const steps = endsOf("Tables", 24);
+  const { steps } = result;
+  const whole = steps.filter((s) => s.pairs);
+  const someOf = (of) => (of.length < steps.length ? `, ${of.length} of ${steps.length} steps` : "");
   const quantities = Object.keys(steps[0]?.extremes || {});
-  const most = (list, key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
+  const most = (list = [], key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
   const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v) => ({ number: v.value, at: placeOf(v) }))),
     most(s.pairs, "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), most(s.reactions, "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`),
     markOf(s.certificate)];
   const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
+  const [ownPairs, bedPairs] = [places.pairs.filter((p) => !p.bed), places.pairs.filter((p) => p.bed)];
+  const onBeds = bedPairs.length > 0 ? endsOf("Tables of contact forces of beds", 24, whole) : [];
   const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), ...[b.pressure.min, b.pressure.max].map((v) => [{ number: v.value, at: placeOf(v) }]), b.contact]));
   return [
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), "Reaction", "Certificate"], steps.map(row)),
     ...tableOf("Pressure and contact of beds", ["Step", "Bed", ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
-    ...besideEachOther(steps, inUnit("Contact forces", "force"), ["Pair", ...placeHead(), "Surface"],
-      places.pairs.map((p) => [String(p.pair), ...placeCells(p), p.surface]), (s, i) => s.pairs[i].force),
-    ...besideEachOther(steps, reactionsTitle, [...placeHead(), "What"], places.supports.map((s) => [...placeCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value),
+    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; of a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
+      ownPairs.map(pairCells), (s, i) => forceOrGap(s.pairs[ownPairs[i].pair - 1])),
+    ...besideEachOther(onBeds, `${inUnit("Contact forces of beds", "force")}${someOf(onBeds)}`, ["Pair", ...placeHead(), "Surface"],
+      bedPairs.map(pairCells), (s, i) => s.pairs[bedPairs[i].pair - 1].force, 40),
+    ...besideEachOther(whole, reactionsTitle + someOf(whole), [...placeHead(), "What"], places.supports.map((s) => [...placeCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value, mostReactions),
   ];
 }
 
+const pairCells = (p) => [String(p.pair), ...placeCells(p), p.surface];
+const forceOrGap = (p) => (p.state === "separated" ? [{ number: p.gap, at: "gap" }] : p.force);
+
 // The ends of steps as columns, six in each table.
-function besideEachOther(steps, title, names, begins, read) {
+function besideEachOther(steps, title, names, begins, read, most = Infinity) {
   const tables = [];
   for (let from = 0; from < steps.length; from += 6) {
     const beside = steps.slice(from, from + 6);
     const rows = begins.map((begin, i) => [...begin, ...beside.map((s) => read(s, i))]);
     const sizeOf = (r) => Math.max(...r.slice(names.length).map(Math.abs));
-    tables.push(...tableOf(title, [...names, ...beside.map((s) => `Step ${stepName(s)}`)], rows, 40, sizeOf));
+    tables.push(...tableOf(title, [...names, ...beside.map((s) => `Step ${stepName(s)}`)], rows, most, most < Infinity ? sizeOf : null));
   }
   return tables;
 }
@@ -207,16 +217,18 @@ function besideEachOther(steps, title, names, begins, read) {
 function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
   const when = (v) => (startsFromZero() ? nameOfStep(v.step) : `step ${v.step}, increment ${v.increment}`);
   const bound = (v, at = when(v)) => [{ number: v.value ?? v.force_max, at }];
-  const sizeOf = (r) => Math.max(...r.slice(-2).flat().map((v) => Math.abs(v.number ?? 0)));
+  const forces = (title, of, most, sizeOf) => tableOf(inUnit(title, "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
+    pairs.flatMap((p, i) => (of(places.pairs[i]) ? [[...pairCells(places.pairs[i]), bound(p)]] : [])), most, sizeOf);
   return states === 0 ? [] : [
     ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. " +
       "Point at a curve to see which step it comes from; click it to show the end of that step."))] : []),
     ...tableOf(startsFromZero() ? "Least and largest of all combinations" : "Least and largest of all increments", ["Quantity", "Least", "Largest"],
       Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
-    ...tableOf(inUnit("Largest contact force of each pair", "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
-      pairs.map((p, i) => [String(p.pair), ...placeCells(places.pairs[i]), places.pairs[i].surface, bound(p)]), 40, sizeOf),
+    ...forces("Largest contact force of each pair", (p) => !p.bed),
+    ...forces("Largest contact force of each pair of a bed", (p) => p.bed, 40, (r) => Math.abs(r[r.length - 1][0].number)),
     ...tableOf(reactionsTitle, [...placeHead(), "What", "Least", "Largest"],
-      places.supports.map((s, i) => [...placeCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)]), 40, sizeOf),
+      places.supports.map((s, i) => [...placeCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)]), mostReactions,
+      (r) => Math.max(...r.slice(-2).map(([v]) => Math.abs(v.number)))),
   ];
 }
 
@@ -262,17 +274,21 @@ function structureRows() {
     ...(E ? [[inUnit("Young's modulus E", "stress"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
 }
 
-const mostRows = 1000;  // of a table of input: far more than a person reads
+// "1.35 G + 1.5 Q", and of a train its place.
+const termWords = ({ terms = {}, train }) => [...Object.entries(terms), ...(train ? [[`${train.name} at ${short(train.at)}`, train.factor]] : [])]
+  .map(([name, factor]) => `${short(factor)} ${name}`).join(" + ");
+
 const inputTables = () => [
-  ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows(), mostRows),
+  ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows()),
   ...tableOf("Supports: fixed, or the stiffness of a spring", [...placeHead(), "Dof", "Held"],
-    gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, s.dof, s.spring === null ? "fixed" : short(s.spring)]), mostRows),
+    gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, s.dof, s.spring === null ? "fixed" : short(s.spring)])),
   ...tableOf("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
-    places.pairs.filter((p) => !p.bed).map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, startWords(p)]), mostRows),
+    places.pairs.filter((p) => !p.bed).map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, startWords(p)])),
   ...tableOf("Beds: a pair at each node, whose stiffness is the modulus times the node's share", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
     gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
-      .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)]), mostRows),
-  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s)), mostRows, (r) => Math.abs(r[3]) || 0),
+      .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
+  ...tableOf("Combinations: cases with their factors", ["Step", "Terms"], result.steps.filter(termWords).map((s) => [stepName(s), termWords(s)])),
+  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s))),
 ];
 
 const modulus = (p) => p.stiffness / p.bed;
@@ -322,6 +338,8 @@ function verdicts() {
       : lockstep && lockstep.calls === 0 ? ["The kernels were never called; nothing was compared.", "note"]
         : [`${names} ${agree}: ${words.comparison}.`, equal ? "good" : "bad"],
     ...words.rule_1989.map((line) => [`${sentence(line)}`, "note"]),
+    ...(words.refined.length > 0 ? [[sentence(words.refined.join("; ")), "note"]] : []),
+    ...result.warnings.map((line) => [`Warning: ${line}.`, "note"]),
     ...(words.certificate.length > 0 ? [[sentence(words.certificate.join("; ")), result.certified ? "good" : "bad"]] : [])];
 }
 
@@ -375,7 +393,7 @@ function showCuts() {
   const drawn = result.steps.filter((s) => s.displacement);
   if (drawn.length < result.steps.length)
     cuts.add(`Of ${result.steps.length} combinations ${drawn.length} are drawn: those with the least and largest values, those that did not reach ` +
-      "their load, and others evenly chosen. The others' increments are not listed.");
+      "their load, and others evenly chosen. The others' increments, contact forces and reactions are not listed.");
   const within = increments.length + 1 + drawn.filter((s) => !endsAt(s, s.increments.length - 1)).length;
   if (frames.length < within) {
     cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
@@ -489,7 +507,8 @@ function drawSheets() {
   const quantities = fields.length > 0 ? fields : [undefined];
   const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor(12 / quantities.length))).map((s) => s.step));
   const wanted = frames.filter((f) => f.end && (steps.has(f.step) || f === final)).flatMap((f) => quantities.map((of) => ({ f, of })));
-  byId("ends-drawn").replaceChildren(...wanted.filter(({ f, of }) => f !== final || of !== chosen).map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
+  const all = result.steps.length;
+  byId("ends-drawn").replaceChildren(...(steps.size < all ? [element("p", { class: "print-only" }, `Drawn are the ends of ${steps.size} of ${all} steps, those with the largest values, and of the last one.`)] : []), ...wanted.filter(({ f, of }) => f !== final || of !== chosen).map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
   field = chosen;
   showCuts();
 }
