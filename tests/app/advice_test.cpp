@@ -5,7 +5,7 @@
 using namespace contct;
 using Catch::Matchers::Contains;
 
-TEST_CASE("too stiff a spring is named as the cause, and the stiffness that is advised is certified") {
+TEST_CASE("a spring that is too stiff is named as the cause, and the suggested stiffness is certified") {
   const scratch_folder dir;
   const std::string file = "reference/problems/pb01-cantilever-tip-stop.toml";
   std::filesystem::copy(root / file, dir.path() / "pb1.toml");

@@ -56,7 +56,7 @@ TEST_CASE("a place that cannot be written is refused before anything is solved")
   CHECK(dir.files() == std::vector<std::string>{"good.toml"});
 }
 
-TEST_CASE("wrong usage: exit 2, and what there is") {
+TEST_CASE("wrong usage gives exit status 2, and the list of what is allowed") {
   const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const auto refused = [&](const std::vector<std::string>& arguments, const char* words) {

@@ -46,7 +46,7 @@ TEST_CASE(
   CHECK(dir.files() == std::vector<std::string>{"p.toml"});
 }
 
-TEST_CASE("plates and matrices are described too, and a step without any load") {
+TEST_CASE("the descriptions of a plate, a matrix and a step without load are complete") {
   const scratch_folder dir;
   dir.write("plate.toml", good_plate);
   const finished plate = contct_program(dir.path(), {"check", "plate.toml"});

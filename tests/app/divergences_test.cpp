@@ -115,7 +115,7 @@ TEST_CASE("way 3: in single precision a pressed contact is taken for a touching 
   says(text, "4.5e-8", -4.0 - w(truth, 1, 3));
 }
 
-TEST_CASE("way 4: an event exactly at full load is left to the next step, and only the status lags") {
+TEST_CASE("way 4: an event exactly at full load is left to the next step, so that only the status is late") {
   const std::string text = section("4. ");
   for (const char* kernel : {"fortran", "corrected"}) {
     const json result = run("event-at-full-load.toml", kernel, right);
@@ -139,7 +139,7 @@ TEST_CASE("way 6: an event near full load toggles another pair too") {
   CHECK(w(wrong, 1, 3) == Approx(w(truth, 1, 3)).epsilon(1e-9));
 }
 
-TEST_CASE("way 7: locked-in forces make a mechanism of a beam that should lie flat") {
+TEST_CASE("way 7: locked-in forces turn a beam that should lie flat into a mechanism") {
   const std::string text = section("7. ");
   const json wrong = run("locked-in-forces.toml", "fortran", path_ended);
   const json truth = run("locked-in-forces.toml", "corrected", right);
@@ -161,7 +161,7 @@ TEST_CASE("way 8: the 1989 rule makes no progress, although an equilibrium exist
   says(text, "1.5", pair_of(truth, 1, 1)["force"]);
 }
 
-TEST_CASE("every problem file of the divergences is named on the page, and every one named is there") {
+TEST_CASE("the page names every problem file of the divergences, and every file that it names exists") {
   const std::string page = file_text("DIVERGENCES.md");
   const std::string folder = "problems/divergences/";
   std::set<std::string> named;

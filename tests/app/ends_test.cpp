@@ -66,7 +66,8 @@ TEST_CASE("a beam that balances on its one pair makes contact once, in the table
 }
 
 TEST_CASE(
-    "a path of the 1989 rule that loses its hold is not called a mechanism if the load has an equilibrium") {
+    "a path of the 1989 rule without remaining supports is not called a mechanism if the load has an "
+    "equilibrium") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--kernels", "fortran,cpp", "--json", "out.json"}, dir);
   CHECK(f.exit == 5);
@@ -81,7 +82,7 @@ TEST_CASE(
   CHECK_THAT(exact.out + exact.err, !Contains("no equilibrium"));
 }
 
-TEST_CASE("a path of the 1989 rule that is lost leaves the answer as it is: exit 0") {
+TEST_CASE("a path of the 1989 rule that is lost does not change the answer: exit status 0") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--strict", "--json", "out.json"}, dir);
   CHECK(f.exit == 0);
@@ -135,8 +136,7 @@ TEST_CASE("the digits of the corrected rule are those of the numbers that a run 
   CHECK(kernel["force_digits"].get<double>() > 15.0);
 }
 
-TEST_CASE(
-    "combinations without an equilibrium are named, those behind them are solved, and the exit status is 4") {
+TEST_CASE("combinations without an equilibrium are named, later ones are solved, and the exit status is 4") {
   const scratch_folder dir;
   dir.write("p.toml",
             "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[contact]]\nx = [0, 2]\nsurface = \"below\"\nface = 0\n"

@@ -63,7 +63,8 @@ TEST_CASE("the option --digits says how long a fraction may be") {
   CHECK_THAT(exactly(third, {"--digits", "1"}).out, Contains("largest w -0.3 at node 2"));
 }
 
-TEST_CASE("exact --quiet prints nothing, and what cannot be is refused with exit 2") {
+TEST_CASE(
+    "the command exact prints nothing under --quiet, and refuses impossible options with exit status 2") {
   const finished quiet = contct_program(root, {"exact", three_gaps, "--quiet"});
   CHECK(quiet.exit == 0);
   CHECK(quiet.out.empty());
@@ -80,7 +81,7 @@ TEST_CASE("a structure that is too large for exact arithmetic is refused") {
 }
 
 TEST_CASE(
-    "a run and the exact path mean the same number, the shortest decimal of its double, and warn of others") {
+    "a run and the exact path both read the shortest decimal of each double, and warn of other literals") {
   const scratch_folder dir;
   dir.write(
       "p.toml",

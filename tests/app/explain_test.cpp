@@ -157,7 +157,8 @@ TEST_CASE("a step, increment or pair out of range is exit 2, with what is allowe
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
 }
 
-TEST_CASE("a second kernel that rounds otherwise is reported with its ULP, and exits with 1") {
+TEST_CASE(
+    "a second kernel that rounds differently is reported with the difference in ULPs, with exit status 1") {
   const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
   const finished f =
@@ -264,8 +265,8 @@ TEST_CASE("no s of PB1 to PB11 is off by more than 2 ULP for its call's numbers,
 }
 
 TEST_CASE(
-    "a call of a trace is explained, and a kernel that answers otherwise is told both lines and the line at "
-    "fault") {
+    "a call of a trace is explained, and for a kernel that differs both texts and the faulty line are "
+    "shown") {
   const std::string plugin = "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so";
   const finished f =
       explained({"reference/traces/ties.trace", "--increment", "4", "--kernels", "fortran," + plugin});

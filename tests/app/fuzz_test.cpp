@@ -48,7 +48,7 @@ TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it co
   }
 }
 
-TEST_CASE("the printed line runs the same once more") {
+TEST_CASE("the command that a fuzz run prints repeats the run") {
   const scratch_folder dir;
   const std::string kernels = "fortran," + variant("less_equal");
   const finished a = fuzz(dir, {"--kernels", kernels, "--calls", "8000", "--seed", "77", "--shard", "2/3"});
@@ -59,7 +59,7 @@ TEST_CASE("the printed line runs the same once more") {
   CHECK(a.exit == 1);
 }
 
-TEST_CASE("an EPSMUL compared by less-or-equal is found, read as a tie, and shrunk to two pairs") {
+TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and shrunk to two pairs") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("less_equal"), "--calls", "20000", "--out",
                                 "found", "--json", "f.json"});
@@ -77,7 +77,7 @@ TEST_CASE("an EPSMUL compared by less-or-equal is found, read as a tie, and shru
   CHECK(contct_program(dir.path(), {"replay", trace, "--kernel", variant("less_equal")}).exit == 1);
 }
 
-TEST_CASE("a plug-in that aborts now and then is a verdict, not the end of the run") {
+TEST_CASE("a plug-in that aborts now and then fails the verdict, but does not end the run") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("crashes"), "--calls", "4000", "--problems",
                                 "0", "--json", "f.json"});
@@ -88,7 +88,7 @@ TEST_CASE("a plug-in that aborts now and then is a verdict, not the end of the r
   CHECK(json_of(dir, "f.json").at("calls") == 4000);
 }
 
-TEST_CASE("a plug-in that leads and aborts ends the run with the status of kernels that disagree") {
+TEST_CASE("a leading plug-in that aborts ends the run with the exit status of a mismatch") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", variant("crashes") + ",fortran", "--calls", "4000"});
   CHECK(f.exit == 1);

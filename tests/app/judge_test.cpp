@@ -42,7 +42,7 @@ TEST_CASE("another program's numbers are judged by its own tolerance, and counte
   CHECK(out["problems"][0]["not_given"].size() == 25);
 }
 
-TEST_CASE("a number outside the tolerance is named beside the exact one, with exit 1") {
+TEST_CASE("a number outside the tolerance is named with the exact value, and the exit status is 1") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8614651", "5");
   CHECK(f.exit == 1);

@@ -16,7 +16,7 @@ const std::string spring_problem =
 }  // namespace
 
 TEST_CASE(
-    "the corrected rule is advised where it may prove more, and not for a matrix that may be indefinite") {
+    "the corrected rule is suggested if it may prove more, but not for a matrix that may be indefinite") {
   const scratch_folder here;
   here.write("p.toml",
              "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"1\"\nsurface = \"below\"\nface = 0\n"
@@ -48,7 +48,7 @@ TEST_CASE("a matrix in sparse storage is solved by every engine, and certified")
   }
 }
 
-TEST_CASE("a structure without coordinates has its page and tables, and no grid, which is said") {
+TEST_CASE("a structure without coordinates has a page and tables, and a message says that it has no grid") {
   const scratch_folder dir;
   dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
   dir.write("p.toml", spring_problem);
@@ -69,7 +69,7 @@ TEST_CASE("a structure without coordinates has its page and tables, and no grid,
   CHECK(dir.files() == before);
 }
 
-TEST_CASE("a pair without a place has no cell, which is said") {
+TEST_CASE("a pair without coordinates has no cell, and a message says so") {
   const scratch_folder dir;
   const std::string two = header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
   dir.write("K.mtx", two);

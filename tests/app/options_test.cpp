@@ -61,7 +61,7 @@ TEST_CASE("a bare contct run names no kernels, which is both rules, and writes n
   CHECK(o.max_increments == 0);
 }
 
-TEST_CASE("the options of contct run arrive where they belong, in any order") {
+TEST_CASE("the options of contct run have their effect in any order") {
   const auto o = parsed<run_options>(
       {"run",     "--kernels", "cpp,corrected", "--strict", "beam.toml", "--max-increments=7",
        "--csv",   "c",         "--vtu",         "v.vtu",    "--html",    "h",
@@ -77,7 +77,7 @@ TEST_CASE("the options of contct run arrive where they belong, in any order") {
   CHECK(o.max_increments == 7);
 }
 
-TEST_CASE("a final state has no path, so --final-only excludes what belongs to one") {
+TEST_CASE("the option --final-only excludes all options that need a path") {
   CHECK(parsed<run_options>({"run", "f", "--final-only", "--json", "j", "--strict"}).final_only);
   const std::vector<words> of_a_path = {{"--free-run"},   {"--kernels", "cpp"}, {"--engine", "auto"},
                                         {"--trace", "t"}, {"--log", "l"},       {"--html", "h"},
@@ -89,7 +89,7 @@ TEST_CASE("a final state has no path, so --final-only excludes what belongs to o
   }
 }
 
-TEST_CASE("a number that is not given differs from one that is") {
+TEST_CASE("a number that is not given differs from a given 0") {
   CHECK_FALSE(parsed<explain_options>({"explain", "f"}).step.has_value());
   CHECK(parsed<explain_options>({"explain", "f", "--step", "0"}).step == 0);
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");
@@ -107,7 +107,7 @@ TEST_CASE("the options --help and --version are texts, not commands") {
   CHECK_THAT(parsed<printed_text>({"--version"}).text, StartsWith("contct ") && Contains("listing sha256 "));
 }
 
-TEST_CASE("a line that has no meaning is refused with what may have been meant") {
+TEST_CASE("a meaningless command line is refused with a suggestion") {
   CHECK_THAT(refusal({"rnu"}),
              StartsWith("\"rnu\" is no command of contct (did you mean \"run\"?); the commands "
                         "are: run, check, explain, "));

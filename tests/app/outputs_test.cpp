@@ -112,7 +112,7 @@ TEST_CASE("an output with an empty name is refused, by every command") {
   CHECK(refused == 20);
 }
 
-TEST_CASE("two results in one file are refused, however it is named") {
+TEST_CASE("two results in one file are refused, whatever names the file has") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("out", dir.path() / "link");
@@ -139,7 +139,8 @@ TEST_CASE("a result in the problem's own file is refused, also through a link, a
   CHECK(dir.read("pb.toml") == good_problem);
 }
 
-TEST_CASE("a result in the file that standard output goes to is refused: - is the way") {
+TEST_CASE(
+    "a result in the file that standard output is redirected to is refused, and the message suggests -") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   dir.write("out", "");
@@ -160,7 +161,7 @@ TEST_CASE("a result goes through a symbolic link to its target") {
 }
 
 TEST_CASE(
-    "standard output that is full or closed is exit 2, with a message, and files are written all the same") {
+    "a full or closed standard output gives exit status 2 and a message, and the files are still written") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& arguments : {words{"run", "pb.toml"},
@@ -184,7 +185,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a table that is cut off by a pipe does not cost the page: contct run .. --html page.html | head") {
+TEST_CASE("a pipe that cuts off the table does not prevent the page: contct run .. --html page.html | head") {
   const scratch_folder dir;
   std::string text = good_problem;
   for (int i = 0; i < 2000; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
@@ -214,7 +215,7 @@ TEST_CASE("an answer without numbers leaves no files: exit 2") {
   CHECK(dir.files() == words{"stiff.toml"});
 }
 
-TEST_CASE("kernels that were never called are not said to be equal") {
+TEST_CASE("kernels that were never called are not reported as equal") {
   const scratch_folder dir;
   dir.write("loose.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\n"
@@ -237,7 +238,7 @@ TEST_CASE("a JUnit report counts what failed and was skipped, and escapes what X
              Contains("<testsuite name=\"two&#10;lines\" tests=\"0\""));
 }
 
-TEST_CASE("a Markdown summary begins with the verdict and keeps to its table") {
+TEST_CASE("a Markdown summary begins with the verdict, and no text breaks its table") {
   const std::string text = markdown(two_of_three);
   CHECK(text.rfind("## contct replay: failed\n", 0) == 0);
   CHECK_THAT(text, Contains("1 passed, 1 failed, 1 skipped"));

@@ -53,7 +53,7 @@ TEST_CASE("every other end names its step, its share, and its pairs by number, n
   CHECK_THAT(end_words(p, ended(path_status::not_factored)), Contains("ill-conditioned"));
 }
 
-TEST_CASE("of many pairs eight are named and the others counted") {
+TEST_CASE("eight of many pairs are named, and the others are counted") {
   const std::string words = end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
   CHECK_THAT(words, Contains("pair 8 (") && Contains(" and 2 more") && !Contains("pair 9 ("));
   CHECK_THAT(end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7})), !Contains("more"));
@@ -75,7 +75,7 @@ TEST_CASE("a path that ended early says whether there is an equilibrium, and nam
   CHECK_THAT(end_words(ten_pairs(), cycle), EndsWith("There is no equilibrium under the load of this step"));
 }
 
-TEST_CASE("for a structure that nothing holds, the message names what is missing, and no kernel") {
+TEST_CASE("the message for a structure that nothing holds names the missing support, and no kernel") {
   CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism)),
              Contains("a rigid-body motion") && Contains("Add a support") && !Contains("--kernels"));
 }

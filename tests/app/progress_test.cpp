@@ -94,7 +94,7 @@ TEST_CASE("if table and progress share a terminal, every row of the table begins
   CHECK(screen == plain.out);
 }
 
-TEST_CASE("a wait that is not a number of seconds is refused") {
+TEST_CASE("a waiting time that is not a number of seconds is refused") {
   const plate_directory dir;
   for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {
     const finished f = at_terminal(dir, {"run", "plate.toml"}, wrong);

@@ -55,7 +55,7 @@ TEST_CASE("the README's beam can be run") {
   CHECK(problems == 1);
 }
 
-TEST_CASE("the program is cited as it names itself") {
+TEST_CASE("the README cites the program under the name and version that it reports") {
   const std::string cited = between(readme(), "@software{contct,", "```");
   const finished f = contct_program(root, {"--version"});
   const std::string version = between(f.out, "contct ", "\n");
@@ -65,7 +65,7 @@ TEST_CASE("the program is cited as it names itself") {
   CHECK_THAT(cited, Catch::Matchers::Contains("Listing SHA-256 " + checksum + "}"));
 }
 
-TEST_CASE("the trace that the format's page shows is one, and FORTRAN and C++ answer it so") {
+TEST_CASE("the trace in the format's page is valid, and FORTRAN and C++ give its answers") {
   process_options shown;
   shown.input = between(page("reference/trace-format.md"), "```trace\n", "```");
   const finished f = contct_program(root, {"replay", "--kernel", "fortran,cpp", "-"}, shown);

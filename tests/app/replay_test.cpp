@@ -41,7 +41,7 @@ TEST_CASE("a recorded path replays equal to the bit, by FORTRAN and by its twin"
   CHECK_THAT(piped.out, Contains("standard input: fortran: equal"));
 }
 
-TEST_CASE("a trace of one precision is not put to a kernel of another") {
+TEST_CASE("a trace of one precision is not replayed by a kernel of another") {
   const scratch_folder dir;
   recorded(dir, "pb01-cantilever-tip-stop.toml");
   const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "cpp-r4"});
@@ -50,7 +50,8 @@ TEST_CASE("a trace of one precision is not put to a kernel of another") {
   CHECK_THAT(f.out, Contains("skipped: recorded with 8-byte REAL and the 1989 rule"));
 }
 
-TEST_CASE("a trace whose answer differs is exit 1, with the branch margin, and a failure in the reports") {
+TEST_CASE(
+    "a trace whose answer differs gives exit status 1, the branch margin, and a failure in the reports") {
   const scratch_folder dir;
   std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");
   const std::size_t at = trace.find("MAKING");
@@ -66,7 +67,8 @@ TEST_CASE("a trace whose answer differs is exit 1, with the branch margin, and a
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
 }
 
-TEST_CASE("the golden set tells a kernel with a known fault its line and the course's sentence about it") {
+TEST_CASE(
+    "the golden set leads a kernel with a known fault to its line, and to the course's sentence about it") {
   std::vector<std::string> arguments = {
       "replay", "--quiet", "--kernel", "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so"};
   std::vector<std::string> traces;

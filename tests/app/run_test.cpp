@@ -99,7 +99,8 @@ TEST_CASE("without --kernels the trace and unit 26 are those of the 1989 rule al
   CHECK(calls({}) == calls({"--kernels", "fortran"}));
 }
 
-TEST_CASE("half the element size changes no beam, and is refused for a matrix before anything is solved") {
+TEST_CASE(
+    "a beam without a bed does not change on half the element size, and a matrix is refused before solving") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--refine", "--json", "o.json"});
@@ -156,7 +157,7 @@ TEST_CASE("the table fits its terminal, from 40 columns to 160") {
   }
 }
 
-TEST_CASE("a table follows the node that it was given, by number or by x, and refuses others") {
+TEST_CASE("a table shows the node that was requested by number or by x, and an unknown node is refused") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const char* node : {"2", "x = 1", "x=1.0"})
@@ -192,7 +193,7 @@ TEST_CASE("on a narrow terminal an increment's events stand on lines of their ow
                              "    reaction 18.1395, node 1\n"));
 }
 
-TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on a dumb one") {
+TEST_CASE("colour appears only on terminals: not in a pipe, under NO_COLOR or on a dumb terminal") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto escapes = [&](const process_options& o) {
@@ -207,7 +208,7 @@ TEST_CASE("colour is for terminals: none in a pipe, none under NO_COLOR, none on
   CHECK(escapes({"", {{"TERM", "dumb"}}, true}) == 0);
 }
 
-TEST_CASE("the problem may come by standard input, and the result leave by standard output, alone") {
+TEST_CASE("a problem can be read from standard input, and its result alone be written to standard output") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"run", "-", "--json", "-"}, {good_problem, {}, false});
   CHECK(f.exit == 0);
@@ -252,7 +253,7 @@ TEST_CASE("the limit of increments: exit 5, with a result that says so") {
   CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "iteration-limit");
 }
 
-TEST_CASE("a kernel alone compares nothing, and says so") {
+TEST_CASE("a single kernel is not compared with any other, and the output says so") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f =
@@ -361,7 +362,7 @@ TEST_CASE(
   CHECK_THAT(unknown.err, Contains("no engine is named \"warp\"") && Contains("condensed"));
 }
 
-TEST_CASE("only the end: the path's final states without a path, certified") {
+TEST_CASE("the option --final-only gives the final states of the path without a path, certified") {
   const scratch_folder dir;
   const std::string pb5 =
       std::string(CONTCT_ROOT) + "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";

@@ -104,7 +104,7 @@ void write_matrix_problem(const scratch_folder& dir, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("no text of a problem makes a terminal do anything, whatever is asked of it") {
+TEST_CASE("no text of a problem sends control characters to a terminal, in any command") {
   const scratch_folder dir;
   int escaped = 0;
   const std::string name = "p" + hostile_bytes + "'\n.toml";
@@ -115,7 +115,7 @@ TEST_CASE("no text of a problem makes a terminal do anything, whatever is asked 
   CHECK(escaped >= 25);
 }
 
-TEST_CASE("nor does any text of the files that a problem names, of traces, of a folder of problems") {
+TEST_CASE("no text of named files, traces or folders of problems sends control characters to a terminal") {
   const scratch_folder dir;
   int escaped = 0;
   write_matrix_problem(dir, "n");

@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace fs = std::filesystem;
 
-TEST_CASE("verify passes every number of reference/, and says what kind of evidence each is") {
+TEST_CASE("verify passes every number of reference/, and reports the kind of evidence for each") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"verify", "--json", "v.json"});
   INFO(f.err);
@@ -72,7 +72,7 @@ TEST_CASE("verify exits with 1 if one number is wrong") {
   CHECK_THAT(f.out, Contains("1 failed"));
 }
 
-TEST_CASE("verify says what it misses when there is no table") {
+TEST_CASE("verify names the missing table") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"verify", "--reference", "nowhere"});
   CHECK(f.exit == 2);

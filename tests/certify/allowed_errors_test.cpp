@@ -31,7 +31,7 @@ TEST_CASE("the allowed error of a kind is a millionth of its largest number in t
   CHECK(of_small[quantity::w] == Approx(2e-9));  // the path's 2.0 does not count
 }
 
-TEST_CASE("unloaded, a state is measured by the largest of its path") {
+TEST_CASE("the allowed error of an unloaded state is relative to the largest numbers of its path") {
   allowed_errors sizes;
   (void)sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
   error_bounds nothing = bounds(1e-12, 1e-12, 0.0, 0.0);
@@ -43,8 +43,8 @@ TEST_CASE("unloaded, a state is measured by the largest of its path") {
 }
 
 TEST_CASE(
-    "an unloaded state is not measured by its own errors, nor by what earlier states were only said to "
-    "have") {
+    "the allowed error of an unloaded state depends neither on its own errors nor on unproved earlier "
+    "states") {
   allowed_errors sizes;
   (void)sizes.of(bounds(3.0, 2.0, 20.0, 50.0), 10.0);
   error_bounds nothing = bounds(1.0, 1.0, 1.0, 1.0);
@@ -111,7 +111,7 @@ TEST_CASE(
   CHECK(of_beam.of(b, 10.0)[quantity::force] == Approx(0x1p-70 * 6));
 }
 
-TEST_CASE("a gap is measured by the deflections, or by the largest gap") {
+TEST_CASE("the allowed error of a gap is relative to the deflections, or to the largest gap") {
   error_bounds b = bounds(1e-9, 2.0, 1e-9, 50.0);
   b.error[quantity::gap] = 1e-9;
   b.size[quantity::gap] = 1.0;

@@ -88,7 +88,7 @@ beam_problem span_with_pairs() {
 
 }  // namespace
 
-TEST_CASE("a right state is certified, with nothing wrong in any respect") {
+TEST_CASE("a correct state is certified, with no error in any measure") {
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
   REQUIRE(right.isep == std::vector<int>{in_contact, in_contact, separated, separated});
@@ -104,8 +104,7 @@ TEST_CASE("a right state is certified, with nothing wrong in any respect") {
   CHECK(c.rcond == right.rcond);
 }
 
-TEST_CASE(
-    "what is wrong with a state is seen in the measures that it concerns, and the worst of it is told") {
+TEST_CASE("an error of a state appears in the measures that it affects, and the message names the worst") {
   // On a spring that is too weak for the balance to tell a status that is wrong is seen alone.
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
@@ -138,7 +137,7 @@ TEST_CASE(
   CHECK(judged(p, t).certified);
 }
 
-TEST_CASE("a deflection that hardly disturbs the balance is seen beside the reference solution alone") {
+TEST_CASE("a wrong deflection that hardly disturbs equilibrium is detected only by the reference solution") {
   // A nearly rigid beam on soft springs, sunk by a hundred-thousandth too much.
   beam_problem p = free_beam_on_springs(4.0, 4, 1e10, 1.0);
   p.steps = {{{}, {{{-1.0}, {}}}}};
@@ -218,7 +217,7 @@ TEST_CASE("if a rigid-body motion is free, displacements are not compared, but a
   CHECK(wrong_in(judged(p, t)) == "E");
 }
 
-TEST_CASE("an unloaded state is measured by the largest deflection that the path has seen") {
+TEST_CASE("the allowed error of an unloaded state is relative to the largest deflection of the path") {
   beam_problem p = span_with_pairs();
   p.steps.emplace_back();
   told_state loaded = right_state(p, p.steps[0]);
@@ -239,7 +238,9 @@ TEST_CASE("an unloaded state is measured by the largest deflection that the path
   CHECK(judged(p, unloaded).certified);
 }
 
-TEST_CASE("a structure that turns and does not sink is not measured by the rounding of its deflections") {
+TEST_CASE(
+    "the allowed error of a structure that turns without sinking is not relative to the rounding of "
+    "deflections") {
   // Equal moments at both ends of a span: its middle stays where it is, to about eps of what it turns.
   beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {2, 0, true}}, {{1, face_below, -1.0, 5.0, false}}, {}};
@@ -307,7 +308,7 @@ TEST_CASE("a NaN or infinite displacement is not certified, at any dof") {
 }
 
 TEST_CASE(
-    "the listing's early toggle is found, with its step, its pair and its distance, and seen in the state") {
+    "the listing's early toggle is found, with step, pair and distance, and the state shows its error") {
   // Two stops alike under a symmetric load, the second 0.3 % farther away: within EPSMUL of the first.
   const beam_problem p{even_beam(8.0, 8, 1e5),
                        {{0, 0, true}, {8, 0, true}},
@@ -332,7 +333,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a load that nothing carries has no final state, and the step is not told") {
+TEST_CASE("a load that nothing carries has no final state, and the message names no step") {
   // Two props under a free beam: they carry its weight, and no pull.
   beam_problem p{even_beam(4.0, 4, 1.0), {}, {{0, -1, 0.0, 1.0, true}, {4, -1, 0.0, 1.0, true}}, {}};
   p.steps = {tip_load(2, -1.0), tip_load(2, 1.0), tip_load(2, 1.0)};
@@ -347,7 +348,7 @@ TEST_CASE("a load that nothing carries has no final state, and the step is not t
   CHECK(told.steps[0].u[4] < 0.0);
 }
 
-TEST_CASE("the certificate of a state of the reference solution's own is not independent") {
+TEST_CASE("the certificate of a state taken from the reference solution is not independent") {
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
@@ -364,7 +365,7 @@ TEST_CASE("the certificate of a state of the reference solution's own is not ind
   CHECK(judged.all_certified());
 }
 
-TEST_CASE("a state that a path reached and nothing proves is replaced by the reference solution") {
+TEST_CASE("a final state of a path that cannot be proved is replaced by the reference solution") {
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
@@ -378,7 +379,7 @@ TEST_CASE("a state that a path reached and nothing proves is replaced by the ref
   CHECK(end.state->numbers.has_value());
 }
 
-TEST_CASE("an unloaded beam held by its faces alone is certified above them, and not below") {
+TEST_CASE("an unloaded beam held only by its faces is certified above them, and not certified below") {
   problem p;
   p.geometry.kind = beam{{0.0, 1.0}, {1e4}};
   p.pairs = {{0, face_below, 0.0, 10.0, false}, {1, face_below, 0.0, 10.0, false}};

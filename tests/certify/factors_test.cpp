@@ -54,7 +54,9 @@ sparse_columns lower_of(const band_matrix& k) {
 
 }  // namespace
 
-TEST_CASE("a matrix 2^-90 from singular is factored and solved for, one as far on the other side is not") {
+TEST_CASE(
+    "a positive definite matrix 2^-90 from singular has a factor, and an indefinite one at that distance has "
+    "none") {
   long_band l = springs_in_line(0x1p-90);
   REQUIRE(factor(l));
   std::vector<double_double> x = {1.0, 0.0, 0.0};
@@ -75,7 +77,7 @@ TEST_CASE("a matrix 2^-90 from singular is factored and solved for, one as far o
   CHECK(work.hi == Approx(-0x1p-90).epsilon(1e-4));
 }
 
-TEST_CASE("the error of a factor is bounded from above, to its rounding") {
+TEST_CASE("the bound on the error of a factor is above the error, and by no more than rounding") {
   const long_band a = springs_in_line(0x1p-60);
   long_band l = a;
   REQUIRE(factor(l));
@@ -90,7 +92,7 @@ TEST_CASE("the error of a factor is bounded from above, to its rounding") {
   CHECK(std::isinf(largest_row_of_error(a, l, 0.0)));
 }
 
-TEST_CASE("rows of a wide band lose nothing at its edges") {
+TEST_CASE("rows of a wide band are complete at both edges of the band") {
   const int n = 40;
   for (const int b : {0, 1, 5, 39}) {
     long_band a(n, b);
@@ -128,7 +130,7 @@ TEST_CASE("the bound is above the largest row sum, and by rounding only") {
   }
 }
 
-TEST_CASE("of an exact factor nothing but the rounding of sums is left, and a part in 1e9 is seen") {
+TEST_CASE("an exact factor leaves only the rounding of sums, and a relative error of 1e-9 is detected") {
   // L has ones on its diagonal and below: A_ij = 1 + min(i, j), all exact.
   constexpr int n = 6;
   sparse_columns l;

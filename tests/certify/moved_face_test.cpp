@@ -62,7 +62,7 @@ problem cantilever() {
 
 }  // namespace
 
-TEST_CASE("A stop raised by m under a cantilever presses with (m - gap) / (1 / k + l^3 / 3 EI)") {
+TEST_CASE("A stop raised by m under a cantilever presses with the force (m - gap) / (1 / k + l^3 / 3 EI)") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01), {}};
   on_every_way(p, [&](const moved_path& path) {
@@ -78,7 +78,7 @@ TEST_CASE("A stop raised by m under a cantilever presses with (m - gap) / (1 / k
   });
 }
 
-TEST_CASE("A rack that goes down leaves the beam where its load is carried without it") {
+TEST_CASE("A rack that goes down separates from the beam at the deflection of the beam without the rack") {
   problem p;
   p.geometry.kind = even_beam(6.0, 4, 1e4);
   p.supports = {{0, 0, true}, {4, 0, true}};
@@ -171,7 +171,7 @@ TEST_CASE("FORTRAN and C++ get the row of a pair whose face moves, and answer al
   CHECK(calls.rows[2] == Approx(-0.01 + 0.0055813953).epsilon(1e-7));  // 0.006 / (1 + 3750 / k) - m
 }
 
-TEST_CASE("A state that is right for another place of the face is not certified") {
+TEST_CASE("A state that is correct for another position of the face is not certified") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01)};
   const linear_structure s = structure_of(p);

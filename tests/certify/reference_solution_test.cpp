@@ -74,7 +74,7 @@ double rounded_residuals(int elements, double compliance) {
 }  // namespace
 
 TEST_CASE(
-    "the reference solution has PB1's hand calculation at every step, loading, unloading and reversed") {
+    "the reference solution equals PB1's hand calculation at every step: loaded, unloaded and reversed") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -128,7 +128,7 @@ TEST_CASE("the reference solution finds the exact equilibria of thousands of bea
   CHECK(of_layout.size() == face_layouts);
 }
 
-TEST_CASE("if the plain active set repeats itself, the reference solution still ends, at the right answer") {
+TEST_CASE("the reference solution ends at the correct state even if the plain active set cycles") {
   // A cantilever between stops. From the undeformed structure: none, then 2 and 3, then 3 and 4 press,
   // then none again; right is 3 alone. Nothing is near a tie: every pair stays 0.08 off its face.
   const beam_problem p{even_beam(3.0, 3, 1.0),
@@ -162,7 +162,7 @@ TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibr
   }
 }
 
-TEST_CASE("after a load without equilibrium the reference solution has the next one's") {
+TEST_CASE("the reference solution finds the equilibrium of a load that follows one without equilibrium") {
   const beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -175,7 +175,7 @@ TEST_CASE("after a load without equilibrium the reference solution has the next 
     CHECK(after.displacement[dof] == Approx(alone.displacement[dof]).epsilon(1e-14).margin(1e-16));
 }
 
-TEST_CASE("balanced on one pair an equilibrium is found, and known to be one of many") {
+TEST_CASE("a beam balanced on one pair has an equilibrium, which is reported as one of many") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   const linear_structure s = p.structure();
   const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, even_load(-2.0)));
@@ -188,7 +188,8 @@ TEST_CASE("balanced on one pair an equilibrium is found, and known to be one of 
   CHECK(reference_solver(s).solve(f).how == outcome::none_seen);
 }
 
-TEST_CASE("unloaded, a free structure may lie anywhere between its faces, a held one may not") {
+TEST_CASE(
+    "an unloaded free structure may lie anywhere between its faces, and an unloaded held one only at 0") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const std::vector<double> nothing(10, 0.0);
   const linear_structure free = p.structure();
@@ -210,7 +211,7 @@ TEST_CASE("unloaded, a free structure may lie anywhere between its faces, a held
   CHECK(a.displacement == nothing);
 }
 
-TEST_CASE("a long simply supported span keeps its digits but for the rounding of residuals") {
+TEST_CASE("a long simply supported span loses no digits except to the rounding of residuals") {
   // Elements of length 1 and loads of 6 and 1: matrix and load are stored without any rounding.
   for (const int elements : {100, 400, 1000}) {
     const beam_problem p{even_beam(elements, elements, 1.0), {{0, 0, true}, {elements, 0, true}}, {}, {}};
@@ -261,7 +262,8 @@ TEST_CASE("an answer does not depend on the loads that were solved before, even 
   CHECK(compared > 1200);
 }
 
-TEST_CASE("a load beyond the range of double precision is no answer, and no word about equilibrium") {
+TEST_CASE(
+    "a load beyond the range of double precision gives neither a state nor a statement about equilibrium") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -274,7 +276,7 @@ TEST_CASE("a load beyond the range of double precision is no answer, and no word
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));
 }
 
-TEST_CASE("the condition is that of the state that was found, and takes no factorisation") {
+TEST_CASE("the condition number belongs to the state that was found, and costs no factorisation") {
   const beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {0, 1, true}}, {{2, face_above, 1.0, 10.0, false}}, {}};
   const linear_structure s = p.structure();

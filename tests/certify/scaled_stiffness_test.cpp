@@ -95,7 +95,7 @@ TEST_CASE("a matrix that doubles cannot factor is proved definite in 32 digits, 
   CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
 }
 
-TEST_CASE("a bound is no more than the shift less the error of the factor, in rational numbers") {
+TEST_CASE("a bound is at most the shift minus the error of the factor, checked in rational numbers") {
   int proved = 0;
   for (int i = 0; i < 400; ++i) {
     const int n = 2 + i % 5;
@@ -113,7 +113,7 @@ TEST_CASE("a bound is no more than the shift less the error of the factor, in ra
   CHECK(proved >= 100);
 }
 
-TEST_CASE("by sparse columns the same is proved") {
+TEST_CASE("sparse storage by columns gives the same proof as a band") {
   if (!sparse_factor::available()) return;
   for (const int n : {1, 2, 10, 1000}) {
     const long_system t = chain(n);
@@ -131,7 +131,9 @@ TEST_CASE("by sparse columns the same is proved") {
   }
 }
 
-TEST_CASE("a matrix that is not definite has no bound, however near it is, in either storage") {
+TEST_CASE(
+    "a matrix that is not positive definite has no bound in either storage, however small its negative "
+    "eigenvalue") {
   const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 42), 2);
   for (const double less : {-1e-3, -1e-9, -1e-14}) {
     const long_system t = chain(20, -least + less);
@@ -144,7 +146,7 @@ TEST_CASE("a matrix that is not definite has no bound, however near it is, in ei
   }
 }
 
-TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounded too") {
+TEST_CASE("springs of pairs hold a structure without supports, and a wide band has a bound too") {
   problem p;
   std::vector<double> lines(9);
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = static_cast<double>(i) / 8;
@@ -170,7 +172,7 @@ TEST_CASE("springs of pairs hold what supports do not, and a wide band is bounde
   for (const double_double& back : k.times(x)) CHECK(back.hi == Approx(1.0).margin(1e-6));
 }
 
-TEST_CASE("a chain that is fixed at some nodes is proved in doubles, as one that is not") {
+TEST_CASE("a chain that is fixed at one node is proved in doubles, whichever node it is") {
   for (const int fixed : {0, 3, 9}) {
     long_system t = chain(10);
     t.fixed[fixed] = 1;

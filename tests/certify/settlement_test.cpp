@@ -172,7 +172,8 @@ TEST_CASE("Loads and settlements of a plate and of a matrix add up") {
   }
 }
 
-TEST_CASE("The reference solution finds the same without a path, and tells a support off its place") {
+TEST_CASE(
+    "The reference solution finds the same settled state without a path, and detects a misplaced support") {
   problem p = two_spans();
   p.pairs = {{2, face_below, -0.001, 1e5, false}, {6, face_above, 0.002, 1e5, false}};
   p.steps = {{{{6, 0, 300.0}}, {}, {{4, 0, -0.01}, {0, 0, 0.003}}}};

@@ -117,14 +117,14 @@ TEST_CASE("The 1989 kernels get the difference of two dofs as a row of its own, 
   CHECK(calls.rows[2] == Approx(-0.002 - 75.0 / 11 / 1e5).epsilon(1e-10));  // c - C / k
 }
 
-TEST_CASE("A body that only a pair with another body holds is held, and moves as a spring in series does") {
+TEST_CASE("A body held only by a pair with another body moves like a spring in series") {
   in_every_storage(chain(0.0), {"fortran", "corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.u(1)[3] == Approx(-9.0 / 200 - 9.0 / 100 - 9.0 / 600 - 9.0 / 50).epsilon(1e-11));
   });
 }
 
-TEST_CASE("A free body goes over a gap to the other body, and away from it without end") {
+TEST_CASE("A free body crosses a gap to the other body, and moves away from it without limit") {
   in_every_storage(chain(-0.01), {"corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.seen.increments.at(0).snaps);
@@ -179,7 +179,7 @@ TEST_CASE("A state is not certified in which one of two dofs is off by a tenth o
   }
 }
 
-TEST_CASE("The bound of a state that moves both dofs of a stiff pair too far is no smaller than that") {
+TEST_CASE("The bound of a state that moves both dofs of a stiff pair too far is at least that error") {
   const problem p =
       on_matrix({2, {{0, 0, 1}, {1, 0, 0}, {1, 1, 1}}}, {{0, face_below, 0.0, 1e6, true, 1}}, {force(0, -3)});
   const linear_structure s = structure_of(p);

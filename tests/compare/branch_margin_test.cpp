@@ -29,7 +29,7 @@ std::optional<decision> named(small_call<double> c, Change change) {
 
 }  // namespace
 
-TEST_CASE("the margin of a wrong SS is one of its own pair's, though another pair's is narrower") {
+TEST_CASE("the margin of a wrong SS belongs to its own pair, even if another pair has a narrower one") {
   const auto of_gap = named(three_pairs(), [](call_outputs& o) { o.ss[1] = 1e-17; });
   REQUIRE(of_gap);
   CHECK(words_of(*of_gap).starts_with("pair 2: IF (ABS(GAP).LT.EPSGAP) was false by "));
@@ -38,7 +38,8 @@ TEST_CASE("the margin of a wrong SS is one of its own pair's, though another pai
   CHECK(words_of(*of_response) == "pair 3: IF (DTEST(NDOF).EQ.0.) was true, exactly on the threshold");
 }
 
-TEST_CASE("the margin of a wrong SMIN is that of the SS that differs, and of the smallest where none does") {
+TEST_CASE(
+    "the margin of a wrong SMIN belongs to the SS that differs, or to the smallest SS if none differs") {
   const auto of_ss = named(three_pairs(), [](call_outputs& o) { o.smin = o.ss[1] = 1e-17; });
   REQUIRE(of_ss);
   CHECK(of_ss->what == branch::stationary);
@@ -47,7 +48,7 @@ TEST_CASE("the margin of a wrong SMIN is that of the SS that differs, and of the
   CHECK(of_smin->what == branch::s_is_smallest);
 }
 
-TEST_CASE("the margin of a wrong ISEP is its pair's DIFF, and SMIN where the other kernel toggled nothing") {
+TEST_CASE("the margin of a wrong ISEP is its pair's DIFF, or SMIN if the other kernel toggled nothing") {
   // SMIN is the number before 1: IF (SMIN.EQ.1.) is narrower than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},
                                                       {0.0, 1.0, 4.0, separated, face_above}})
@@ -60,7 +61,7 @@ TEST_CASE("the margin of a wrong ISEP is its pair's DIFF, and SMIN where the oth
   CHECK(words_of(*of_smin) == "IF (SMIN.EQ.1.) was false by 1 ULP");
 }
 
-TEST_CASE("a status that both kernels changed, and to different ones, leads to IF (ISEP(I).EQ.1)") {
+TEST_CASE("a pair that both kernels toggled to different statuses leads to IF (ISEP(I).EQ.1)") {
   const small_call<double> odd = small_call<double>({{0.0, 1.0, 0.5, 2, face_above}}).ask();
   CHECK(odd.isep[0] == separated);
   const auto of_status = named(odd, [](call_outputs& o) { o.isep[0] = in_contact; });

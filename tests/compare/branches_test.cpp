@@ -54,7 +54,8 @@ TEST_CASE("each IF of the listing is counted by its outcome") {
   CHECK(counts.rarest() == 0);  // no call without events, no make
 }
 
-TEST_CASE("an event within EPSMUL by one ULP has the margin of that ULP, and one exactly at it has none") {
+TEST_CASE(
+    "an event within EPSMUL by one ULP has a margin of one ULP, and one exactly at EPSMUL a margin of 0") {
   const double edge = 0.5 + 0.5 / 256;
   for (const auto& [face, ulps] : {std::pair(edge, 0UL), {std::nextafter(edge, 0.0), 1UL}}) {
     const small_call<double> c(
@@ -81,7 +82,7 @@ TEST_CASE("both zeros are exactly on the threshold of IF (DTEST(NDOF).EQ.0.)") {
   CHECK(margin(std::numeric_limits<double>::denorm_min()) == 1);
 }
 
-TEST_CASE("with NaN there is no count, and the words say so") {
+TEST_CASE("a comparison with NaN has no margin, and the text says so") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   CHECK(margin_of(small_call<double>({{nan, 1.0, 0.5, separated, face_above}}), branch::stationary, 0) ==

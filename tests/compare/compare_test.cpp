@@ -81,7 +81,7 @@ TEST_CASE("equal bytes are counted as compared, and a NaN of another payload is 
   CHECK(t.mismatches == 1);
 }
 
-TEST_CASE("one bit is enough, and the first difference is named") {
+TEST_CASE("a difference of one bit is a mismatch, and the first difference is named") {
   tally t;
   const auto one_ulp = differ(0.5, {0.5, std::numeric_limits<double>::denorm_min()}, {1, -1}, t);
   REQUIRE(one_ulp);
@@ -118,7 +118,7 @@ TEST_CASE("text is compared byte for byte, and the first different line is named
   CHECK(t.mismatches == 3);
 }
 
-TEST_CASE("text compared by meaning may lack a number's zero and have other blanks, and nothing else") {
+TEST_CASE("text compared by meaning may differ only in a number's leading zero and in blanks") {
   const auto same = [](std::string_view a, std::string_view b) {
     tally t;
     const auto found = compare_text(a, b, t, text_equality::meaning);
@@ -140,7 +140,7 @@ TEST_CASE("text compared by meaning may lack a number's zero and have other blan
   CHECK_FALSE(same("a\n", "a\nb\n"));
 }
 
-TEST_CASE("the text of gfortran is compared with that of C++ by bytes, and only f2c's by meaning") {
+TEST_CASE("the texts of gfortran and C++ are compared by bytes, and only f2c's is compared by meaning") {
   CHECK_FALSE(facts_of_kernel("fortran").text_by_meaning);
   CHECK_FALSE(facts_of_kernel("cpp").text_by_meaning);
   CHECK(text_equality_of(facts_of_kernel("fortran"), facts_of_kernel("cpp")) == text_equality::bytes);
@@ -190,7 +190,7 @@ TEST_CASE("a follower refuses a call beyond the limits of 32 bits, and compares 
   CHECK(f.compared.values == 3);
 }
 
-TEST_CASE("text is compared where the leader's is given, as one value") {
+TEST_CASE("text is compared only if the leader's text is given, and counts as one value") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -221,7 +221,8 @@ TEST_CASE("a report names the call, the kernels and the place, and calls a narro
   CHECK(words_of(r) == std::vector<std::string>{"call 3: mine gave no answer: it ended with status 3"});
 }
 
-TEST_CASE("the text of a trace is compared by bytes, whoever wrote it, and only that of f2c's by meaning") {
+TEST_CASE(
+    "the text of a trace from any kernel is compared by bytes, except that f2c's is compared by meaning") {
   const auto mismatches = [](const char* kernel, const char* scale_factor) {
     return replayed(trace_of(kernel, scale_factor)).compared.mismatches;
   };
@@ -236,7 +237,7 @@ TEST_CASE("the text of a trace is compared by bytes, whoever wrote it, and only 
 }
 
 TEST_CASE(
-    "an answer that has every s and every status of its own is a mismatch in each, though SMIN is the same") {
+    "an answer in which every s and every status differs has a mismatch in each, even if SMIN is equal") {
   tally t;
   const std::optional<mismatch> first = differ(0.5, {0.25, 1.0}, {-1, 1}, t);
   REQUIRE(first);

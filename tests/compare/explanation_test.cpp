@@ -37,7 +37,9 @@ std::vector<std::string> listing_text() {
 
 }  // namespace
 
-TEST_CASE("a pair within EPSMUL that is not at its face yet is toggled too early, by so much") {
+TEST_CASE(
+    "a pair within EPSMUL that has not reached its face is toggled too early, by the distance that is "
+    "stated") {
   const explained_call e = explained(
       small_call<double>({{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, 0.501, separated, face_above}}));
   CHECK(e.winner == 0);
@@ -48,7 +50,7 @@ TEST_CASE("a pair within EPSMUL that is not at its face yet is toggled too early
   CHECK(e.pairs[1].toggled());
 }
 
-TEST_CASE("a pair that is a rounding behind the winner comes to its face at the same moment") {
+TEST_CASE("a pair that is behind the winner only by rounding reaches its face at the same share") {
   const explained_call e = explained(small_call<double>(
       {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, std::nextafter(0.5, 1.0), separated, face_above}}));
   CHECK(e.pairs[1].why == why_toggled::same_moment);
@@ -68,14 +70,14 @@ TEST_CASE("near full load the mark of a pair without any event lies within EPSMU
   CHECK(e.pairs[2].why == why_toggled::by_mark);
 }
 
-TEST_CASE("with SMIN at 256/257 the marks are just out of reach") {
+TEST_CASE("the marks of pairs without an event are just beyond EPSMUL if SMIN is 256/257") {
   const explained_call e = explained(small_call<double>(
       {{0.0, 1.0, 256.0 / 257.0 - 1e-9, separated, face_above}, {0.0, 0.0, -1.0, separated, face_below}}));
   CHECK(e.pairs[1].why == why_toggled::not_toggled);
   CHECK_FALSE(e.pairs[1].toggled());
 }
 
-TEST_CASE("a stationary pair wins by its check variable, and no pair is near it") {
+TEST_CASE("a stationary pair wins by its check variable, and no other pair is within EPSMUL") {
   const explained_call e = explained(
       small_call<double>({{0.0, 2.0, 0.0, in_contact, face_below}, {0.0, 1.0, 0.5, separated, face_above}}));
   CHECK(e.winner == 0);
@@ -95,7 +97,9 @@ TEST_CASE("a call without events has no winner, and the narrowest decision is na
   CHECK(e.narrowest->ulps == 0);
 }
 
-TEST_CASE("the winner's s is SMIN, and what is explained as toggled was toggled: 20,000 random calls each") {
+TEST_CASE(
+    "the winner's s is SMIN, and exactly the pairs explained as toggled were toggled, in 20,000 random calls "
+    "each") {
   const auto agree = [](const auto& in, const call_outputs& out, const explained_call& e) {
     for (std::size_t i = 0; i < in.pairs(); ++i) {
       const explained_pair& p = e.pairs[i];

@@ -50,7 +50,7 @@ TEST_CASE("answers that are equal name no line") {
   CHECK_FALSE(all.found());
 }
 
-TEST_CASE("an EPSGAP of 1e-9 is told line 33, and which gaps were taken for none") {
+TEST_CASE("a kernel with an EPSGAP of 1e-9 is told line 33, and the gaps that it treated as zero") {
   fault_finder all;
   for (const double gap : {2e-10, 5e-10}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
@@ -66,7 +66,8 @@ TEST_CASE("an EPSGAP of 1e-9 is told line 33, and which gaps were taken for none
         "2e-10 to 5e-10");
 }
 
-TEST_CASE("a quotient that is rounded twice is told line 38, and a GAP of the wrong sign line 30") {
+TEST_CASE(
+    "a kernel that rounds a quotient twice is told line 38, and one with the wrong sign of GAP line 30") {
   fault_finder rounded, negative;
   for (const double gap : {0.3, 0.7}) {
     note(rounded, four_pairs(gap), [](call_outputs& o) { o.ss[2] = std::nextafter(o.ss[2], 1.0); });
@@ -81,8 +82,8 @@ TEST_CASE("a quotient that is rounded twice is told line 38, and a GAP of the wr
 }
 
 TEST_CASE(
-    "pairs toggled up to another DIFF are told line 52, and a larger DIFF toggled without a smaller one line "
-    "51") {
+    "a kernel with another limit of DIFF is told line 52, and one that toggles a larger DIFF but not a "
+    "smaller one line 51") {
   fault_finder threshold, no_threshold;
   const auto toggle = [](std::size_t i) { return [i](call_outputs& o) { o.isep[i] = in_contact; }; };
   note(threshold, with_diffs(0x1.8p-8, 0x1.8p-7), toggle(1));
@@ -134,7 +135,7 @@ TEST_CASE("the lines that two kernels took stand beside GAP, DTEST and SSCHK") {
         "(SSCHK.GT.0.) SS(I) = SSCHK * DELTA");
 }
 
-TEST_CASE("a call without pairs whose text differs is told the FORMAT") {
+TEST_CASE("a call without pairs whose text differs leads to the FORMAT") {
   fault_finder all;
   small_call<double> c({});
   answered_call right = c.ask().answered();
@@ -144,7 +145,7 @@ TEST_CASE("a call without pairs whose text differs is told the FORMAT") {
   CHECK(line_of(all) == 44);
 }
 
-TEST_CASE("a text that has no line of the listing is told a FORMAT, and has no numbers to compare") {
+TEST_CASE("a text without any line of the listing leads to a FORMAT, and has no numbers to compare") {
   fault_finder all;
   small_call<double> c = four_pairs(0.25);
   answered_call right = c.answered();

@@ -45,7 +45,7 @@ std::string without_origin(const std::string& trace) {
 
 }  // namespace
 
-TEST_CASE("the committed traces are what the 1989 code answers, line by line") {
+TEST_CASE("the committed traces equal the answers of the 1989 code, line by line") {
   int calls = 0;
   for (const golden::golden_trace& t : golden::all_traces()) {
     INFO(t.name);
@@ -55,7 +55,7 @@ TEST_CASE("the committed traces are what the 1989 code answers, line by line") {
   CHECK(calls > 300);
 }
 
-TEST_CASE("every trace says what it is there for, and nothing else lies beside them") {
+TEST_CASE("every trace states its purpose, and the folder holds no other files") {
   std::set<std::string> made;
   for (const golden::golden_trace& t : golden::all_traces()) made.insert(t.name + ".trace");
   for (const auto& path : committed()) {

@@ -93,7 +93,7 @@ TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
   CHECK(compared.first()->follower == "faulty");
 }
 
-TEST_CASE("the last call is equal only when no follower's answer to it differs") {
+TEST_CASE("the last call counts as equal only if every follower's answer to it is equal") {
   const auto fault = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
   CHECK_FALSE(with_fault(fault).last_call_equal());
   CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
@@ -126,7 +126,7 @@ TEST_CASE("faults in SS, in ISEP and in the text are caught too") {
   CHECK(with_fault([](call<double>&, std::string& text) { text[3] = '?'; }).first()->where.field == "text");
 }
 
-TEST_CASE("a follower that goes wrong does not lead the path astray") {
+TEST_CASE("the path follows the leader, whatever a follower answers") {
   // Every call goes to the follower with the leader's inputs, so one fault is one mismatch.
   int call_number = 0;
   const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
@@ -136,7 +136,7 @@ TEST_CASE("a follower that goes wrong does not lead the path astray") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("of several followers the mismatch of the earliest call is reported, in any order of theirs") {
+TEST_CASE("the mismatch of the earliest call is reported, whatever the order of the followers") {
   const auto wrong_from = [](int call, double by) {
     return faulty([call, by, n = 0](call_of_double& c, std::string&) mutable {
       if (++n >= call) c.smin += by;

@@ -60,7 +60,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("each run-time library has a unit 26 of its own, one at a time") {
+TEST_CASE("each run-time library has its own unit 26, and only one is open at a time") {
   const call_inputs<double> quarter{{0.0}, {4.0}, {1.0}, {1}, {separated}, {face_above}, {}};
   for (const std::string& name : other_kernels()) {
     INFO(name);

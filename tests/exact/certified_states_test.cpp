@@ -131,7 +131,7 @@ TEST_CASE("A reaction of 200 N with an error of 0.2 N is not certified, however 
 }
 
 TEST_CASE(
-    "A pair that the 1989 rule toggles before it is at its face is in contact and open: not certified") {
+    "A pair that the 1989 rule toggles before its face is in contact with a gap, and is not certified") {
   // Node 1 is fixed 0.9 mm from its face; the rule toggles both pairs when the beam is unloaded.
   const std::string text =
       "[beam]\nx = [0.0, 1.0, 2.0, 3.0]\nEI = 11.2\n[[support]]\nnodes = [1, 4]\nfix = [\"w\", \"theta\"]\n"
@@ -170,7 +170,7 @@ TEST_CASE("A matrix with a negative eigenvalue of 1e-11 has two equilibria: neit
   CHECK(r.of_step(1).problem.find("semidefinite") != std::string::npos);
 }
 
-TEST_CASE("A singular matrix that is semidefinite without rounding is certified where a pair holds it") {
+TEST_CASE("A singular matrix that is exactly semidefinite is certified if a pair holds it") {
   problem p = two_dofs(-1.0, 1e3, -5.0);
   std::get<assembled>(p.geometry.kind).free_motions = 1;
   const judged_run r(p, "corrected");

@@ -41,8 +41,7 @@ const std::string lies =
 
 }  // namespace
 
-TEST_CASE(
-    "a combination is the step of its cases' loads times their factors, to the last bit of each number") {
+TEST_CASE("a combination equals the step with its cases' loads times their factors, to the bit") {
   for (const auto follow : {follow_corrected_path, follow_1989_path}) {
     const exact_path of_cases = follow(read(combined), {});
     const exact_path of_one_step = follow(read(by_hand), {});
@@ -59,7 +58,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("behind a combination that is a mechanism the next one is followed from the unloaded structure") {
+TEST_CASE("a combination that follows a mechanism starts from the unloaded structure") {
   for (const auto follow : {follow_corrected_path, follow_1989_path}) {
     const exact_path path = follow(read(lies), {});
     CHECK(path.status == path_status::mechanism);

@@ -55,7 +55,7 @@ entries chain(int n, double more) {
 }  // namespace
 
 TEST_CASE(
-    "matrices that doubles cannot tell from singular ones are decided, singular ones are semidefinite") {
+    "matrices that are singular in doubles are classified exactly, and singular ones are semidefinite") {
   CHECK(pair_of(1.0, 1.0).what.semidefinite);
   CHECK(pair_of(1.0, 1.0000000000000002).what.semidefinite);
   CHECK(pair_of(1.0, 0.9999999999999999).shows());
@@ -66,7 +66,7 @@ TEST_CASE(
   CHECK(of(30, chain(30, -0x1p-52)).shows());
 }
 
-TEST_CASE("negative work at dofs that supports fix does not count, a negative diagonal is shown") {
+TEST_CASE("negative work at fixed dofs does not count, and a negative diagonal entry is reported") {
   CHECK(of(4, chain(4, -6.0), 0).what.semidefinite);
   CHECK(of(4, chain(4, -6.0)).shows());
 }
@@ -79,7 +79,7 @@ TEST_CASE("numbers of all sizes are scaled: 1e-200 beside 1e200") {
   CHECK(coupled(1.001).shows());
 }
 
-TEST_CASE("random Gram matrices are semidefinite, and less a little of the diagonal they are not") {
+TEST_CASE("random Gram matrices are semidefinite, and with a slightly smaller diagonal they are not") {
   std::mt19937_64 random(16);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same matrices every time
   int indefinite = 0;
   for (int round = 0; round < 60; ++round) {

@@ -143,9 +143,7 @@ struct one_end {
 
 }  // namespace
 
-TEST_CASE(
-    "bounds hold against exact paths of random problems, refined and not, and refined ones are "
-    "certified") {
+TEST_CASE("bounds contain the errors on exact paths of random problems, and refined states are certified") {
 #ifdef CONTCT_HAS_GMP
   constexpr int problems = 40;
 #else
@@ -178,7 +176,7 @@ TEST_CASE(
   CHECK(2 * proved > steps * 95 / 100);
 }
 
-TEST_CASE("with any wrong number, the bounds hold or the step is not certified") {
+TEST_CASE("a state with any wrong number has bounds that contain the error, or the step is not certified") {
   one_end e(beam_over_stop);
   REQUIRE(certified(e.again()));
   CHECK(check_bounds(errors_of(e.what, e.truly, e.end), e.again().error) == 6);
@@ -227,7 +225,7 @@ TEST_CASE("the bounds of a state whose stiffness is off by 1e-9 contain its erro
   CHECK(*b.error[quantity::w] >= 1e-10 * *b.size[quantity::w]);
 }
 
-TEST_CASE("displacements that are rounding of nothing become 0, so that a held structure is certified") {
+TEST_CASE("displacements that are only rounding of 0 become 0, so that a held structure is certified") {
   const one_end e(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = \"w\"\n[[contact]]\nnode = 2\n"
       "surface = \"below\"\nface = -1\nstiffness = 1e5\n[[step]]\npoint = [ { node = 3, w = -7 } ]\n");
@@ -244,8 +242,8 @@ TEST_CASE("displacements that are rounding of nothing become 0, so that a held s
 }
 
 TEST_CASE(
-    "unloaded, a held structure is at 0: what it is off by is known, and where it only lies, its forces "
-    "are") {
+    "an unloaded held structure is at 0, so its errors are known, and an unloaded free one has known "
+    "forces") {
   const std::string freed =
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
       "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = -10\n"
@@ -273,8 +271,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "unloaded, any number that is not 0 is off by at least itself, at whichever pair, support or element it "
-    "is") {
+    "the error of an unloaded state is at least any number that is not 0, at every pair, support and "
+    "element") {
   const problem p = parse_problem(
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
       "[[contact]]\nnodes = [2, 3]\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = "
@@ -348,7 +346,7 @@ std::string balanced(const std::string& loads) {
 
 }  // namespace
 
-TEST_CASE("of a beam that balances on one face, forces and moments are proved, and no displacements") {
+TEST_CASE("a beam that balances on one face has proved forces and moments, but no proved displacements") {
   const one_end e(balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1 }, { node = 2, w = -3 }"));
   CHECK(certified(e.end.bounds));
   CHECK_FALSE(e.end.bounds.unique);
@@ -367,8 +365,7 @@ TEST_CASE("a load that is out of balance by one part in 1e13 is not balanced: th
   CHECK(certified(e.end.bounds));
 }
 
-TEST_CASE(
-    "a residual that underflows is not taken for none: a stiffness of 1e-300 proves no slope of 1e-24") {
+TEST_CASE("a residual that underflows does not count as 0: a stiffness of 1e-300 proves no slope of 1e-24") {
   const problem p = parse_problem(
       "[beam]\nlength = 2.5\nelements = 1\nEI = 1e-300\n[[support]]\nnode = 1\nfix = \"w\"\n"
       "[[support]]\nnode = 2\nfix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",
@@ -382,7 +379,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "last digits that each could not, and all of a row together could free the structure, prove nothing") {
+    "a structure that all last digits of a row together could free, but no single one, is not certified") {
   // An arrow: dof 1 is coupled with all others by entries that are written with 6 digits.
   const auto proved = [](int others) {
     problem p;
@@ -414,7 +411,7 @@ TEST_CASE(
   CHECK_FALSE(proved(250));  // 250 * 0.005 > 1
 }
 
-TEST_CASE("an elastic support without a force does not widen the bounds of reactions") {
+TEST_CASE("an elastic support without a force does not widen the bounds on reactions") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
       "[[support]]\nnode = 1\nspring = { w = 5 }\n"

@@ -19,7 +19,7 @@ problem referee_problem(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a drop onto stiff pairs is lost in doubles, and ends at its exact forces all the same") {
+TEST_CASE("a drop onto stiff pairs fails in doubles, but its final forces are exact") {
   const judged_run r(referee_problem("dropped-onto-stiff-pairs"), "corrected");
   CHECK(r.end.status == path_status::solved);
   CHECK(r.exactly == std::vector<char>{0, 1});
@@ -32,7 +32,7 @@ TEST_CASE("a drop onto stiff pairs is lost in doubles, and ends at its exact for
   CHECK(without.reference == std::vector<char>{0, 1});
 }
 
-TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact path's end") {
+TEST_CASE("a mesh without a factor in doubles ends its first step in the final state of the exact path") {
   const judged_run r(referee_problem("graded-mesh"), "corrected");
   CHECK(r.end.status == path_status::solved);
   CHECK(r.exactly.front() == 1);
@@ -50,7 +50,8 @@ TEST_CASE("a mesh that has no factor in doubles ends its first step at the exact
 }
 
 TEST_CASE(
-    "a structure that only rounding could make a mechanism is followed to its end, a mechanism is reported") {
+    "a structure that is a mechanism only by rounding is followed to its end, and a true mechanism is "
+    "reported") {
   problem p = referee_problem("held-by-a-hair");
   CHECK(judged_run(p, "corrected").end.status == path_status::solved);
   p.steps[0].points[1].value = -4e-17;  // it tips the other way
@@ -60,7 +61,8 @@ TEST_CASE(
   CHECK(end.exists == false);
 }
 
-TEST_CASE("no step behind the end of an exact path is known, nor any of a problem that is too large") {
+TEST_CASE(
+    "steps after the end of an exact path have no exact state, nor has any step of too large a problem") {
   const problem p = referee_problem("graded-mesh");
   CHECK_FALSE(exact_means_of(p)->end_of(3).exists);
 
@@ -73,7 +75,7 @@ TEST_CASE("no step behind the end of an exact path is known, nor any of a proble
 }
 
 TEST_CASE(
-    "at the exact end of a step nothing is left but the rounding of u, and at a fixed dof the reaction") {
+    "the residual at the exact end of a step is only the rounding of u, and at a fixed dof the reaction") {
   const problem p = referee_problem("graded-mesh");
   const exact_path path = follow_corrected_path(exact_problem_of(p));
   const auto exactly = exact_means_of(p);
@@ -111,7 +113,9 @@ TEST_CASE("the residual of a state in 32 digits is exact, on either side of a fa
   }
 }
 
-TEST_CASE("a residual beyond doubles is infinite, and displacements that are not finite have none") {
+TEST_CASE(
+    "a residual beyond the range of doubles is infinite, and displacements that are not finite have no "
+    "residual") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   std::vector<double_double> u(6, 0.0);

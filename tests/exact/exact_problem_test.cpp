@@ -84,7 +84,7 @@ TEST_CASE("element_size makes equal parts between the coordinates that the file 
   CHECK(e.stiffness[10].at(11) == -6 / (rational(3, 20) * rational(3, 20)));
 }
 
-TEST_CASE("a bed's polynomial face is exact, and so is whether it is at 0") {
+TEST_CASE("a bed's polynomial face is exact, and so is the test whether it is at 0") {
   const std::string bed = clamped + "[[bed]]\nmodulus = 1\n";
   const exact_problem e = of("[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + bed +
                              "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);

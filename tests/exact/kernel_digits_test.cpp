@@ -50,7 +50,7 @@ TEST_CASE("a path that is right to the last bit has 16 digits") {
   CHECK(r.event_digits > 15.5);
 }
 
-TEST_CASE("digits are lost in displacements, forces and shares each on their own") {
+TEST_CASE("lost digits are measured for displacements, forces and shares separately") {
   const kernel_digits r = stop_run().with(1e-7, 2e-6);
   CHECK(r.same_events);
   CHECK(r.digits == Approx(6.0));
@@ -70,7 +70,7 @@ TEST_CASE("the first event that differs is reported for both paths") {
         "0.333333333");
 }
 
-TEST_CASE("a path that ends early has not the same events") {
+TEST_CASE("a path that ends early does not have the same events") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::make, path_status::mechanism);
   CHECK_FALSE(r.same_events);
   CHECK_THAT(r.first_difference, Contains("ends early"));

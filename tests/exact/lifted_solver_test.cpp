@@ -43,7 +43,7 @@ contct::rational_rows chain(std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("a held chain is solved exactly, in any order of its places") {
+TEST_CASE("a held chain is solved exactly, in any order of its points") {
   const contct::rational_rows k = chain(7);
   const std::vector<char> fixed(7, 0);
   const std::vector<added_spring> springs = {{0, rational(1, 7)}, {4, rational(22, 7)}};
@@ -58,7 +58,7 @@ TEST_CASE("a held chain is solved exactly, in any order of its places") {
   }
 }
 
-TEST_CASE("dofs that are fixed stay where they are") {
+TEST_CASE("fixed dofs have no displacement") {
   const contct::rational_rows k = chain(3);
   const std::vector<char> fixed = {1, 0, 0};
   const std::vector<int> places = in_order(3);

@@ -54,7 +54,8 @@ double x_of(const problem& p, std::size_t node) {
 }  // namespace
 
 TEST_CASE(
-    "a beam's equations are those in rational numbers: decimals, uneven meshes, loads, beds, settlements") {
+    "a beam's long equations equal those in rational numbers: decimals, uneven meshes, loads, beds, "
+    "settlements") {
   const problem p = parse_problem(
       "[beam]\nx = [0.1, 0.3, 0.7, 1.0, 1.9]\nEI = [3.3, 0.1, 7e3, 1e-4]\n[[support]]\nnode = 1\nfix = "
       "[\"w\"]\n"
@@ -68,7 +69,7 @@ TEST_CASE(
   CHECK(compare(p) > 100);
 }
 
-TEST_CASE("a plate's equations are those in rational numbers, elements of every shape") {
+TEST_CASE("a plate's long equations equal those in rational numbers, for elements of every shape") {
   const problem p = parse_problem(
       "[plate]\nx = [0.0, 0.3, 1.0]\ny = [0.0, 0.7, 0.9, 2.3]\nD = 0.7\nnu = 0.3\n[[support]]\nnode = 1\n"
       "fix = [\"w\"]\n[[bed]]\nmodulus = 0.9\nface = 0.0\n[[step]]\nuniform = -0.1\n",
@@ -77,7 +78,7 @@ TEST_CASE("a plate's equations are those in rational numbers, elements of every 
 }
 
 TEST_CASE(
-    "moments and shears of an element are those of the cubic that its nodes have, also far away and tilted") {
+    "moments and shears of an element are those of the cubic through its nodes, even far from 0 and tilted") {
   const problem p =
       parse_problem("[beam]\nx = [100000000, 100000000.1]\nEI = 3.0\n[[step]]\nuniform = 0.0\n", "b.toml");
   const long_system t = long_system_of(p);
@@ -93,8 +94,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "no displacement of a beam's element has more shear or moment than its share of the square root of its "
-    "energy") {
+    "shear and moment of a beam's element are at most their factors times the square root of its energy") {
   // Elements as long as the one before, and as the one behind.
   for (const char* mesh : {"[0.0, 0.4, 0.8, 2.8]\nEI = [5.0, 5.0, 7.0]", "[0.0, 0.4, 2.4, 4.4]\nEI = 5.0",
                            "[0.0, 2.0, 4.0, 4.4]\nEI = [5.0, 7.0, 7.0]"}) {

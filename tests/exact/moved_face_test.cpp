@@ -44,7 +44,7 @@ TEST_CASE("A move's value and factor are multiplied as decimals") {
   CHECK(exact_problem_of(p).steps[0].moved[4] == rational(1, 100));
 }
 
-TEST_CASE("States with moved faces are as exact as their bounds say") {
+TEST_CASE("States with moved faces have errors within their bounds") {
   for (const std::string kernel : {"fortran", "corrected"}) {
     const judged_run r{parse_problem(raised_stop, "p.toml"), kernel};
     const exact_path truly = follow_corrected_path(exact_problem_of(r.what));

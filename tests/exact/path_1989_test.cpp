@@ -34,7 +34,7 @@ std::string stop(int node, const std::string& face, const std::string& k) {
 
 }  // namespace
 
-TEST_CASE("s is exact without a response, on the way to a face, and at a face") {
+TEST_CASE("s is exact for a pair without a response, approaching a face, and at a face") {
   const rational d_star(-1, 3);
   const std::vector<listing_pair> pairs = {
       open_pair(-1, 0, 0),                // no response
@@ -69,7 +69,7 @@ TEST_CASE("every pair within EPSMUL is toggled, but only tied pairs win together
   CHECK(a.toggled == std::vector<int>{0, 1, 2});
 }
 
-TEST_CASE("a single stop is made exactly at its face by the 1989 rule too") {
+TEST_CASE("a single stop makes contact exactly at its face by the 1989 rule too") {
   const exact_path path =
       listed(one_span + stop(2, "-1", "3") + "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
@@ -77,7 +77,9 @@ TEST_CASE("a single stop is made exactly at its face by the 1989 rule too") {
   CHECK(path.steps[0].displacement[2] == -2);
 }
 
-TEST_CASE("a pair within EPSMUL of the first is made before it touches, and its error stays in the sum") {
+TEST_CASE(
+    "a pair within EPSMUL of the first is toggled before it touches, and the error stays in the "
+    "displacements") {
   // Two stops at one node: 1 is reached at a third, 1.001 within 1/256 of that.
   const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
                                  "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
@@ -89,7 +91,7 @@ TEST_CASE("a pair within EPSMUL of the first is made before it touches, and its 
   CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < ten_to_minus(19));
 }
 
-TEST_CASE("a stationary pair takes DELTA of the residual load with it") {
+TEST_CASE("a stationary pair is toggled after DELTA of the residual load") {
   const exact_path path =
       listed(one_span + stop(2, "0", "3") + "[[step]]\npoint = [ { node = 2, w = 6 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
@@ -106,7 +108,9 @@ TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
   CHECK(path.steps[0].increments[0].fraction < rational(1, 1000000));
 }
 
-TEST_CASE("the exact 1989 rule goes wrong where the 1989 code does, as reference/DIVERGENCES.md says") {
+TEST_CASE(
+    "the exact 1989 rule goes wrong in the same problems as the 1989 code, as reference/DIVERGENCES.md "
+    "says") {
   struct divergence {
     const char* name;
     double error;  // of w at the ends of steps that the rule reaches, relative to the largest

@@ -28,7 +28,8 @@ TEST_CASE("A force at a quarter of an element does the exact work of the cubic s
   CHECK(work_of("point = [ { x = 0.25, theta = 16 } ]\n") == rational_vector{-18, 3, 18, -5});
 }
 
-TEST_CASE("A load on a tenth of an element does exact work, a curvature that of its two moments") {
+TEST_CASE(
+    "A load on a tenth of an element does exact work, and a curvature does the work of its two end moments") {
   // q (L - L^3 + L^4 / 2) and so on, from 0 to 1/10.
   CHECK(work_of("uniform = [ { value = 1, to = 0.1 } ]\n") ==
         rational_vector{rational(1981, 20000), rational(523, 120000), rational(19, 20000),
@@ -92,8 +93,7 @@ told_extremes extremes_told_of(const problem& p) {
 
 }  // namespace
 
-TEST_CASE(
-    "Extremes of two elements are within their proved bounds of those with a node at each place of a load") {
+TEST_CASE("Extremes in two elements equal those of a mesh with a node at each load, within proved bounds") {
   random_numbers random(41);
   for (int number = 0; number < 100; ++number) {
     const drawn_load drawn = draw_load(random);

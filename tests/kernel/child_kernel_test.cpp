@@ -21,7 +21,7 @@ std::string put_to_pipe(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("a second answer that comes late is not taken for the next call's") {
+TEST_CASE("a second, late answer is not used as the answer to the next call") {
   const leftovers left;
   {
     // The second answer comes after the first was read, and the next call is asked after it was written.
@@ -44,7 +44,7 @@ TEST_CASE("a second answer that comes late is not taken for the next call's") {
   left.check();
 }
 
-TEST_CASE("a command that ends is reported, and the next call is asked of a fresh one") {
+TEST_CASE("a command that ends is reported, and the next call goes to a new process") {
   const leftovers left;
   CHECK(put_to_pipe("exit 0") == "it ended with status 0");
   CHECK(put_to_pipe("read -r line; exit 3") == "it ended with status 3");

@@ -34,7 +34,7 @@ TEST_CASE("the face's side does not enter eq. 4: it cancels out") {
   CHECK(c.ss[0] == c.ss[1]);
 }
 
-TEST_CASE("no event: a face out of reach, a face left behind, and a pair that does not respond") {
+TEST_CASE("a pair has no event if its face is out of reach or behind it, or if it does not respond") {
   small_call<double> c({{0.0, -1.0, -2.0, apart, below},    // s = 2, beyond the load
                         {0.0, 1.0, -2.0, apart, below},     // s = -2, moving away
                         {0.0, 0.0, -2.0, apart, below},     // d* = 0
@@ -78,8 +78,9 @@ TEST_CASE("a stationary pair beats every advancing one, and leaves D where it is
   CHECK(0.25 + c.smin * 1e-3 == 0.25);
 }
 
-TEMPLATE_TEST_CASE("near ties: everything within 2^-8 of the smallest s is toggled too, not at 2^-8 itself",
-                   "", float, double) {
+TEMPLATE_TEST_CASE(
+    "a near tie toggles every pair less than 2^-8 above the smallest s, and none at exactly 2^-8", "", float,
+    double) {
   using Real = TestType;
   const Real half = Real(0.5);
   const Real edge = half + half / Real(256);
@@ -93,7 +94,7 @@ TEMPLATE_TEST_CASE("near ties: everything within 2^-8 of the smallest s is toggl
   CHECK(ask(std::nextafter(edge, Real(1))) == 1);
 }
 
-TEST_CASE("a defect of the listing: its mark for 'no event' is toggled when the smallest s exceeds 256/257") {
+TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257, a defect of the listing") {
   // Pair 2 is on a fixed dof, d* = 0, a unit away from its face; it ends "in contact".
   small_call<double> c({{0.0, 1.0, 0.9999, apart, above}, {0.0, 0.0, -1.0, apart, below}});
   c.ask();
@@ -102,8 +103,7 @@ TEST_CASE("a defect of the listing: its mark for 'no event' is toggled when the 
 }
 
 // An initial state that its faces contradict: problem files refuse it (reference/DIVERGENCES.md, way 5).
-TEST_CASE(
-    "a pair that starts on the wrong side of its face toggles the wrong way round, and nothing notices") {
+TEST_CASE("a pair that starts on the wrong side of its face toggles in reverse, without an error") {
   small_call<double> pressed({{0.0, -1.0, 0.1, apart, below}});  // the face is inside the structure
   CHECK(pressed.ask().smin == 1.0);                              // which ends 1.1 deep
   CHECK(pressed.ss[0] == -0.1);
@@ -148,14 +148,14 @@ TEST_CASE("pairs are found through ID, INDOF and NDOFPN, and one node may have s
   CHECK(isep == std::vector<int>{touching, apart});
 }
 
-TEST_CASE("no pairs, no event") {
+TEST_CASE("a call without pairs has no event") {
   small_call<double> c({});
   c.ask();
   CHECK(c.smin == 1.0);
   CHECK(c.events.empty());
 }
 
-TEST_CASE("single precision has constants of its own, not the doubles' rounded") {
+TEST_CASE("the constants of single precision are not those of double precision rounded") {
   CHECK(static_cast<double>(constants<float>::delta) != constants<double>::delta);
   CHECK(static_cast<double>(constants<float>::epsgap) != constants<double>::epsgap);
   CHECK(constants<float>::epsmul == 1.0F / 256);

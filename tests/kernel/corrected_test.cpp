@@ -114,7 +114,7 @@ TEST_CASE("corrected: only an approach makes contact, and only a retreat breaks 
   CHECK(c.isep == std::vector<int>{apart, apart, touching, touching});
 }
 
-TEST_CASE("corrected: no event at full load or beyond it, nor where nothing responds, and then all s are 1") {
+TEST_CASE("corrected: without a response, or at full load and beyond, there is no event, and all s are 1") {
   const answered c({{0.0, -1.0, -1.0, apart, below},      // exactly at full load
                     {0.0, -1.0, -2.0, apart, below},      // beyond it
                     {0.0, 1.0, -2.0, apart, below},       // moving away
@@ -165,7 +165,7 @@ TEST_CASE("corrected: a face overshot counts as reached, by rounding or by more"
   }
 }
 
-TEST_CASE("corrected: a gap is a gap, however small") {
+TEST_CASE("corrected: a gap of any size counts as a gap") {
   // The listing takes everything below 1e-10 for contact at rest.
   const answered c({{0.0, -4e-11, -1e-11, apart, below}});
   CHECK(c.smin == 0.25);
@@ -173,7 +173,7 @@ TEST_CASE("corrected: a gap is a gap, however small") {
   CHECK(tiny.smin == 0.25);
 }
 
-TEST_CASE("corrected: what approaches by less than 1e-10 of the largest response does not approach") {
+TEST_CASE("corrected: an approach of less than 1e-10 of the largest response does not count") {
   const auto ask = [](double d_star, int isep) {
     // At its face, beside a pair that responds by 1 and has no event.
     return answered({{0.0, isep * -d_star, 0.0, isep, below}, {0.0, 1.0, -5.0, apart, below}}).happened;
@@ -187,7 +187,7 @@ TEST_CASE("corrected: what approaches by less than 1e-10 of the largest response
   CHECK(ask(std::numeric_limits<double>::denorm_min(), touching) == breaks(0));
 }
 
-TEST_CASE("corrected: the largest response is that of any pair, of any side and status") {
+TEST_CASE("corrected: the largest response is taken over all pairs, on either side and in either status") {
   for (const int isep : {apart, touching}) {
     for (const double other : {-1.0, 1.0}) {
       // The other pair's event is far away, or behind it.
@@ -198,7 +198,7 @@ TEST_CASE("corrected: the largest response is that of any pair, of any side and 
   }
 }
 
-TEST_CASE("corrected: one event at a time, the first of the least s, and near ties wait") {
+TEST_CASE("corrected: only the first pair of the least s is toggled, and near ties wait") {
   const answered tie({{0.0, -1.0, -0.5, apart, below},
                       {0.0, 2.0, 0.5, apart, above},
                       {0.0, 1.0, 0.25, apart, above},
@@ -209,7 +209,9 @@ TEST_CASE("corrected: one event at a time, the first of the least s, and near ti
   CHECK(tie.isep == std::vector<int>{apart, touching, apart, apart});
 }
 
-TEST_CASE("corrected: at rest the largest response goes first, of equal ones the first") {
+TEST_CASE(
+    "corrected: the largest response comes first among pairs at rest, and the lowest index among equal "
+    "ones") {
   const std::vector<pair_at<double>> pairs = {{0.0, -0.5, 0.0, apart, below},
                                               {0.0, 2.0, 0.0, touching, below},
                                               {0.0, -2.0, 0.0, touching, above},
@@ -221,14 +223,14 @@ TEST_CASE("corrected: at rest the largest response goes first, of equal ones the
   CHECK(c.isep == std::vector<int>{apart, apart, touching, apart});
 }
 
-TEST_CASE("corrected: no pairs, no event, and a call with NaN has no event") {
+TEST_CASE("corrected: a call without pairs has no event, nor has a call with NaN") {
   CHECK(answered({}).happened == nothing);
   CHECK(answered({}).smin == 1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(answered({{0.0, nan, 0.5, apart, above}}).happened == nothing);
 }
 
-TEST_CASE("corrected: there are no absolute lengths, in other units the answer is the same to the bit") {
+TEST_CASE("corrected: the answer in other units is the same to the bit, since no length is absolute") {
   for (const int power : {-600, -40, 33, 600}) {
     INFO(power);
     check_unchanged([power](const pair_at<double>& p) -> pair_at<double> {
@@ -237,7 +239,7 @@ TEST_CASE("corrected: there are no absolute lengths, in other units the answer i
   }
 }
 
-TEST_CASE("corrected: upside down the answer is the same to the bit") {
+TEST_CASE("corrected: the answer upside down is the same to the bit") {
   check_unchanged([](const pair_at<double>& p) -> pair_at<double> {
     return {-p.d, -p.d_star, -p.c, p.isep, -p.isurf};
   });

@@ -36,7 +36,7 @@ TEST_CASE("the 1989 code answers, as printed and with 8-byte REAL") {
   CHECK(r8.isep[0] == in_contact);
 }
 
-TEST_CASE("unit 26 leads nowhere unless asked: no fort.26 appears") {
+TEST_CASE("unit 26 writes nothing unless asked: no fort.26 appears") {
   for (int i = 0; i < 1000; ++i) {
     auto c = one_that_closes();
     call<double> arguments = c.arguments();
@@ -45,7 +45,7 @@ TEST_CASE("unit 26 leads nowhere unless asked: no fort.26 appears") {
   CHECK_FALSE(std::filesystem::exists("fort.26"));
 }
 
-TEST_CASE("unit 26 hands its text back, once") {
+TEST_CASE("the text of unit 26 can be taken once") {
   fortran::unit_26 log;
   CHECK(log.take().empty());
   auto c = one_that_closes();
@@ -59,8 +59,7 @@ TEST_CASE("unit 26 hands its text back, once") {
   CHECK(log.take() == text);
 }
 
-TEST_CASE(
-    "take after take hands back each call's text, though the file behind unit 26 is emptied now and then") {
+TEST_CASE("each take returns the text of its call, even when the file behind unit 26 is emptied in between") {
   fortran::unit_26 log;
   auto c = small_call<double>({{0.0, 0.0, 0.25, separated, face_above}});
   call<double> arguments = c.arguments();

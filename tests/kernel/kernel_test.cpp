@@ -23,7 +23,7 @@ bool same(const call_outputs& a, const call_outputs& b) {
 
 }  // namespace
 
-TEST_CASE("every kernel built in can be made, and says what it is") {
+TEST_CASE("every built-in kernel can be created, and describes itself") {
   const auto names = kernel_names();
   REQUIRE(names.size() >= 4);
   for (const std::string& name : names) {
@@ -86,7 +86,7 @@ TEST_CASE("every kernel gives the same bits when it is asked again, in another o
   }
 }
 
-TEST_CASE("the prefix of a name says which kind of kernel it is, before any is made") {
+TEST_CASE("the prefix of a name tells the kind of the kernel before one is created") {
   const kernel_facts plugin = facts_of_kernel("plugin:./no-such.so");
   CHECK(plugin.name == "plugin:./no-such.so");
   const kernel_facts pipe = facts_of_kernel("pipe:no-such-command");
@@ -100,7 +100,7 @@ TEST_CASE("the prefix of a name says which kind of kernel it is, before any is m
   CHECK(facts_of_kernel("fortran").has_text);
 }
 
-TEST_CASE("a prefix alone, and a name that is nearly one, are refused with the names that there are") {
+TEST_CASE("a prefix alone and a misspelt name are refused, with the list of valid names") {
   for (const char* name : {"plugin:", "pipe:", "plugin", ""})
     CHECK_THROWS_AS(make_kernel(name), std::invalid_argument);
   CHECK_THROWS_WITH(facts_of_kernel("fortan"), Contains("no kernel is named \"fortan\"") &&

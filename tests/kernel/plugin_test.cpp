@@ -87,7 +87,7 @@ TEST_CASE("a plug-in that hangs is stopped three times, and then not started aga
   left.check();
 }
 
-TEST_CASE("a plug-in may fail a thousand times where failing costs no time") {
+TEST_CASE("a plug-in may fail a thousand times if its failures take no time") {
   const leftovers left;
   {
     outside_limits limits;  // forty stand for the thousand: under a sanitizer each takes a while
@@ -187,7 +187,7 @@ TEST_CASE("a FORTRAN plug-in's unit 26 is not this program's, and leaves no file
   left.check();
 }
 
-TEST_CASE("a FORTRAN plug-in leaves no file where the listing never ran") {
+TEST_CASE("a FORTRAN plug-in leaves no file in a process that never ran the listing") {
   const in_own_folder here;
   {
     const auto k = make_plugin(plugin("writes_unit_26"), short_patience());
@@ -196,7 +196,7 @@ TEST_CASE("a FORTRAN plug-in leaves no file where the listing never ran") {
   CHECK(here.is_empty());
 }
 
-TEST_CASE("a plug-in's crash is reported as one, whatever handler this program has for its own") {
+TEST_CASE("a plug-in's crash is reported as a crash, whatever signal handler this program has") {
   const auto own = std::signal(SIGSEGV, [](int) { _exit(9); });
   const std::string words = put(*make_plugin(plugin("misbehaves"), short_patience()), crashes);
   (void)std::signal(SIGSEGV, own);

@@ -337,7 +337,7 @@ TEST_CASE("a malformed trace is refused with file and line, what was found and w
   }
 }
 
-TEST_CASE("a trace cut off anywhere is refused, unless what is left is whole") {
+TEST_CASE("a trace cut off anywhere is refused, unless the rest is a complete trace") {
   int whole = 0;
   for (std::size_t length = 0; length <= good.size(); ++length) {
     const read_result r = read_all(good.substr(0, length));
@@ -355,7 +355,7 @@ TEST_CASE("a trace cut off anywhere is refused, unless what is left is whole") {
   CHECK(whole < static_cast<int>(good.find("call 1")) + 6);
 }
 
-TEST_CASE("a dof that the next call does not name is NaN again") {
+TEST_CASE("a dof that the next call does not name becomes NaN again") {
   const std::string calls =
       "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
       "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
@@ -374,7 +374,7 @@ TEST_CASE("a dof that the next call does not name is NaN again") {
   CHECK_FALSE(reader.next(c));
 }
 
-TEST_CASE("numbers may be written as a person writes them") {
+TEST_CASE("a trace may have numbers as people write them") {
   CHECK(read_number("1") == 1.0);
   CHECK(read_number("-0.1") == -0.1);
   CHECK(read_number(".5") == 0.5);

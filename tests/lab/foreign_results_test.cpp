@@ -95,7 +95,7 @@ TEST_CASE("numbers and problems that are not given are listed, each once") {
   CHECK(r.cases.at(0).not_given.size() == 5);
 }
 
-TEST_CASE("what the table does not have, and what is there twice, is refused with its place") {
+TEST_CASE("an entry that the table does not have, or has twice, is refused with its place") {
   CHECK_THAT(refused("\"q\": [" + entry(w1, "0") + "]"),
              StartsWith("f.json:3:6: problems.q: found an unknown key") && Contains("allowed: p, other"));
   CHECK_THAT(refused("\"othr\": [" + entry(w1, "0") + "]"), Contains("did you mean \"other\"?"));

@@ -59,7 +59,7 @@ TEST_CASE("shards together compare the calls of the whole run") {
   }
 }
 
-TEST_CASE("a run refuses kernels that cannot be equal") {
+TEST_CASE("a fuzz run refuses kernels that cannot be equal") {
   CHECK_THROWS_AS(of_calls({"fortran", "corrected"}), std::invalid_argument);
   CHECK_THROWS_AS(of_calls({"fortran", "cpp-r4"}), std::invalid_argument);
   CHECK_THROWS_AS(of_calls({"fortran", "nobody"}), std::invalid_argument);
@@ -77,7 +77,7 @@ TEST_CASE("events are counted by kind, and those of pairs within EPSGAP of their
   CHECK(r.branches.of(branch::stationary, true) == 2);
 }
 
-TEST_CASE("how near a follower came is the largest distance, and whether its events were the same") {
+TEST_CASE("the closeness of a follower is its largest distance, and whether its events are the same") {
   const call_inputs<double> in{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
   call_outputs out;
   call<double> led = out.prepare(in);
@@ -97,7 +97,7 @@ TEST_CASE("how near a follower came is the largest distance, and whether its eve
   CHECK_FALSE(r.same_events);
 }
 
-TEST_CASE("a run is floored on calls, values, events by kind and every outcome of every IF") {
+TEST_CASE("a run has minimum counts of calls, values, events by kind and every outcome of every IF") {
   CHECK(floors_missed(full_result(100'000, 10)).empty());
   CHECK_THAT(floors_missed(full_result(100'000, 9)),
              Catch::Matchers::Contains("make: 9, break: 9, stationary: 9"));

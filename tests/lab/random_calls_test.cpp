@@ -31,7 +31,7 @@ std::uint64_t digest(const call_inputs<double>& in) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("adversarial calls stand on every threshold, and one ULP to either side of it", "", float,
+TEMPLATE_TEST_CASE("adversarial calls lie on every threshold, and one ULP to either side of it", "", float,
                    double) {
   using Real = TestType;
   random_calls<Real> source(1989);

@@ -46,7 +46,7 @@ bool is_nothing(const load& l) {
 
 }  // namespace
 
-TEST_CASE("a random problem is the same whenever it is drawn, and no other one is") {
+TEST_CASE("a random problem depends on its seed and number alone, and no two are equal") {
   std::set<std::vector<double>> seen;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (std::uint64_t number = 0; number < 300; ++number) {
@@ -58,7 +58,7 @@ TEST_CASE("a random problem is the same whenever it is drawn, and no other one i
   CHECK(seen.size() == 900);
 }
 
-TEST_CASE("some random problems as they have always been") {
+TEST_CASE("random problems of fixed seeds do not change between versions") {
   // Faces went through a solve, and units through pow: they are compared loosely.
   struct pinned {
     std::uint64_t seed, number;
@@ -127,7 +127,7 @@ TEST_CASE("random problems are well formed") {
   }
 }
 
-TEST_CASE("held by their supports, all of 2000 structures are certified at every step, without help") {
+TEST_CASE("each of 2000 structures held by their supports is certified at every step, without a fallback") {
   random_problem_kind kind;
   kind.free_share = 0.0;
   const auto k = make_kernel("corrected");

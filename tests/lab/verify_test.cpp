@@ -73,7 +73,7 @@ std::string refusal_of(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("a number must have its exact one, a decimal or a fraction in lowest terms") {
+TEST_CASE("a number needs its exact value, as a decimal or a fraction in lowest terms") {
   for (const char* exact : {"1/2", "0.5", "5e-1", "-0.0", "-208/58875"})
     CHECK(refusal_of("value = 0.5\nexact = \"" + std::string(exact) + "\"\n").empty());
   CHECK_THAT(refusal_of("value = 0.5\n"), Contains("exact"));
@@ -96,7 +96,7 @@ TEST_CASE("a computed number and the table's value must be within their toleranc
   CHECK_THAT(exact_disagreement(e, 1.0 / 3, 1e-8), Contains("exactly 1/3; allowed: 1e-05 of 0.333"));
 }
 
-TEST_CASE("exact states are compared by name, and a number without an exact one with nothing") {
+TEST_CASE("exact states are compared by name, and a number without an exact value is not compared") {
   expected_number e;
   e.quantity = "state";
   e.value = in_contact;
@@ -130,7 +130,8 @@ TEST_CASE("errors are measured by the largest number of their kind on the path")
 }
 
 TEST_CASE(
-    "what a plate does not have measures as nothing: a fifth corner, an element too many, a beam's moment") {
+    "a quantity that a plate does not have has no value: a fifth corner, an element too many, a beam's "
+    "moment") {
   const followed f("pp01a-simply-supported-plate-n4.toml");
   const measurement m(f.p, f.path.result.record);
   expected_number e;
@@ -164,8 +165,7 @@ TEST_CASE("a difference is relative to the size of the expected value, and absol
   CHECK(n.difference() == 1e-3);
 }
 
-TEST_CASE(
-    "verifying judges each number on both paths, and by the exact one as closely as they are certified") {
+TEST_CASE("each number is verified on both paths, and against the exact value to the certified accuracy") {
   const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
   expected_number tip;
   tip.step = 2;
@@ -195,7 +195,7 @@ TEST_CASE(
   CHECK_THAT(c.numbers[4].apart, Contains("exactly -27/5375; allowed: "));
 }
 
-TEST_CASE("extremes are named by bound and quantity, and one that the structure does not have is not there") {
+TEST_CASE("extremes are named by bound and quantity, and have no value if the structure does not have them") {
   const followed f("pb07-three-gap-supports.toml");
   const measurement m(f.p, f.path.result.record);
   expected_number e;

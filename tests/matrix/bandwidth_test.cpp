@@ -24,7 +24,7 @@ TEST_CASE("a chain whose rows are shuffled becomes a band of one subdiagonal aga
   for (int i = 0; i < n; ++i) CHECK(rows[i] == i);  // each row once
 }
 
-TEST_CASE("an order that is as good already is kept: no rows") {
+TEST_CASE("an order of rows that cannot be improved is kept") {
   const sparse_matrix pair{2, {{0, 0, 1.0}, {1, 0, -0.5}, {1, 1, 1.0}}};
   CHECK(rows_for_small_band(pair).empty());
   const sparse_matrix diagonal{3, {{0, 0, 1.0}, {1, 1, 1.0}, {2, 2, 1.0}}};

@@ -29,7 +29,7 @@ double rcond_of(const linear_structure& s) {
 
 }  // namespace
 
-TEST_CASE("factor and solve give back what the matrix was multiplied by") {
+TEST_CASE("factor and solve recover the vector that the matrix was multiplied by") {
   band_matrix a(5, 2);
   for (int j = 0; j < 5; ++j) {
     a.add(j, j, 10.0 + j);
@@ -43,7 +43,7 @@ TEST_CASE("factor and solve give back what the matrix was multiplied by") {
   for (std::size_t i = 0; i < 5; ++i) CHECK(b[i] == Approx(x[i]).epsilon(1e-14));
 }
 
-TEST_CASE("the condition is measured on the equilibrated matrix: units do not enter") {
+TEST_CASE("the condition is that of the equilibrated matrix, so units do not matter") {
   const double metres = rcond_of(simple_span(10, 1.0));
   const double tiny = rcond_of(simple_span(10, 1e-9));
   CHECK(metres == Approx(tiny).epsilon(1e-6));
@@ -87,7 +87,8 @@ TEST_CASE("the exact condition of a small matrix is found") {
 }
 
 TEST_CASE(
-    "a long span loses digits as the fourth power of its elements, and says so while LAPACK is silent") {
+    "the digits lost by a long span grow with the fourth power of its elements, and are reported, unlike by "
+    "LAPACK") {
   const double at_10 = rcond_of(simple_span(10, 1.0));
   const double at_100 = rcond_of(simple_span(100, 1.0));
   CHECK(at_10 / at_100 == Approx(1e4).epsilon(0.5));
@@ -95,7 +96,7 @@ TEST_CASE(
   CHECK(digits_left(rcond_of(simple_span(5000, 1.0))) <= 1);
 }
 
-TEST_CASE("digits never go below none") {
+TEST_CASE("the number of digits is never negative") {
   CHECK(digits_left(0.0) == 0);
   CHECK(digits_left(1e-30) == 0);
   CHECK(digits_left(1.0) == 15);

@@ -5,7 +5,7 @@
 
 using namespace contct;
 
-TEST_CASE("K with springs is solved alike by LAPACK as a band and by CHOLMOD as it is") {
+TEST_CASE("K with springs has the same solution by LAPACK as a band and by CHOLMOD in sparse storage") {
   const stiffness_matrix wide(random_band(40, 7, 3));
   const stiffness_matrix narrow(columns_of(wide.band()));
   stiffness_factor by_band(wide);
@@ -41,7 +41,7 @@ TEST_CASE("a matrix that is not positive definite has no factor in either storag
   CHECK(f.factor(enough));  // and the failure leaves nothing behind
 }
 
-TEST_CASE("several right-hand sides go through either factor at once, and come out as one at a time") {
+TEST_CASE("several right-hand sides solved at once give the same as one at a time, by either factor") {
   for (const int order : {1, 9, 40, 300}) {
     const auto n = static_cast<std::size_t>(order);
     const stiffness_matrix wide(

@@ -19,7 +19,7 @@ std::vector<long double> minus_product(const stiffness_matrix& k, std::span<cons
 
 }  // namespace
 
-TEST_CASE("a band and its entries alone are one matrix, to the bit") {
+TEST_CASE("a matrix stored as a band equals the one stored by its entries, to the bit") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const band_matrix band = random_band(order, half_bandwidth, seed);
     stiffness_matrix wide(band);
@@ -135,7 +135,7 @@ TEST_CASE("entries in any order become columns in ascending order, each with its
   CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 has nothing on its diagonal
 }
 
-TEST_CASE("columns of a band leave its zeros out, but for those on the diagonal") {
+TEST_CASE("columns of a band omit its zeros, except those on the diagonal") {
   band_matrix band(3, 2);
   band.at(0, 0) = 4.0;
   band.at(2, 0) = 1.0;
@@ -148,7 +148,7 @@ TEST_CASE("columns of a band leave its zeros out, but for those on the diagonal"
   CHECK(k.diagonal(2) == 6.0);
 }
 
-TEST_CASE("K is taken by columns for products where most of a band is zeros") {
+TEST_CASE("products use K by columns if most of its band is zeros") {
   band_matrix band(40, 20);
   for (int row = 0; row < 40; ++row) band.at(row, row) = 1.0;
   CHECK(without_zeros(stiffness_matrix(band)).has_value());

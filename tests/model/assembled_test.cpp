@@ -85,7 +85,7 @@ TEST_CASE("the rigid-body motions of a beam's matrix are straight lines, in any 
   }
 }
 
-TEST_CASE("supports take rigid-body motions away: the matrix knows no others than those that are left") {
+TEST_CASE("supports remove rigid-body motions, and the matrix has only the remaining ones") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}}, {}).rigid_motions == 1);
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, false, 1e4}}, {}).rigid_motions == 1);
@@ -93,7 +93,7 @@ TEST_CASE("supports take rigid-body motions away: the matrix knows no others tha
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}, {1, 0, false, 3.0}}, {}).rigid_motions == 0);
 }
 
-TEST_CASE("pairs hold a free beam where they would hold it by its formula, and not where they would not") {
+TEST_CASE("pairs hold a free beam given by its matrix exactly if they hold it by its formula") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4)})) == 1);
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4), at_dof(4)})) == 1);
@@ -109,7 +109,7 @@ TEST_CASE("a body in space: four vertical pairs stop three motions, and six well
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(0), at_dof(6), at_dof(1)})) == 6);
 }
 
-TEST_CASE("a dof that no rigid-body motion moves holds none: what is left there is rounding") {
+TEST_CASE("a dof that no rigid-body motion moves holds no motion, since its entries are rounding") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);
   std::vector<support> only_x_is_left;

@@ -120,7 +120,7 @@ TEST_CASE("A plate's moments are largest at corners of elements, with their node
   CHECK(range_named(all, "mxy").largest().value == Approx(0.0).margin(1e-12));
 }
 
-TEST_CASE("the place of a plate's largest and least deflection has both coordinates of its node") {
+TEST_CASE("the places of a plate's largest and least deflections have both coordinates of the node") {
   const plate p{{0, 1, 3}, {0, 2, 5, 9}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
   u[21] = 2.0;   // the middle node of the third line
@@ -145,7 +145,7 @@ TEST_CASE("a plate's moment that grows along x is least at one side of an elemen
   CHECK(mx.most.x == 2.0);
 }
 
-TEST_CASE("between two nodes the deflection that rises to the last one is largest there") {
+TEST_CASE("a deflection that rises between two nodes is largest at the last one") {
   const beam b{{0, 1, 2, 4}, {1.0, 1.0, 1.0}};
   std::vector<double> u;
   for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});
@@ -170,7 +170,7 @@ TEST_CASE("the lines of all elements begin with the shears and moments that they
   }
 }
 
-TEST_CASE("where a moment is the same along all of a beam, its first node has the place") {
+TEST_CASE("a moment that is constant along a beam has its extreme at the first node") {
   const beam b{{0, 1, 2, 4}, {1.0, 1.0, 1.0}};
   std::vector<double> u;
   for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});  // M = 2 everywhere

@@ -32,8 +32,8 @@ constexpr double hinge_rounding = 1e-12;
 }  // namespace
 
 TEST_CASE(
-    "A propped cantilever with a hinge carries q (L - a) / 2 at its prop, and at its clamp what that "
-    "leaves") {
+    "A propped cantilever with a hinge carries q (L - a) / 2 at its prop, and the rest of the load at its "
+    "clamp") {
   const beam b = hinged({0, 2, 4}, {1}, 100);
   const load l = uniform_on(-6);
   const std::vector<support> supports = {{0, 0, true}, {0, 1, true}, {2, 0, true}};

@@ -57,7 +57,7 @@ TEST_CASE("a decimal at the ends of the range of doubles is no less than its dou
   }
 }
 
-TEST_CASE("decimals are added up exactly before they are rounded: 0.1, 0.2 and -0.3 are nothing") {
+TEST_CASE("decimals are added exactly before rounding: 0.1, 0.2 and -0.3 have the sum 0") {
   const auto loads = [](const std::vector<double>& parts) {
     std::vector<point_load> all;
     for (const double x : parts) all.push_back({0, 0, x});
@@ -80,7 +80,7 @@ TEST_CASE("a number times a factor is the product of their decimals, rounded onc
   CHECK(contct::product_of<double>(0.1, 1.0) == 0.1);
 }
 
-TEST_CASE("loads at one dof that cancel times their factors are nothing: 0.1 times 3 and -0.3") {
+TEST_CASE("loads at one dof that cancel with their factors have the sum 0: 0.1 times 3 and -0.3") {
   const std::vector<point_load> all = {{0, 0, 0.1, 3.0}, {0, 0, -0.3}, {0, 0, 1.1, 0.1}, {0, 0, -0.11}};
   CHECK(contct::sum_of<double>(all) == 0.0);
   CHECK(contct::sum_of<rational>(all) == 0);

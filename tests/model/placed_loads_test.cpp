@@ -113,7 +113,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A curvature from a to b tilts what is right of it by curvature (b - a) about the middle of a and b") {
+    "A curvature from a to b turns the part to its right by curvature (b - a) about the middle of a and b") {
   const beam b = bar(5, 10, {2.0});
   const auto u = displaced(b, held_left, curved(0.02, 1, 3.5));
   CHECK(u[4] == Approx(0.02 * 2.5 * (5 - 2.25)).epsilon(few_roundings));
@@ -121,7 +121,7 @@ TEST_CASE(
   CHECK(u[2] == Approx(0.02 * 0.5).epsilon(few_roundings));  // 1 from where it begins: curvature / 2
 }
 
-TEST_CASE("Between two clamps an imposed curvature makes the moment -EI curvature, and bends nothing") {
+TEST_CASE("An imposed curvature between two clamps makes the moment -EI curvature, without deflection") {
   for (const beam& b : {bar(4, 50), bar(4, 50, {1.0, 2.5})}) {
     const int last = b.nodes() - 1;
     const auto r =

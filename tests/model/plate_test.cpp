@@ -284,7 +284,7 @@ TEST_CASE("a quarter of a simply supported square: the deflections and corner fo
   }
 }
 
-TEST_CASE("refined, the plate converges to Navier's series as h^2") {
+TEST_CASE("a refined plate converges to Navier's series as h^2") {
   double navier = 0.0;
   for (int m = 1; m < 400; m += 2) {
     for (int n = 1; n < 400; n += 2) {
@@ -332,7 +332,7 @@ TEST_CASE("a strip of a plate along x or along y is a beam within rounding") {
   }
 }
 
-TEST_CASE("units drop out, from lengths of 1e-12 to 1e12") {
+TEST_CASE("a plate in any unit has the same answer, from lengths of 1e-12 to 1e12") {
   const plate one = quarter_of_square(6);
   const auto u = displaced(one, simply_supported_quarter(one), unit_pressure_down);
   for (const double unit : {1e-12, 1e-6, 1e6, 1e12}) {

@@ -69,7 +69,7 @@ TEST_CASE("point loads at one dof add up") {
   CHECK(f == std::vector<double>{1, 0, 6, 1, 1, 1});
 }
 
-TEST_CASE("a support that settles onto a spring holds what the spring pushes back with") {
+TEST_CASE("the reaction of a fixed dof that settles also balances the force of its spring") {
   const std::vector<support> supports = {{1, 0, true}, {1, 0, false, 4.0}, {1, 0, true}};
   const load l{{{1, 0, -3.0}}, {}, {{1, 0, 0.5}}};
   const std::vector<double> all_up = {0.5, 0, 0.5, 0, 0.5, 0};  // the elements are not bent

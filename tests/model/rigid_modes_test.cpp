@@ -22,7 +22,8 @@ int rank_of(const std::vector<rigid_row>& rows) {
 
 }  // namespace
 
-TEST_CASE("two deflections at different places hold a beam, twice at one place or rotations alone do not") {
+TEST_CASE(
+    "two deflections at different places hold a beam, but two at one place do not, nor do rotations alone") {
   CHECK(rank_of({{1, 0.5, 0}, {1, 0.5, 0}}) == 1);
   CHECK(rank_of({{1, 0.5, 0}, {1, 0.5000001, 0}}) == 2);
   CHECK(rank_of({{0, 1, 0}, {0, 1, 0}}) == 1);
@@ -37,7 +38,7 @@ TEST_CASE("three points on a line do not hold a plate, a fourth beside it does")
   CHECK(rank_of(all) == 3);
 }
 
-TEST_CASE("only a row's direction counts: lengths of 1e-200 or 1e200 make no difference") {
+TEST_CASE("a row counts by its direction only, not by its length from 1e-200 to 1e200") {
   for (const double size : {1e-200, 1.0, 1e200}) {
     CHECK(rank_of({{0, size, 0}, {0, 2 * size, 0}}) == 1);
     CHECK(rank_of({{0, size, 0}, {1, 1, 0}, {0, 0, size}}) == 3);
@@ -86,7 +87,7 @@ TEST_CASE("the scale of the matrix, and of single dofs, does not matter") {
   CHECK(std::abs(f.rows[4][0]) <= 1e-10);
 }
 
-TEST_CASE("a dof on the least stiffness that there is leaves the other motions as they were") {
+TEST_CASE("a dof with the smallest stiffness in doubles does not change the other rigid-body motions") {
   band_matrix k(10, 1);
   for (int i = 0; i < 9; ++i)
     for (int j = std::max(i - 1, 0); j <= i; ++j) k.at(i, j) = chain(9).at(i, j);
@@ -104,7 +105,7 @@ TEST_CASE("a wrong number of rigid-body motions is refused, and so is a matrix w
   CHECK_THROWS_AS(find_free_motions(negative, {}), std::invalid_argument);
 }
 
-TEST_CASE("rigid-body motions are found without a band as with one") {
+TEST_CASE("rigid-body motions are the same for sparse storage and for a band") {
   if (!sparse_factor::available()) return;
   assembled body;
   body.name = "K";

@@ -155,7 +155,7 @@ TEST_CASE("two supports hold a beam however near they are, and three a plate unl
   CHECK(build(p, {}, {}).truth->is_independent(std::vector<int>{w(0, 0), w(1, 1)}, w(3, 3)));
 }
 
-TEST_CASE("the work of one load less that of another is not known where one of them is not") {
+TEST_CASE("the difference of the work of two loads is unknown if one of them is unknown") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   const rigid_work large = s.truth->work_of(points({{1, 0, -1e16}, {2, 0, -0.1}}));
   const rigid_work small = s.truth->work_of(points({{1, 0, -1e16}}));
@@ -165,7 +165,8 @@ TEST_CASE("the work of one load less that of another is not known where one of t
   CHECK_FALSE(rigid_work().less(large).is_known());
 }
 
-TEST_CASE("pairs carry what stands between them, and with a support what its lever makes") {
+TEST_CASE(
+    "pairs carry a load between them, and a hinged support and a pair carry a moment that presses the pair") {
   const linear_structure bare =
       build(beam_at({0, 1, 2, 3}), {}, {{0, -1, 0, 1, false}, {2, -1, 0, 1, false}});
   const auto carried = [](const linear_structure& s, const load& l) {
@@ -184,7 +185,7 @@ TEST_CASE("pairs carry what stands between them, and with a support what its lev
   CHECK(carried(build(beam_at({0, 1}), {}, {}), points({{0, 0, 1.0}})) == false);
 }
 
-TEST_CASE("a plate's load is carried or not, as every choice of three of its pairs has it") {
+TEST_CASE("a plate's load is carried exactly if some three of its pairs carry it") {
   const plate p{{-3, -2, -1, 0, 1, 2, 3}, {-3, -2, -1, 0, 1, 2, 3}, 1.0, 0.3};
   contct::random_numbers random(17);
   int carried = 0;
@@ -209,7 +210,7 @@ TEST_CASE("a plate's load is carried or not, as every choice of three of its pai
   CHECK(carried < 900);
 }
 
-TEST_CASE("of a thousand pairs in a square, a load at its edge is carried, and beyond it by 1e-300 is not") {
+TEST_CASE("a thousand pairs in a square carry a load at its edge, but not a load beyond it by 1e-300") {
   plate p;
   for (int i = -15; i <= 15; ++i) p.x.push_back(i / 10.0);
   p.y = p.x;

@@ -62,7 +62,8 @@ TEST_CASE(
   CHECK(stresses_of({square(0.0)}, moments).names.empty());
 }
 
-TEST_CASE("A bound on moments makes one on stresses that worst changes of the moments do not pass") {
+TEST_CASE(
+    "A bound on moments gives a bound on stresses that the worst change of the moments does not exceed") {
   const plate p = square(1.0);
   const double bound = *stress_error({p}, 1e-3, 0.0);
   double worst = 0.0;

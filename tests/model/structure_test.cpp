@@ -53,7 +53,7 @@ TEST_CASE("supports go to the rows of their dofs") {
   CHECK_FALSE(s.deflects(3));
 }
 
-TEST_CASE("between two loads lies their proportional mixture, with equal places merged") {
+TEST_CASE("a load between two loads is their proportional mixture, with equal places merged") {
   const load before{{{2, 0, -10.0}}, {{{-4.0}, {}}}};
   const load after{{{2, 0, -60.0}, {1, 1, 5.0}}, {{{-8.0, 2.0}, {}}, {{1.0}, {0}}}};
   const load at = mix(before, after, 0.1);
@@ -107,7 +107,7 @@ TEST_CASE("a prescribed displacement of a dof that no support fixes names the do
   CHECK_THROWS_WITH(add_settlements(s, {{}, {}, {{1, 0, 0.5}}}, f), "dof 3 was not built to settle");
 }
 
-TEST_CASE("a support that settles has a finite pivot beside the largest stiffness that doubles have") {
+TEST_CASE("a support that settles has a finite pivot even beside the largest stiffness in doubles") {
   constexpr double largest = std::numeric_limits<double>::max();
   linear_structure s = four_dofs();
   s.stiffness.add_to_diagonal(s.row_of(0), largest);

@@ -5,7 +5,7 @@
 
 using namespace contct;
 
-TEST_CASE("a literal is the shortest decimal or not, whatever zeros, signs and exponents it has") {
+TEST_CASE("a literal is compared with the shortest decimal regardless of zeros, signs and exponent form") {
   for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25",
                            "0.2500000000000000000000", "000000000000000000000.25"}) {
     INFO(same);
@@ -28,7 +28,7 @@ TEST_CASE("text that is not a decimal is not compared") {
     CHECK(is_shortest(none, 0x1p-1074));
 }
 
-TEST_CASE("the last digit that is written is where a number was rounded, but for whole numbers") {
+TEST_CASE("a number was rounded at its last written digit, and a whole number was not rounded") {
   CHECK(last_written_digit("1.250") == -3);
   CHECK(last_written_digit("-1.25e4") == 2);
   CHECK(last_written_digit("1.0000000000000D+00") == -13);

@@ -9,7 +9,7 @@
 
 using namespace contct;
 
-TEST_CASE("a double becomes the shortest decimal that reads as it") {
+TEST_CASE("a double becomes the shortest decimal that is read as this double") {
   CHECK(decimal_of(0.1) == rational(1, 10));
   CHECK(decimal_of(-2.5e-7) == rational(-1, 4000000));
   CHECK(decimal_of(1200.0) == 1200);
@@ -45,7 +45,7 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
   CHECK(rounded(rational(integer(-1), huge)) == 0.0);
 }
 
-TEST_CASE("a rational is rounded to the nearest double, of two that are equally near to the even one") {
+TEST_CASE("a rational is rounded to the nearest double, and a tie to the even one") {
   // Halfway between a double and the next one up; a little less; a little more, by a bit that is far off.
   const double least = std::numeric_limits<double>::denorm_min();
   const rational hair(integer(1), integer(1) << 2000U);

@@ -38,7 +38,7 @@ TEST_CASE("single precision stays within its own bound, and not within double's"
   CHECK_FALSE(compare_paths(r8, r4, 1e-9, 2).within_bound());
 }
 
-TEST_CASE("another event, another order, another end: each is named") {
+TEST_CASE("a different event, a different order and a different end are each named") {
   const path_record leader = free_run(cantilever_over_a_stop(), "fortran");
   path_record other = leader;
   other.events[1].what.what = change::make;
@@ -60,7 +60,9 @@ TEST_CASE("another event, another order, another end: each is named") {
   CHECK_FALSE(d.within_bound());
 }
 
-TEST_CASE("a step that takes all load off is measured by the whole path's D, not by its own rounding") {
+TEST_CASE(
+    "the difference in a step that removes all load is relative to the D of the whole path, not to its "
+    "rounding") {
   beam_problem p = cantilever_over_a_stop();
   p.steps = {tip_load(2, -60), tip_load(2, 0)};
   const path_record r8 = free_run(p, "fortran");

@@ -44,7 +44,7 @@ load from_zero(load l) {
 
 }  // namespace
 
-TEST_CASE("a step from zero takes the path of its load alone to the bit, whatever stands before it") {
+TEST_CASE("a step from zero has the same path to the bit, whatever steps come before it") {
   for (const char* kernel : {"fortran", "cpp", "corrected"}) {
     beam_problem p = between_stops();
     const recorder both = seen(p, "refactor", kernel);
@@ -75,7 +75,7 @@ TEST_CASE("engines that keep factors start anew with a step from zero, too") {
   }
 }
 
-TEST_CASE("behind a mechanism only steps from zero are followed, and what goes on from these") {
+TEST_CASE("steps after a mechanism are followed only if they start from zero, or continue one that does") {
   const load up = from_zero(tip_load(1, 7.0));
   const load down = tip_load(2, -8.0);
   const beam_problem p = lying({up, down, from_zero(down), tip_load(2, -4.0), up, from_zero(down)});

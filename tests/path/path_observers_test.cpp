@@ -76,7 +76,8 @@ TEST_CASE("a single increment of a single kernel can be explained") {
 }
 
 TEST_CASE(
-    "a toggle away from the face by more than rounding is early, and is measured by the largest deflection") {
+    "a toggle farther from the face than rounding is early, and its distance is relative to the largest "
+    "deflection") {
   early_toggles early;
   const event makes{0, change::make};
   const std::vector<event> events = {makes};

@@ -78,7 +78,7 @@ TEST_CASE("a beam thrown from the stops below it to the stops above it, and back
   CHECK(std::count(snaps.begin(), snaps.end(), true) >= 4);
 }
 
-TEST_CASE("a beam balanced on one pair stands, and bends over it") {
+TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
   // Both halves are cantilevers under 2 a length: q l^4 / 8 EI at their tips.
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
@@ -102,7 +102,8 @@ TEST_CASE("a beam balanced on its one pair ends early without a fallback, and is
   CHECK(end.has_equilibrium == true);
 }
 
-TEST_CASE("a beam that falls on one pair and turns for ever ends where it met that pair, without a force") {
+TEST_CASE(
+    "a beam that falls on one pair and turns for ever ends at the contact with that pair, without a force") {
   beam_problem p{even_beam(2.0, 2, 1e3), {}, {{1, face_below, -0.5, 1e4, false}}, {}};
   p.steps = {tip_load(2, -1.0)};
   recorder r;
@@ -131,7 +132,8 @@ TEST_CASE("a beam lifted off its stops for good: the last state is reported with
   CHECK(r.steps[1].u[8] == Approx(-0.3).epsilon(1e-12));
 }
 
-TEST_CASE("a balanced beam lifted off its one pair ends where it was then, not where it began") {
+TEST_CASE(
+    "a balanced beam that is lifted off its one pair ends in the state of the separation, not of the start") {
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}, {{}, {{{2.0}, {}}}}};
@@ -156,7 +158,8 @@ TEST_CASE("a free beam that is driven away from its stops at once is a mechanism
   CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
 }
 
-TEST_CASE("the 1989 rule gets none of this: the path of a beam above its stops ends at the start") {
+TEST_CASE(
+    "the 1989 rule has no rigid-body motion: the path of a free beam above its stops ends at the start") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
     const path_limits limits{0, [&](int, const full_load_state*) {
@@ -208,7 +211,8 @@ beam_problem cantilever_on_two() {
 }  // namespace
 
 TEST_CASE(
-    "a pair that toggles twice running without load is kept in contact, and not asked until load passes") {
+    "a pair that toggles twice in a row without progress of the load stays in contact until the load "
+    "advances") {
   restless_first_pair restless;
   made_kernel k([&restless](call<double>& c) { restless(c); });
   const beam_problem p = cantilever_on_two();
@@ -238,7 +242,7 @@ void hasty(call<double>& c) {
 
 }  // namespace
 
-TEST_CASE("at a step's end D is where the springs' law has it, whatever the way there") {
+TEST_CASE("D at a step's end follows the law of the springs, whatever the path") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty);
   recorder r;
@@ -250,7 +254,7 @@ TEST_CASE("at a step's end D is where the springs' law has it, whatever the way 
   CHECK(r.steps[3].u[4] == Approx(20 * f).epsilon(1e-12));
 }
 
-TEST_CASE("under the 1989 rule an early toggle stays in the sum, as it did in 1989") {
+TEST_CASE("an early toggle under the 1989 rule leaves its error in the displacements, as in 1989") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty, contact_rule::listing);
   recorder r;
@@ -300,7 +304,9 @@ TEST_CASE("a path that cannot go on ends in the reference solution, which is rep
   }
 }
 
-TEST_CASE("the state that a path reaches is put to what proves it, and the path goes on with its statuses") {
+TEST_CASE(
+    "the state that a path reaches is passed to the prover, and the path continues with the proved "
+    "statuses") {
   beam_problem p = cantilever_on_two();
   std::vector<std::vector<int>> reached;
   full_load_state answer{std::vector<double>(6), {separated, separated}};
@@ -338,7 +344,7 @@ TEST_CASE("the reference solution can show that there is no equilibrium") {
   CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule goes its own way
 }
 
-TEST_CASE("nothing ends a path under the 1989 rule but itself, nor one without an equilibrium") {
+TEST_CASE("a path under the 1989 rule has no fallback, nor has a path without an equilibrium") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;
   const path_limits none{0, [&](int, const full_load_state*) {
@@ -356,7 +362,7 @@ TEST_CASE("nothing ends a path under the 1989 rule but itself, nor one without a
   CHECK(asked == 1);
 }
 
-TEST_CASE("a lost path goes on from the equilibrium that was found without it") {
+TEST_CASE("a lost path continues from the reference solution") {
   // The first step is endless, and then all goes by the corrected rule. Both pairs press after the first
   // step, and let go in the second.
   bool is_found = false;
@@ -386,7 +392,8 @@ TEST_CASE("a lost path goes on from the equilibrium that was found without it") 
   CHECK(r.increments.back().number == 3);  // two events, and the rest of the load
 }
 
-TEST_CASE("an early limit and a lost factor are lost paths too, and a certain mechanism is not") {
+TEST_CASE(
+    "the reference solution replaces a path at its limit or without a factor, but not a certain mechanism") {
   const path_limits any{0, [](int, const full_load_state* reached) {
                           return found_end{reached != nullptr ? *reached : made_up_rest(), true};
                         }};
@@ -408,7 +415,7 @@ TEST_CASE("an early limit and a lost factor are lost paths too, and a certain me
 }
 
 TEST_CASE(
-    "among pairs at rest the kernel's choice is taken 20 times and 4 more a pair, then the least index") {
+    "the kernel chooses among pairs at rest 20 times plus 4 a pair, and then the least index is taken") {
   // It toggles the second pair and the third in turn, though the first one is at its face as well.
   made_kernel k([calls = 0](call<double>& c) mutable {
     c.smin = 0.0;

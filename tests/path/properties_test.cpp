@@ -85,7 +85,7 @@ void check_same_path(std::uint64_t seed, double factor,
 
 }  // namespace
 
-TEST_CASE("in many steps or in one, the last state is the same") {
+TEST_CASE("the last state is the same in many steps as in one") {
   int compared = 0;
   for (std::uint64_t number = 0; number < problems; ++number) {
     random_problem p = make_random_problem(4, number);
@@ -102,7 +102,7 @@ TEST_CASE("in many steps or in one, the last state is the same") {
   CHECK(compared > 500);
 }
 
-TEST_CASE("loaded and unloaded to zero, a held structure returns to its start") {
+TEST_CASE("a held structure that is loaded and unloaded returns to its start") {
   random_problem_kind kind;
   kind.free_share = 0.0;
   int loaded = 0;
@@ -126,11 +126,11 @@ TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements
       6, factor, [factor](const random_problem& p) { return scaled(factor, p); }, held);
 }
 
-TEST_CASE("upside down, everything is the same to the bit with the other sign") {
+TEST_CASE("a problem turned upside down gives the same numbers to the bit, with the other sign") {
   check_same_path(8, -1.0, upside_down);
 }
 
-TEST_CASE("with left and right exchanged, so are the deflections") {
+TEST_CASE("a mirrored problem has mirrored deflections") {
   random_problem_kind kind;
   kind.plate_share = 0.0;
   int compared = 0;

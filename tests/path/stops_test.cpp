@@ -29,8 +29,8 @@ TEST_CASE("a mechanism names the pair whose separation led to it, with the load 
 }
 
 TEST_CASE(
-    "a free beam unloaded to nothing lies on its bed again, and loaded again where it was: lift-off exactly "
-    "at full load is not a mechanism") {
+    "a free beam on a bed can be unloaded and loaded again: lift-off exactly at full load is not a "
+    "mechanism") {
   // PB8: its middle, or what lies beside it, lifts off. Then all load goes.
   for (const double force : {4.0, -50.0, -100.0}) {
     beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
@@ -49,7 +49,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a beam on one pair and a hinge is held, the same beam on a rotational spring alone is not") {
+TEST_CASE("a beam on one pair and a hinge is held, and the same beam on a rotational spring alone is not") {
   beam_problem hinged{
       even_beam(2.0, 2, 10.0), {{0, 0, true}}, {{2, -1, 0.0, 5.0, true}}, {tip_load(1, -1.0)}};
   CHECK(hinged.run("fortran", {}).status == path_status::solved);
@@ -59,14 +59,14 @@ TEST_CASE("a beam on one pair and a hinge is held, the same beam on a rotational
   CHECK(turning.run("fortran", {}).status == path_status::path_ended);
 }
 
-TEST_CASE("a long sound span looks like a mechanism to a condition number, and is not one") {
+TEST_CASE("a long span with a large condition number is not reported as a mechanism") {
   beam_problem p{even_beam(3000.0, 3000, 1.0), {{0, 0, true}, {3000, 0, true}}, {}, {{{}, {{{-1e-9}, {}}}}}};
   recorder r;
   CHECK(p.run("fortran", {&r}).status == path_status::solved);
   CHECK(r.steps[0].rcond < 1e-13);
 }
 
-TEST_CASE("a cycle at a standstill is found, and the restless pairs are named") {
+TEST_CASE("a cycle of statuses without progress is found, and its pairs are named") {
   // Toggles pairs 1 and 3 in turn without any progress.
   int calls = 0;
   made_kernel k([&calls](call<double>& c) {
@@ -114,7 +114,7 @@ class failing_engine final : public stiffness_engine {
 
 }  // namespace
 
-TEST_CASE("if the stiffness loses its factor on the way, the share that was reached is reported") {
+TEST_CASE("a path whose factorisation fails on the way reports the share that was reached") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   failing_engine engine(s, 2);
@@ -139,7 +139,7 @@ TEST_CASE("after a solve that failed, the next step has the springs of the pairs
   CHECK(engine.springs == std::vector<bool>{true, true});
 }
 
-TEST_CASE("the limit of increments grows with the pairs, and stays a number") {
+TEST_CASE("the limit of increments grows with the number of pairs, and does not overflow") {
   CHECK(increments_allowed({}, 0) == 1000);
   CHECK(increments_allowed({}, 200) == 11000);
   CHECK(increments_allowed({}, 50'000'000) == most_increments);  // 2.5e9 does not fit an int

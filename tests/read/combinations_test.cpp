@@ -52,7 +52,7 @@ TEST_CASE("combinations stand before trains, each in the order of the file") {
                           "terms = { G = 2 }\n")) == std::vector<std::string>{"B", "A", "T at 0", "T at 1"});
 }
 
-TEST_CASE("a train stands at from, and every `by` behind it, the last time at or before `to`") {
+TEST_CASE("a train is placed at `from`, then at every `by` after it, and last at or before `to`") {
   const auto places = [](const std::string& numbers) {
     return names_of(parse_problem("[beam]\nlength = 1\nelements = 10\nEI = 1\n[[support]]\nx = [0, 1]\n"
                                   "fix = \"w\"\n[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\n" +
@@ -66,7 +66,7 @@ TEST_CASE("a train stands at from, and every `by` behind it, the last time at or
   CHECK(places("from = 0.5\nto = 0.5\nby = 2\n") == std::vector<std::string>{"T at 0.5"});
 }
 
-TEST_CASE("axles act where they stand, times the train's factor, and none beyond the beam") {
+TEST_CASE("axles act at their positions, times the train's factor, and those beyond the beam do not act") {
   const auto steps =
       parse_problem(train_with("from = -1\nto = 3\nby = 1\nfactor = 1.5\nterms = { G = 2 }\n"), "pb.toml")
           .steps;

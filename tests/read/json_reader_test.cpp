@@ -22,7 +22,7 @@ std::string refusal(const std::string& text, const Use& use) {
 
 }  // namespace
 
-TEST_CASE("JSON of every kind of value is read as TOML's twin") {
+TEST_CASE("JSON values of every kind are read like the same values in TOML") {
   const std::string text =
       R"({ "a": [1, -2.5e-3, true, "x\u00e9\"]" ], "b": {"c": 9007199254740993}, "d": {} })";
   const json_tree d = parse_json(text, "f.json");
@@ -55,7 +55,7 @@ TEST_CASE("text that is not JSON is refused with line and column") {
       verdict_of);
 }
 
-TEST_CASE("a value of JSON is refused where it stands") {
+TEST_CASE("a wrong JSON value is refused with its line and column") {
   const std::string text = "{\n  \"a\": [ { \"n\": 1 },\n    { \"n\": 7, \"m\": 0 } ] }";
   const auto second = [](const toml_value& t) { return t["a"].entries("two", 2)[1]; };
   CHECK_THAT(refusal(text, [&](const toml_value& t) { return second(t)["n"].integer(1, 3); }),

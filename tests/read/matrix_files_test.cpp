@@ -137,7 +137,7 @@ TEST_CASE(
       of_matrix);
 }
 
-TEST_CASE("entries come in order of columns and rows, whatever order the file has them in") {
+TEST_CASE("entries are sorted by column and row, whatever their order in the file") {
   const sparse_matrix a = parse_symmetric(header + "3 3 5\n3 3 9\n3 1 7\n1 1 5\n2 2 8\n2 1 6\n", "K.mtx");
   std::vector<double> values;
   for (const matrix_entry& e : a.entries) values.push_back(e.value);
@@ -177,7 +177,7 @@ TEST_CASE("every mistake in CalculiX's matrix is refused with its line, what was
       of_job);
 }
 
-TEST_CASE("cut anywhere, a file is refused") {
+TEST_CASE("a matrix file that is cut anywhere is refused") {
   for (const std::string& text : {good_matrix, good_vector, sparse_vector}) {
     for (std::size_t length = 0; length < text.size(); ++length) {
       const std::string cut = text.substr(0, length);
@@ -219,7 +219,7 @@ TEST_CASE("every mistake in a list of labels is refused with its line, what was 
       of_labels);
 }
 
-TEST_CASE("a file of matrices or vectors draws one warning for all numbers that doubles do not have") {
+TEST_CASE("a file of matrices or vectors gives one warning for all numbers that are not exact in doubles") {
   std::vector<std::string> warnings;
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
   const sparse_matrix m =

@@ -93,7 +93,7 @@ TEST_CASE("dofs whose labels have no node, and rotations, are counted as not dra
   CHECK_THAT(places.notes[1], Contains("Rotations, 1 of 8 dofs"));
 }
 
-TEST_CASE("if no label has a node, no place is known") {
+TEST_CASE("coordinates are unknown if no label has a node") {
   const placed_nodes places = places_by_coordinates("a 0 0\n", "K.xyz", with_labels({"1", "2", "a.q", ".x"}));
   CHECK_FALSE(places.known());
   CHECK(places.dofs.empty());
@@ -107,7 +107,7 @@ TEST_CASE(
   CHECK(edges_of(places_by_coordinates("a 0 0\nb 1 0\nc 2 0\n", "K.xyz", chain)) == "a-b b-c");
 }
 
-TEST_CASE("nodes of which more than three times as many are coupled have no edges") {
+TEST_CASE("a matrix that couples more than three times as many pairs of nodes as it has nodes has no edges") {
   // Everything with everything: 8 nodes have 28 couplings, more than 24; 7 have 21.
   for (const int n : {7, 8}) {
     std::string text;
@@ -148,7 +148,7 @@ std::string element_text(const std::string& type, int nodes) {
 }  // namespace
 
 TEST_CASE(
-    "CalculiX's nodes are read: any case, blanks, comments, FORTRAN's numbers, what is not there is 0") {
+    "CalculiX's nodes are read: any case, blanks, comments, FORTRAN's numbers, missing coordinates as 0") {
   const placed_nodes m = by_mesh(
       "** a comment\n*HEADING\n1, 2, three\n * node , NSET = all\r\n1, 1.5 , "
       "-2.E-3,+.5\n\n2,1D1,,2d-1\n3\t,4\n"

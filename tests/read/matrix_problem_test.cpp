@@ -156,7 +156,7 @@ std::string small_with(const std::string& piece, const std::string& mistake) {
 
 }  // namespace
 
-TEST_CASE("the same structure by its matrix has the same events and the same D, and is as certified") {
+TEST_CASE("a structure given by its matrix has the same events, the same D and the same certificate") {
   std::size_t events = 0;
   const auto compare = [&events](const std::string& name, bool without_supports) {
     INFO(name);
@@ -195,8 +195,7 @@ TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its mat
   check_same(native, followed(read_problem(exported(p, here))));
 }
 
-TEST_CASE(
-    "the frame among the references: its files are what its script writes, and all of it is certified") {
+TEST_CASE("the reference frame has the files that its script writes, and every state of it is certified") {
   const fs::path frame = reference / "structures";
   const scratch_folder here;
   const std::string command =
@@ -227,7 +226,7 @@ TEST_CASE(
   CHECK(held[1] + held[4] + pressed(0) == Approx(20000).epsilon(1e-9));
 }
 
-TEST_CASE("a frame from CalculiX's own files is the frame from Matrix Market's") {
+TEST_CASE("a frame read from CalculiX's files equals the one read from Matrix Market files") {
   const fs::path frame = reference / "structures";
   const scratch_folder here;
   const problem p = read_problem((frame / "frame.toml").string());
@@ -399,7 +398,7 @@ TEST_CASE(
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));
 }
 
-TEST_CASE("if half a unit in a matrix's last digits decides whether it is held, nothing is certified") {
+TEST_CASE("a matrix is not certified if half a unit in its last digits decides whether it is held") {
   const scratch_folder to;
   const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
     (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +
@@ -424,8 +423,7 @@ TEST_CASE("if half a unit in a matrix's last digits decides whether it is held, 
   CHECK(certificate_of("1", "").certified);  // whole numbers are not rounded
 }
 
-TEST_CASE(
-    "the places where numbers of a matrix were rounded are those of the file, whatever zeros it leaves out") {
+TEST_CASE("the last digits of a matrix's entries are those of the file, even if the file omits zeros") {
   const auto digits = [](const std::string& a, const std::string& b, const std::string& c) {
     return parse_symmetric("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 " + a + "\n2 1 " + b +
                                "\n2 2 " + c + "\n",

@@ -27,7 +27,7 @@ double longest(const std::vector<double>& x) {
 
 }  // namespace
 
-TEST_CASE("a coordinate is a node's if the two are equal as decimals, however the mesh has rounded") {
+TEST_CASE("a coordinate means a node if the two are equal as decimals, whatever the rounding of the mesh") {
   for (const auto& [length, elements] : {std::pair(1.0, 10), {0.7, 7}, {1.1, 11}, {2.3, 23}, {12.3, 123}}) {
     std::vector<double> x;
     for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
@@ -44,7 +44,7 @@ TEST_CASE("a coordinate is a node's if the two are equal as decimals, however th
   CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);  // by the larger end
 }
 
-TEST_CASE("of nodes closer together than rounding, the nearest is meant") {
+TEST_CASE("a coordinate among nodes closer together than rounding means the nearest one") {
   const std::vector<double> x = {0.0, 1.0 - 2e-16, 1.0, 1.0 + 4e-16};
   for (int i = 0; i < 4; ++i) CHECK(find_coordinate(x, x[i]) == i);
 }

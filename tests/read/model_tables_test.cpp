@@ -70,7 +70,7 @@ const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
 }  // namespace
 
 TEST_CASE(
-    "a matrix without labels has its dofs' numbers, and free_motions and storage are taken as they are") {
+    "a matrix without labels has its dofs' numbers, and free_motions and storage are those of the file") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   const auto read = [&](const std::string& keys) {
@@ -88,8 +88,7 @@ TEST_CASE(
   if (sparse_factor::available()) CHECK_FALSE(read("storage = \"sparse\"\n").as_band);
 }
 
-TEST_CASE(
-    "CalculiX's mesh is read from beside its matrix where it is there, or from the file that is named") {
+TEST_CASE("CalculiX's mesh is read from the file that is named, or else from the file beside the matrix") {
   const scratch_folder here;
   (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
   (void)here.write("job.dof", "2.3\n3.3\n");
@@ -125,8 +124,7 @@ TEST_CASE(
   CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
 }
 
-TEST_CASE(
-    "a band that takes more memory than there is is refused before it is taken, or stored by its entries") {
+TEST_CASE("a band larger than the memory is refused before it is allocated, or stored by its entries") {
   const scratch_folder here;
   // An arrow: the last row is full, whatever the order.
   constexpr int n = 400'000;
@@ -150,7 +148,7 @@ TEST_CASE(
     is_refused("");
 }
 
-TEST_CASE("EI in pieces: each reaches from the one before it to its own border") {
+TEST_CASE("each piece of EI reaches from the end of the one before it to its own end") {
   const auto of = [](const std::string& lines) {
     return std::get<beam>(
         parse_problem("[beam]\n" + lines + "[[step]]\nuniform = 1\n", "pb.toml").geometry.kind);

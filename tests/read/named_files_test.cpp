@@ -71,7 +71,7 @@ TEST_CASE("a problem file that is reached through a link has the folder of the l
   CHECK_THROWS_AS(path_of(here.at("current/p.toml"), "../other", reach::own_folder), input_error);
 }
 
-TEST_CASE("a name with a character 0, at which the system would end it, is refused") {
+TEST_CASE("a file name that contains a NUL character is refused") {
   for (const reach allowed : {reach::own_folder, reach::anywhere})
     CHECK_THROWS_WITH(
         path_of("a/p.toml", "K.mtx\\u0000\\tof\\u0000", allowed, '"'),

@@ -71,7 +71,7 @@ TEST_CASE("a matrix without labels has its dofs' numbers, each in one spelling")
     CHECK_THAT(refusal({a}, fmt::format("dof = \"{}\"", no)), Contains("a label, \"1\" to \"12\""));
 }
 
-TEST_CASE("nodes are named in one way, and what is missing is said with all ways") {
+TEST_CASE("nodes are named in exactly one way, and the message for a missing name lists all ways") {
   CHECK_THAT(refusal(a_beam, "x = 0\nnodes = [1]"),
              Contains("f.toml:2:9: nodes: found this beside x; allowed: either nodes or x"));
   CHECK_THAT(refusal(a_beam, ""),

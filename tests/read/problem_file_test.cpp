@@ -19,7 +19,7 @@ const beam& beam_of(const problem& p) {
 
 }  // namespace
 
-TEST_CASE("the good problem is accepted") {
+TEST_CASE("a correct problem is accepted") {
   const problem p = parse_problem(good_problem, "pb.toml");
   CHECK(beam_of(p).x == std::vector<double>{0, 1, 2});
   CHECK(beam_of(p).EI == std::vector<double>{1e4, 1e4});
@@ -108,7 +108,7 @@ TEST_CASE("a pair on a fixed dof is taken with a warning: the listing may toggle
   CHECK_THAT(p.warnings[0], Catch::Matchers::StartsWith("pb.toml:7: contact[1]: node 1 is fixed in w"));
 }
 
-TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all") {
+TEST_CASE("a hostile file gives an error message: binary, deeply nested or empty") {
   for (const std::string& text : {std::string("\x7f"
                                               "ELF\x02\x01\x01\x00\x00\x00\x00",
                                               11),
@@ -122,7 +122,7 @@ TEST_CASE("hostile files end in a message: binary, deep nesting, nothing at all"
   }
 }
 
-TEST_CASE("the good plate is accepted: grid, stiffness from E, nu and thickness, loads on every dof") {
+TEST_CASE("a correct plate is accepted: grid, stiffness from E, nu and thickness, loads on every dof") {
   const problem p = parse_problem(good_plate, "pb.toml");
   const auto& it = std::get<plate>(p.geometry.kind);
   CHECK(it.x == std::vector<double>{0, 0.5, 1});
@@ -190,7 +190,7 @@ TEST_CASE("units are labels, both or neither") {
   CHECK(p.units.force == "kN");
 }
 
-TEST_CASE("one dof to fix may stand without brackets") {
+TEST_CASE("a single fixed dof needs no brackets") {
   const problem p = parse_problem(with("[\"w\", \"theta\"]", "\"theta\""), "pb.toml");
   REQUIRE(p.supports.size() == 1);
   CHECK(p.supports[0].dof == 1);
@@ -228,7 +228,7 @@ TEST_CASE("a bed's face: one for all nodes, one for each, fixed or not, or a pol
   CHECK(bed_of("face = [-4]\nx = 3\n").pairs.at(0).face == -4);
 }
 
-TEST_CASE("a bed remembers its modulus, its pairs and the share of each") {
+TEST_CASE("a bed keeps its modulus, its pairs and the share of each") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[contact]]\nnode = 3\nsurface = "
       "\"above\"\nface = 1\nstiffness = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[bed]]\nmodulus = 8\nface = "

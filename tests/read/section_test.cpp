@@ -21,7 +21,7 @@ const beam& beam_in(const problem& p) {
 
 }  // namespace
 
-TEST_CASE("Sections in pieces make the EI of the same pieces of EI, and their ends nodes") {
+TEST_CASE("Sections in pieces give the same EI as pieces of EI, and a node at the end of each piece") {
   const problem by_EI = on_two_supports(
       "length = 10\nelement_size = 4\nEI = [ { to = 2.5, value = 5 }, { to = 10.0, value = 7 } ]\n");
   const problem by_section = on_two_supports(
@@ -61,7 +61,7 @@ TEST_CASE("The self-weight of a simple beam bends it by q L^2 / 8, with q = weig
   CHECK(results_in_elements(p.geometry, l, u).at(0, 1)[1] == Approx((40 * 0.2 + 2) * 100 / 8).epsilon(1e-12));
 }
 
-TEST_CASE("self_weight = false is no load, and takes off what the step before had") {
+TEST_CASE("self_weight = false removes the self-weight of the step before") {
   const problem p = on_two_supports("x = [0, 10]\nsection = { E = 1, I = 1, A = 0.2, weight = 40 }\n",
                                     "self_weight = true\n[[step]]\nself_weight = false\n");
   CHECK(p.steps.at(1).distributed.empty());

@@ -38,7 +38,7 @@ TEST_CASE("a point load between nodes stands where the file says, one at a node'
   CHECK((l.placed[1].what == load_kind::moment && l.placed[1].polynomial[0] == 3));
 }
 
-TEST_CASE("a load without from begins where the beam does, one without to ends where it ends") {
+TEST_CASE("a load without `from` begins at the start of the beam, and one without `to` ends at its end") {
   const load l = step_of(
       "uniform = [ { value = 1, from = 0.5 }, { polynomial = [2, 3], to = 1.5 } ]\n"
       "curvature = [ { value = 4 } ]\n");
@@ -60,7 +60,8 @@ TEST_CASE("a load on a plate is between two corners, by default those of the pla
   CHECK(read("to = [0.75, 0.25]").across[1] == 0.25);
 }
 
-TEST_CASE("a place of a load that is a node's up to rounding is the node's, and others make no node") {
+TEST_CASE(
+    "a load at a node's coordinate up to rounding acts at the node, and a load elsewhere makes no node") {
   const problem p = parse_problem(
       "[beam]\nlength = 0.7\nelements = 7\nEI = 1\n[[support]]\nx = 0\nfix = [\"w\", \"theta\"]\n"
       "[[step]]\nuniform = [ { value = 1, from = 0.3, to = 0.33 } ]\npoint = [ { x = 0.62, w = 1 } ]\n",

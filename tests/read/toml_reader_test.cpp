@@ -29,7 +29,7 @@ const auto reals = [](const toml_value& t) { return t["n"].reals(positive_real, 
 
 }  // namespace
 
-TEST_CASE("a range of reals includes its bounds as it says") {
+TEST_CASE("a range of reals includes or excludes its bounds as declared") {
   CHECK_FALSE(positive_real.holds(0.0));
   CHECK(positive_real.holds(5e-324));
   CHECK(any_real.holds(-1.7976931348623157e308));
@@ -100,7 +100,7 @@ TEST_CASE("tables know their names: a table in an array in a table") {
              Contains("f.toml:1:6: a[1]: found 1; allowed: a table"));
 }
 
-TEST_CASE("a key that must not stand beside another is refused at its place") {
+TEST_CASE("a key that excludes another is refused with its place") {
   const auto either = [](const toml_value& t) {
     t.refuse_beside({"b", "c"}, "a", "either a, or b and c");
     return 0;
@@ -110,7 +110,7 @@ TEST_CASE("a key that must not stand beside another is refused at its place") {
         "f.toml:2:5: c: found this beside a; allowed: either a, or b and c");
 }
 
-TEST_CASE("each kind of value has its words") {
+TEST_CASE("each kind of value has a name in messages") {
   const auto words = [](const toml_value& t) { return t["n"].found(); };
   CHECK(value("n = -5", words) == "-5");
   CHECK(value("n = 0.5", words) == "0.5");
@@ -139,7 +139,7 @@ TEST_CASE("a quotation from a file that is not TOML stays on the message's line"
              Contains("f.toml:1:") && Contains("\\x0a") && !Contains("\n"));
 }
 
-TEST_CASE("one number stands for all things, and an array has one for each") {
+TEST_CASE("a single number applies to all items, and an array has one number for each") {
   const auto three = [](const toml_value& t) { return t["n"].reals_for(any_real, 3, "thing"); };
   CHECK(value("n = 4", three) == std::vector<double>{4});
   CHECK(value("n = [1, 2.5, 3]", three) == std::vector<double>{1, 2.5, 3});

@@ -33,7 +33,7 @@ TEST_CASE("a number that is not the shortest decimal of its double draws a warni
                     });
 }
 
-TEST_CASE("zeros, signs, exponents and underscores make no other number") {
+TEST_CASE("zeros, signs, exponents and underscores do not change a number") {
   const std::string text =
       "a = [0.10, 1e3, 1.0, +1, -0, 0.0, 0e-999, 1_000.5, 1000.5e0, 0x10, 0o7, 0b1, inf, nan]\n"
       "b = [0.250000000000000000000, 10000000000000000000e-1, 1.7976931348623157e308, 5e-324]\n"
@@ -42,15 +42,14 @@ TEST_CASE("zeros, signs, exponents and underscores make no other number") {
   CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 19);  // all but inf and nan
 }
 
-TEST_CASE("whole numbers are warned of where doubles have no such one, hexadecimal or not") {
+TEST_CASE("a whole number that doubles do not have gives a warning, hexadecimal or not") {
   CHECK(warnings_of("a = 9007199254740993\nb = 0x20000000000003\nc = 1152921504606846976\n") ==
         std::vector<std::string>{warning("1:5: a", "9007199254740993", "9007199254740992"),
                                  warning("2:5: b", "0x20000000000003", "9007199254740996"),
                                  warning("3:5: c", "1152921504606846976", "1.152921504606847e+18")});
 }
 
-TEST_CASE(
-    "literals are found behind letters of several bytes, tabs, line ends of two bytes and a mark of order") {
+TEST_CASE("literals are found after multi-byte letters, tabs, CRLF line ends and a byte order mark") {
   const std::string line =
       "t = [ { name = \"\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80\",\tw = +0.30000000000000000001, "
       "a = 0.4000000000000000000001 } ]";
@@ -65,7 +64,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("of many such numbers the first ten are named, and all are counted") {
+TEST_CASE("the first ten of many such numbers are named, and all are counted") {
   std::string text = "a = [\n";
   for (int i = 0; i < 11; ++i) text += "0.10000000000000000001,\n";
   const auto warnings = warnings_of(text + "]\n");

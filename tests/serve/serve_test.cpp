@@ -63,7 +63,7 @@ void late_kernel(const double dd[], const double dtest[], const double cc[], dou
 
 }  // namespace
 
-TEST_CASE("a run's answer is a result, with every other output that is asked for") {
+TEST_CASE("the answer to a run is a result, with every other output that was requested") {
   const json plain = run(problem_text("pb07-three-gap-supports"));
   CHECK(plain.at("exit") == 0);
   CHECK(plain.at("error").is_null());
@@ -129,7 +129,7 @@ TEST_CASE("options that are not known, of another type, or too deep are refused 
              Contains("more than 16 deep; allowed: at most 16"));
 }
 
-TEST_CASE("external states are certified, and a state that is wrong is not") {
+TEST_CASE("a correct external state is certified, and a wrong one is not") {
   const std::string text = problem_text("pb07-three-gap-supports");
   std::vector<json> states = displacements(run(text, {{"kernels", {"corrected"}}}).at("result"));
   const json right = certified(text, {{"displacement", states}});
@@ -183,7 +183,7 @@ TEST_CASE("every number of a problem has its place in the text, and pairs have t
   CHECK_FALSE(taken(contct_check(text.c_str(), nullptr)).at("result").contains("numbers"));
 }
 
-TEST_CASE("check, exact, explain and about answer as the program does") {
+TEST_CASE("the calls check, exact, explain and about answer like the program's commands") {
   const std::string text = problem_text("pb07-three-gap-supports");
   const json checked = taken(contct_check(text.c_str(), "{}"));
   CHECK(checked.at("result").at("kind") == "beam");
@@ -246,7 +246,7 @@ TEST_CASE("a kernel of the caller's is judged: equal to the bit, or not") {
   CHECK(taken(contct_judge(right_kernel, R"({"name": "cpp"})")).at("exit") == 2);
 }
 
-TEST_CASE("threads get their own answers") {
+TEST_CASE("each thread gets its own answers") {
   const std::string names[] = {"pb01-cantilever-tip-stop", "pb07-three-gap-supports",
                                "pb10-cantilever-gapped-spring"};
   std::vector<std::string> texts;

@@ -8,7 +8,7 @@
 
 using namespace contct;
 
-TEST_CASE("an event's load has the words of the problem file") {
+TEST_CASE("an event's load is described in the keys of the problem file") {
   const problem p = parse_problem(good_problem, "pb.toml");
   CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
   const problem uniform =
@@ -31,7 +31,7 @@ TEST_CASE("an event's load has the words of the problem file") {
   CHECK(load_path(passes).words_at(2, 6.0 / 7 + 1e-12, 24) != "w 0 at node 3");
 }
 
-TEST_CASE("a load that need not follow the mesh has its place") {
+TEST_CASE("the description of a load between nodes has its coordinates") {
   const auto words = [](load_kind what, double from, double to, model m = beam{{0, 4}, {1.0}}) {
     problem p;
     p.geometry = std::move(m);
@@ -58,7 +58,7 @@ TEST_CASE("a plate's load is worded as its force, or as wx or wy at the node") {
   CHECK(load_path(slope).words_at(1, 0.5, 24) == "wy -0.25 at node 6");
 }
 
-TEST_CASE("between steps the load goes straight from one total to the next, from nothing at first") {
+TEST_CASE("the load is linear between the totals of two steps, and starts from 0") {
   const problem p =
       parse_problem(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n", "pb.toml");
   const load_path loads(p);
@@ -70,7 +70,7 @@ TEST_CASE("between steps the load goes straight from one total to the next, from
   CHECK_FALSE(loads.has_many_parts(2));
 }
 
-TEST_CASE("elements are a run when they follow one another upwards") {
+TEST_CASE("elements are written as a range if their numbers are consecutive") {
   CHECK(is_run({4}));
   CHECK(is_run({4, 5, 6}));
   CHECK_FALSE(is_run({4, 6}));

@@ -46,7 +46,7 @@ const mesh_change& change_of(const std::vector<mesh_change>& all, std::string_vi
 
 }  // namespace
 
-TEST_CASE("A reference problem on half the element size is the one that is written with twice the elements") {
+TEST_CASE("A reference problem on half the element size equals the one written with twice the elements") {
   for (const auto& [coarse, fine] :
        {std::pair("pb11a-strip-footing-n20", "pb11b-strip-footing-n40"),
         {"pp01a-simply-supported-plate-n4", "pp01b-simply-supported-plate-n8"},

@@ -48,7 +48,7 @@ std::string square(int elements) {
 
 }  // namespace
 
-TEST_CASE("events of one moment in another order are the same events, and the states are the answer's") {
+TEST_CASE("events at one share in another order count as equal, and the states are those of the answer") {
   const both_rules pb7(read_input(CONTCT_REFERENCE "/problems/pb07-three-gap-supports.toml"));
   CHECK(pb7.run.result.kernels == std::vector<std::string>{"corrected", "fortran", "cpp"});
   CHECK(pb7.beside().same_events);
@@ -72,7 +72,7 @@ TEST_CASE("an offset that survives unloading is a wrong step: k gap L^3 / 3 EI w
   CHECK(near.run.exit() == exit_status::solved);
 }
 
-TEST_CASE("an event that the 1989 rule has at another share is reported with that share") {
+TEST_CASE("an event at a different share under the 1989 rule is reported with that share") {
   const both_rules near(divergence("near-tie"));
   const std::vector<row_of_1989>& first = near.beside().rows.at(0);
   CHECK(first.at(0).otherwise.empty());

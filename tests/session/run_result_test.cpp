@@ -19,7 +19,7 @@ void tell_call(run_recorder& r, std::vector<double> ss, std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("the first calls are kept with the s of their first pairs, all are counted") {
+TEST_CASE("the first calls are kept with the s of their first pairs, and all calls are counted") {
   run_recorder r(nullptr, {.calls = true});
   for (int i = 0; i < 1205; ++i) tell_call(r, std::vector<double>(10, i), "x");
   CHECK(r.all_calls == 1205);
@@ -29,7 +29,7 @@ TEST_CASE("the first calls are kept with the s of their first pairs, all are cou
   CHECK(r.calls[7].followers.empty());
 }
 
-TEST_CASE("unit 26 is kept in whole calls only, and nothing behind one that was left out") {
+TEST_CASE("the text of unit 26 is kept for whole calls, and for none after the first omitted call") {
   run_recorder r(nullptr, {.calls = true});
   const std::string most(150'000, 'a');
   tell_call(r, {1.0}, most);
@@ -60,7 +60,7 @@ TEST_CASE("calls are kept only on request") {
   CHECK(r.log.empty());
 }
 
-TEST_CASE("a step has its increments with their events, and its end as the path told it") {
+TEST_CASE("a step has its increments with their events, and its end as the path reported it") {
   run_recorder r;
   const event make{3, change::make};
   const std::vector<double> u = {0.0, 1.0};

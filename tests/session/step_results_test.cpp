@@ -43,7 +43,8 @@ struct ended {
 
 }  // namespace
 
-TEST_CASE("The hardest pair and support are those of the largest force, the first one where two are equal") {
+TEST_CASE(
+    "The hardest pressed pair and support have the largest force, and the first is taken if two are equal") {
   const ended e(beam_over_stops(-0.001, -10.0));
   REQUIRE(e.read.pairs.size() == 2);
   CHECK(e.read.hardest_pair() == 0);  // both press with the same force but for rounding
@@ -66,7 +67,7 @@ TEST_CASE("Forces, reactions and loads of a step's end balance, and its moments 
   CHECK(m.most.x == Approx(edge / 10.0).epsilon(1e-6));
 }
 
-TEST_CASE("Loads, reactions and contact forces of every reference problem add up to nothing but rounding") {
+TEST_CASE("Loads, reactions and contact forces of every reference problem add up to 0 within rounding") {
   int compared = 0;
   for (const auto& file : std::filesystem::directory_iterator(CONTCT_REFERENCE "/problems")) {
     if (file.path().extension() != ".toml") continue;
@@ -123,7 +124,7 @@ TEST_CASE(
   CHECK(beds[0].contact == Approx(0.625).epsilon(1e-12));
 }
 
-TEST_CASE("A beam that sags through a face between two pairs is reported, a flatter one is not") {
+TEST_CASE("A beam that sags through a face between two pairs is reported, and a flatter one is not") {
   const ended soft(beam_over_stops(0.0, -500.0));
   REQUIRE(soft.through);
   CHECK(soft.through->first == 0);
@@ -190,7 +191,7 @@ TEST_CASE("the warning of a beam that sags through a face names both pairs, from
              Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
 }
 
-TEST_CASE("a pair is read at its deflection: gap or force, never both") {
+TEST_CASE("a pair's deflection gives a gap or a force, never both") {
   const problem p = parse_problem(good_problem, "pb.toml");  // face -0.004, stiffness 5e4
   const pair_reading open = reading_of(p.pairs[0], -0.001, false);
   CHECK(open.gap == Approx(0.003));

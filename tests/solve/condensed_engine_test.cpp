@@ -7,7 +7,7 @@
 
 using namespace contct;
 
-TEST_CASE("beams with pairs can be condensed, beams without and plates not") {
+TEST_CASE("beams with pairs can be condensed, and beams without pairs and plates cannot") {
   CHECK(can_be_condensed(cantilever_over_stops(3)));
   linear_structure bare = cantilever_over_stops(3);
   bare.pairs.clear();
@@ -62,7 +62,7 @@ TEST_CASE("a pair at a fixed dof moves nothing") {
   CHECK(after[4] == 0.0);
 }
 
-TEST_CASE("a free beam takes all springs in before its first response: one alone does not hold it") {
+TEST_CASE("a free beam gets all springs before its first response, since one alone does not hold it") {
   const linear_structure s =
       build(beam{{0, 1, 2}, {605, 605}}, {}, {{0, -1, -1e-4, 300.0, false}, {2, -1, -5e-5, 250.0, false}});
   const auto engine = make_engine("condensed", s);

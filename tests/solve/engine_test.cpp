@@ -141,7 +141,7 @@ TEST_CASE("on every engine the corrected kernel's paths of held structures are c
   }
 }
 
-TEST_CASE("free structures come to the same end on every engine") {
+TEST_CASE("free structures end in the same state on every engine") {
   random_problem_kind kind;
   kind.free_share = 1.0;
   int same = 0;

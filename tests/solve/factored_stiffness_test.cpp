@@ -33,7 +33,7 @@ TEST_CASE("one spring under the tip of a cantilever: w = F / (3 EI / L^3 + k)") 
   CHECK(u[0] == 0.0);
 }
 
-TEST_CASE("columns of the inverse at the pairs are those that any right-hand side gives") {
+TEST_CASE("columns of the inverse at the pairs equal the solutions for unit right-hand sides") {
   for (const factored_by how : {factored_by::storage, factored_by::cholmod}) {
     if (how == factored_by::cholmod && !sparse_factor::available()) continue;
     for (linear_structure s : {cantilever_over_stops(5), wide_plate()}) {
@@ -56,7 +56,7 @@ TEST_CASE("columns of the inverse at the pairs are those that any right-hand sid
   }
 }
 
-TEST_CASE("a refined solution satisfies the equations to the last digits") {
+TEST_CASE("a refined solution satisfies the equations to rounding") {
   const linear_structure s = wide_plate();
   const std::vector<char> closed = {1, 0};
   factored_stiffness k(s);
@@ -124,7 +124,7 @@ TEST_CASE("the residual is b - K x less the springs' forces") {
 }
 
 TEST_CASE(
-    "a solver that is wrong by a tenth is corrected to full precision, a hopeless one is not followed") {
+    "a solver with small errors is corrected to full precision, and growing corrections are not applied") {
   const linear_structure s = three_dofs();
   const std::vector<spring_at> springs = {{0, 12.0}};
   std::vector<double> u(3);

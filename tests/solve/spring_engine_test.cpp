@@ -116,7 +116,7 @@ TEST_CASE("the interval halves when the drift is too large, down to four, and st
   CHECK(responses_until_due(m) == 4);
 }
 
-TEST_CASE("a check can be asked for, and an interval begun again") {
+TEST_CASE("a check can be requested, and an interval can be restarted") {
   drift_monitor m(first_check);
   m.check_next();
   CHECK(m.is_due());

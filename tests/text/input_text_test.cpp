@@ -89,7 +89,7 @@ TEST_CASE("fields are separated by any blanks, blank lines are skipped, and line
   CHECK(lines.fields() == 0);
 }
 
-TEST_CASE("a line of fields that is cut is refused, blanks behind the last line are not") {
+TEST_CASE("a line of fields that is cut is refused, and blanks after the last line are accepted") {
   field_lines cut("1 2\n3 4", "f");
   REQUIRE(cut.next());
   CHECK_THROWS_WITH(cut.next(), Contains("f:2: found \"3 4\" without a line's end"));
@@ -124,7 +124,7 @@ TEST_CASE("reals are finite decimals, with FORTRAN's D only where it is asked fo
   CHECK_THROWS_WITH(lines.text_lines::real("1D999", "x", true), Contains("\"1D999\" for x"));
 }
 
-TEST_CASE("a number is all of a text or nothing") {
+TEST_CASE("a number must fill its whole text") {
   CHECK(number_in<int>("-12") == -12);
   CHECK(number_in<double>("1e3") == 1000.0);
   CHECK(number_in<double>("1.8p1", std::chars_format::hex) == 3.0);

@@ -38,7 +38,7 @@ TEST_CASE("a new file has the rights that the umask leaves") {
   umask(before);
 }
 
-TEST_CASE("an older file is replaced, and its name is never without a whole file") {
+TEST_CASE("an existing file is replaced at once, so that its name always has a complete file") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   output_file out(dir.at("out.json"));

@@ -7,7 +7,7 @@
 
 using namespace contct;
 
-TEST_CASE("the nearest word is meant, and none where too much is wrong") {
+TEST_CASE("the nearest word is suggested, and none if too many letters differ") {
   const std::vector<std::string> keys = {"node", "nodes", "surface", "face", "stiffness"};
   CHECK(did_you_mean("stifness", keys) == " (did you mean \"stiffness\"?)");
   CHECK(did_you_mean("Stiffness", keys) == " (did you mean \"stiffness\"?)");
@@ -63,7 +63,7 @@ TEST_CASE(
   CHECK(terminal_text("\x9b\xff") == "\\x9b\\xff");
 }
 
-TEST_CASE("a title on one line has blanks for line ends, and JSON has escapes of its own") {
+TEST_CASE("a title on one line has blanks instead of line ends, and JSON text has JSON's escapes") {
   CHECK(on_one_line("two\nlines\r\tand \x1b") == "two lines  and \\x1b");
   CHECK(json_escaped("{\"a\": \"\x7f\u0085\u202e\u00e9\"}\n") ==
         "{\"a\": \"\\u007f\\u0085\\u202e\u00e9\"}\n");
@@ -71,7 +71,7 @@ TEST_CASE("a title on one line has blanks for line ends, and JSON has escapes of
   CHECK(markup_text("\u009b\u2066\xff") == "\uFFFD\uFFFD\uFFFD");
 }
 
-TEST_CASE("of a field of a file a message shows what looks like a number, and of the rest the length") {
+TEST_CASE("a message quotes a field of a file if it looks like a number, and otherwise gives its length") {
   for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
     CHECK(field_words(number) == std::string("\"") + number + "\"");
   CHECK(field_words("root:x:0:0") == "a word of 10 bytes");

@@ -29,7 +29,7 @@ TEST_CASE("COLUMNS sets the width, between 40 and 160, and nonsense gives 80") {
   CHECK(width_with("wide") == 80);
 }
 
-TEST_CASE("colour is put around a text where it is wanted") {
+TEST_CASE("a text is coloured only if colour is requested") {
   CHECK(painted({80, false}, paint::bad, "no") == "no");
   CHECK(painted({80, true}, paint::good, "yes") == "\033[32myes\033[0m");
   CHECK(painted({80, true}, paint::bad, "no") == "\033[1;31mno\033[0m");
@@ -37,7 +37,7 @@ TEST_CASE("colour is put around a text where it is wanted") {
   CHECK(painted({80, true}, paint::strong, "so") == "\033[1mso\033[0m");
 }
 
-TEST_CASE("items share lines, and a text is broken at blanks alone") {
+TEST_CASE("items share lines, and a text is broken only at blanks") {
   CHECK(wrap({"a", "b", "c"}, 4) == lines{"a; b", "c"});
   CHECK(wrap({"one two three"}, 7) == lines{"one two", "three"});
   CHECK(wrap({"one two three"}, 6) == lines{"one", "two", "three"});

@@ -54,7 +54,7 @@ TEST_CASE("the text has every event with its exact share and load") {
   CHECK_THAT(text, Contains("  pair 2 (node 9, below): w -2/375, gap 7/1500\n"));
 }
 
-TEST_CASE("fractions of more digits than wanted are decimals, and many pairs are counted") {
+TEST_CASE("fractions of more digits than requested become decimals, and many pairs are only counted") {
   const followed_exactly run(reference("pb03a-point-load-on-bed-l4"));
   const std::string text = exact_text(run.result(), 6, {});
   CHECK_THAT(text, Contains(" of 41 pairs in contact\n") && !Contains("/"));
@@ -104,7 +104,7 @@ TEST_CASE("the document has every number as a fraction") {
   CHECK_FALSE(d.contains("mechanism"));
 }
 
-TEST_CASE("a mechanism has the motion and the work that prove it") {
+TEST_CASE("a mechanism is written with the motion and the work that prove it") {
   const followed_exactly run(contct::parse_problem(falling, "falling.toml"));
   CHECK_THAT(exact_text(run.result(), 20, {}),
              Contains("share 0, load 0: a rigid-body motion at constant load\n") &&

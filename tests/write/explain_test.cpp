@@ -73,7 +73,7 @@ nlohmann::json explained_json(const std::string& text, int pair = 0) {
 
 }  // namespace
 
-TEST_CASE("a pair's story cites the lines that it went through, with the paper's equations") {
+TEST_CASE("the explanation of a pair cites the lines that it went through, with the paper's equations") {
   const nlohmann::json calls = explained_json(two_pairs)["increments"];
   REQUIRE(calls.size() == 2);
   const nlohmann::json& pairs = calls[0]["pairs"];
@@ -99,7 +99,7 @@ TEST_CASE("two numbers are equal to the bit, or some ULP apart, or one is NaN") 
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
 }
 
-TEST_CASE("more than twenty increments are a line each, unless all are wanted") {
+TEST_CASE("more than twenty increments take one line each, unless all are requested") {
   const std::string few = explained_text(0, 80, two_pairs_and(18), false);
   CHECK(few == explained_text(0, 80, two_pairs_and(18)));
   CHECK_THAT(few, Contains("Step 19, increment 1\n"));
@@ -155,7 +155,7 @@ TEST_CASE("each increment has its numbers, the winner and every pair with the re
   CHECK(j["status"] == "solved");
 }
 
-TEST_CASE("one pair alone is written when it alone is wanted") {
+TEST_CASE("a single pair is written if only that pair is requested") {
   const nlohmann::json j = explained_json(two_pairs, 2);
   for (const auto& i : j["increments"]) {
     REQUIRE(i["pairs"].size() == 1);
@@ -163,7 +163,7 @@ TEST_CASE("one pair alone is written when it alone is wanted") {
   }
 }
 
-TEST_CASE("an event exactly at the full load is not one for the listing, and the explanation says so") {
+TEST_CASE("an event exactly at full load does not count for the listing, and the explanation says so") {
   // The face is where the tip sinks to, to the last bit.
   problem p = parse_problem(two_pairs, "pb.toml");
   p.pairs[0].face = -10.0;
@@ -182,7 +182,7 @@ TEST_CASE("an event exactly at the full load is not one for the listing, and the
 }
 
 TEST_CASE(
-    "where the second kernel differs, its value stands under its own name, and a line of unit 26 in full") {
+    "a value in which the second kernel differs is shown under its name, and a line of unit 26 in full") {
   const problem p = parse_problem(two_pairs, "pb.toml");
   const auto told = [&](const mismatch& apart) {
     std::string written;

@@ -74,14 +74,15 @@ TEST_CASE("numbers of a document keep their bits, and NaN is null") {
   CHECK(read["steps"][0]["nan"].is_null());
 }
 
-TEST_CASE("a document whose array stays empty has an empty one") {
+TEST_CASE("an array without entries is written as an empty array") {
   CHECK(written([](json_document& d) {
           d.finish({{"end", 1}});
         }) == "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [],\n  \"end\": 1\n}\n");
 }
 
 TEST_CASE(
-    "a certificate that is not unique has no errors of displacement, and a problem only when there is one") {
+    "a certificate that is not unique has no errors of displacement, and names a problem only if there is "
+    "one") {
   CHECK(certificate_json({}).is_null());
   certificate c;
   c.certified = true;
@@ -136,8 +137,7 @@ TEST_CASE("events carry pair, node, side and change, and their load in absolute 
   CHECK(i["fraction"].get<double>() == Approx(0.25).epsilon(1e-12));
 }
 
-TEST_CASE(
-    "an event's load leaves its parts out when they are many, a long list of elements counting as many") {
+TEST_CASE("an event's load omits its parts if they are many, and a long list of elements counts as many") {
   const auto load_on = [](const std::string& elements) {
     const auto r = result_of(
         "[beam]\nlength = 80\nelements = 80\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", "
@@ -187,7 +187,7 @@ TEST_CASE("a separated pair has a gap and no force, and a mechanism keeps the st
   CHECK(r["steps"][1]["pairs"][1]["force"].get<double>() == Approx(8.0).epsilon(1e-9));
 }
 
-TEST_CASE("a plate's result: slopes and moments by name, corners counter-clockwise") {
+TEST_CASE("a plate's result names slopes and moments, and lists corners counter-clockwise") {
   const auto r = result_of(good_plate);
   CHECK(r["status"] == "solved");
   const auto& step = r["steps"][0];
@@ -210,7 +210,8 @@ TEST_CASE("a plate's result: slopes and moments by name, corners counter-clockwi
   CHECK(step["pairs"][0]["force"].get<double>() > 0.1);
 }
 
-TEST_CASE("bounds are there for what a problem has: contact forces for pairs, reactions for supports") {
+TEST_CASE(
+    "bounds are written for contact forces if there are pairs, and for reactions if there are supports") {
   const auto keys_of = [](const nlohmann::json& result) {
     std::set<std::string> keys;
     for (const auto& [key, value] : result["steps"][0]["error"].items()) keys.insert(key);
@@ -234,7 +235,7 @@ TEST_CASE("the envelope names pairs and supports from 1 on") {
   CHECK(envelope_of["pairs"][1]["pair"] == 2);
 }
 
-TEST_CASE("a result with states has those within steps as it has those at their ends") {
+TEST_CASE("a result with states writes states within steps like those at the ends of steps") {
   const a_run r(loaded_and_freed);
   const nlohmann::json result = json_of(r.result, result_parts::states);
   std::size_t within = 0;
@@ -255,7 +256,7 @@ TEST_CASE("a result with states has those within steps as it has those at their 
   CHECK_FALSE(result.contains("calls"));
 }
 
-TEST_CASE("of a large problem a bounded number of states within steps is written, the first among them") {
+TEST_CASE("a large problem has a bounded number of states within steps, including the first") {
   std::string text =
       "[beam]\nlength = 50\nelements = 5000\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
   for (int i = 1; i <= 20; ++i)
@@ -314,7 +315,7 @@ TEST_CASE("The structure of a beam with hinges names their nodes") {
   CHECK(s["hinges"] == std::vector<int>{2});
 }
 
-TEST_CASE("the structure of a beam has its places, stiffnesses, supports and pairs") {
+TEST_CASE("the structure of a beam has coordinates, stiffnesses, supports and pairs") {
   const nlohmann::json s = structure_json(parse_problem(good_problem, "pb.toml"));
   CHECK(s["kind"] == "beam");
   CHECK(s["nodes"][2] == nlohmann::json({{"node", 3}, {"x", 2.0}}));
@@ -325,7 +326,7 @@ TEST_CASE("the structure of a beam has its places, stiffnesses, supports and pai
   CHECK_FALSE(s["pairs"][0].contains("bed"));
 }
 
-TEST_CASE("the structure of a plate has its nodes row by row, and what its pairs have of a bed") {
+TEST_CASE("the structure of a plate has its nodes row by row, and the bed's share of each pair") {
   problem p = parse_problem(good_plate, "pb.toml");
   p.beds = {{4.0, {0.5}, 0}};
   const nlohmann::json s = structure_json(p);
@@ -334,7 +335,7 @@ TEST_CASE("the structure of a plate has its nodes row by row, and what its pairs
   CHECK(s["pairs"][0]["bed"] == 0.5);
 }
 
-TEST_CASE("the structure of a matrix has labels, and places and edges where they are known") {
+TEST_CASE("the structure of a matrix has labels, and coordinates and edges if they are known") {
   const nlohmann::json placed = structure_json(parse_problem(portal_frame(), "p.toml", reach::anywhere));
   CHECK(placed["nodes"].size() == 11);
   CHECK(placed["nodes"][7] == nlohmann::json({{"node", "8"}, {"x", 4.0}, {"y", 3.0}, {"z", 0.0}}));
@@ -348,7 +349,8 @@ TEST_CASE("the structure of a matrix has labels, and places and edges where they
   CHECK(bare["dofs"][16] == nlohmann::json({{"dof", "6.y"}}));
 }
 
-TEST_CASE("a combination says that it starts from zero, and every one without an equilibrium is in the end") {
+TEST_CASE(
+    "a combination is marked as starting from zero, and the end lists every one without an equilibrium") {
   const std::string beam =
       "[beam]\nlength = 2\nelements = 2\nEI = 100\n[[contact]]\nx = [0, 2]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 10\n[[case]]\nname = \"down\"\nuniform = -1\n";
@@ -370,8 +372,7 @@ TEST_CASE("a combination says that it starts from zero, and every one without an
 }
 
 TEST_CASE(
-    "a page of many combinations has the states of some, those with the least and largest values among "
-    "them") {
+    "a page of many combinations has the states of some, including those with the least and largest values") {
   const a_run r(
       "[beam]\nlength = 200\nelements = 200\nEI = 1e4\n[[support]]\nx = [0, 100, 200]\nfix = \"w\"\n"
       "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\nfrom = 1\nto = 199\nby = 1\n");
@@ -390,7 +391,7 @@ TEST_CASE(
   CHECK(most == Approx(100 * 0.207414).epsilon(2e-4));  // largest moment of two spans under a moving load
 }
 
-TEST_CASE("nodes and ends of elements have the coordinates of the file") {
+TEST_CASE("nodes and ends of elements have the coordinates written in the file") {
   const auto result =
       json_of(a_run("[beam]\nlength = 0.7\nelement_size = 0.1\nEI = 1\n[[support]]\nx = [0, 0.7]\nfix = "
                     "\"w\"\n[[step]]\nuniform = -1\n")
@@ -405,7 +406,8 @@ TEST_CASE("nodes and ends of elements have the coordinates of the file") {
 }
 
 TEST_CASE(
-    "a plate's nodes and the corners of its elements have x and y, a matrix has the places that are known") {
+    "nodes and corners of a plate's elements have x and y, and nodes of a matrix have their known "
+    "coordinates") {
   const auto result = json_of(a_run(std::string(good_plate)).result);  // 3 by 2 nodes on a square of side 1
   CHECK(result["nodes"][4] == nlohmann::json({{"node", 5}, {"x", 0.5}, {"y", 1.0}}));
   const auto& second = result["steps"][0]["elements"][1];

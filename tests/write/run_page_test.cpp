@@ -51,7 +51,7 @@ TEST_CASE("the page names no other file and no network") {
   CHECK_THAT(page, Contains("default-src 'none'"));
 }
 
-TEST_CASE("the parallel edition is in the page, folded, as reference/ has it") {
+TEST_CASE("the page contains the parallel edition of reference/, folded") {
   std::ifstream file(CONTCT_REFERENCE "/parallel-edition.html");
   const std::string whole(std::istreambuf_iterator<char>(file), {});
   const std::string edition =

@@ -31,8 +31,7 @@ TEST_CASE("a collection names its files in their order, relative to itself") {
   CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
 }
 
-TEST_CASE(
-    "grids of structures given by matrices: points where nodes are, edges, and pairs that have a node") {
+TEST_CASE("grids of structures given by matrices have points at nodes, edges, and pairs that have a node") {
   const a_run r(structure_problem("", "frame", {{"dof       = \"8.x\"", "dof = \"8.r\""}}));
   const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
   CHECK_THAT(vtu, Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
@@ -60,7 +59,7 @@ TEST_CASE("points have the reactions of supports and a bed's pressure") {
                                   results_of(r.what, r.what.steps[0], s).pairs[0].force / 0.5)));
 }
 
-TEST_CASE("of the states at which a step's load has only begun, one is drawn") {
+TEST_CASE("only one of the states at the very start of a step's load is drawn") {
   // Each end of a beam that lies on springs lets go by itself, before any load.
   const a_run r(
       "[beam]\nlength = 10.0\nelements = 40\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\n"

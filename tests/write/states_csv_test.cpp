@@ -39,7 +39,7 @@ double value_in(const std::string& field) {
 
 }  // namespace
 
-TEST_CASE("the moment of a row inside an element is the extreme that the result has, 9 q L^2 / 128") {
+TEST_CASE("the row inside an element has the result's extreme moment, 9 q L^2 / 128") {
   const a_run r(propped_cantilever, "corrected");
   const csv_rows rows = csv_table(r, write_states_csv);
   const step_results read = results_of(r.what, r.what.steps[0], r.result.record.steps[0].end);

@@ -62,7 +62,7 @@ double number(const std::string& field) {
 
 }  // namespace
 
-TEST_CASE("a path that is lost before any call has a table, with the state that was found without it") {
+TEST_CASE("a path that is lost before any call has a table, with the state of the reference solution") {
   // Nothing holds the corner's slope in doubles.
   const a_run r(
       "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
@@ -77,7 +77,7 @@ TEST_CASE("a path that is lost before any call has a table, with the state that 
   CHECK(t.pairs.size() == 2);
 }
 
-TEST_CASE("a share takes nine columns at most, and is 1 only when it is") {
+TEST_CASE("a share takes nine columns at most, and is printed as 1 only if it is exactly 1") {
   CHECK(share_words(1.0) == "1");
   CHECK(share_words(0.25) == "0.25");
   CHECK(share_words(0.0789473684210526) == "0.0789474");
@@ -99,7 +99,7 @@ TEST_CASE("a field is quoted where a comma, a quote or a line end is in it") {
   CHECK(csv_field("a\x1b[31m") == "a\\x1b[31m");
 }
 
-TEST_CASE("no text cell begins as a formula does, nor where blanks stand before it") {
+TEST_CASE("no text cell begins like a formula, with or without leading blanks") {
   for (const std::string formula : {"=1+1", "+1", "-2.x", "@SUM(1)", "\t=1", "\r=1", " =1", "\n=1", "\uff1d1",
                                     "\uff0b1", "\uff0d1", "\uff20x"}) {
     const std::string field = csv_field(formula);
@@ -130,7 +130,7 @@ TEST_CASE("the table of increments has their numbers to the last digit, and thei
   CHECK(number(t.increments[2][5]) == -60.0);
 }
 
-TEST_CASE("the table of pairs has each in every increment, as the states have it") {
+TEST_CASE("the table of pairs has a row for each pair in each increment, with the values of the states") {
   const tables t = tables_of(a_run(loaded_and_freed));
   REQUIRE(t.pairs.size() == 1 + 2 * (t.states.size() - 1));
   bool pressed = false;
@@ -185,12 +185,12 @@ run_table rows_for(const std::string& text, const std::string& leads = "fortran"
 
 }  // namespace
 
-TEST_CASE("many pairs that separate as the load begins to act share one row, and a few are named in theirs") {
+TEST_CASE("many pairs that separate as the load begins to act get one row, and a few are named in theirs") {
   CHECK_THAT(rows_for(lying_beam(40)).text, Contains(" at first load"));
   CHECK_THAT(rows_for(lying_beam(3)).text, Contains("break 4: node 4 below") && !Contains(" at first load"));
 }
 
-TEST_CASE("the column of kernels is explained where there is one, and not where one kernel runs alone") {
+TEST_CASE("the column of kernels is explained if there is one, that is, if several kernels run") {
   const auto legend_of = [](const std::string& leads) {
     std::string all;
     for (const std::string& words : rows_for(good_problem, leads).legend) all += words + "\n";
@@ -200,14 +200,14 @@ TEST_CASE("the column of kernels is explained where there is one, and not where 
   CHECK_THAT(legend_of("cpp"), !Contains("kernels:") && Contains("share:"));
 }
 
-TEST_CASE("The largest of each quantity has its unit, and moves to the left where there is no room") {
+TEST_CASE("The largest of each quantity has its unit, and moves to the left if the line is too long") {
   const a_run r("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem));
   CHECK_THAT(table_of(r.result, {100, false}, false).text,
              Contains("moment        -36.2791 kN m     node 1, x = 0\n"));
   CHECK_THAT(table_of(r.result, {44, false}, false).text, Contains("moment -36.2791 kN m, node 1, x = 0\n"));
 }
 
-TEST_CASE("Below a step's end stands where a face is that it has moved, and no other face") {
+TEST_CASE("The lines below a step's end give the position of each face that moved, and of no other") {
   const std::string text =
       table_of(
           a_run("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", "
@@ -233,12 +233,12 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
     CHECK(end - at <= 80);
 }
 
-TEST_CASE("What is nothing but the rounding of larger numbers before it is printed as 0, without a place") {
+TEST_CASE("A value that is only rounding of larger earlier numbers is printed as 0, without a place") {
   CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
              Contains("        moment        0\n") && Contains("        reaction      0\n"));
 }
 
-TEST_CASE("more than 12 combinations have a row each, with the name, and below stand the largest of all") {
+TEST_CASE("more than 12 combinations have one row each with their names, and the largest of all below") {
   const std::string train =
       "[beam]\nlength = 24\nelements = 24\nEI = 1e4\n[[support]]\nx = [0, 24]\nfix = \"w\"\n"
       "[[train]]\nname = \"HL-93\"\naxles = [ { at = 0, w = -10 } ]\nfrom = 0\nto = 24\nby = ";
@@ -264,7 +264,8 @@ TEST_CASE("a row of --csv ends with the name of its step") {
   CHECK(rows_of(text).at(1).back() == "dead, live");
 }
 
-TEST_CASE("of more than six steps the extremes stand in a table for each quantity, a step a row") {
+TEST_CASE(
+    "extremes of more than six steps are printed in a table for each quantity, with one row for each step") {
   std::string text = propped_cantilever;
   for (int step = 2; step <= 7; ++step) text += "[[step]]\nuniform = -" + std::to_string(8 * step) + "\n";
   const std::string shown = rows_for(text).text;
@@ -275,7 +276,7 @@ TEST_CASE("of more than six steps the extremes stand in a table for each quantit
                  Contains("step 7             -28  node 1, x = 0                    15.75  x = 1.25\n"));
 }
 
-TEST_CASE("a matrix has units where it is known what a dof is: a length, or a rotation") {
+TEST_CASE("a matrix has units for dofs that are known to be lengths or rotations") {
   const a_run r(portal_frame() + "[units]\nlength = \"m\"\nforce = \"N\"\n", "cpp");
   const std::string shown = table_of(r.result, {100, false}, false).text;
   CHECK_THAT(shown, Contains("-0.00123118 m     dof 6.y") &&
@@ -291,7 +292,7 @@ TEST_CASE("a matrix has units where it is known what a dof is: a length, or a ro
   CHECK(unit_words(placed, "w", 2).empty());
 }
 
-TEST_CASE("sums have units, and are 0 where they are nothing but rounding") {
+TEST_CASE("sums have units, and are 0 if they are only rounding") {
   // The reactions of the second step, 0.45 kN and less, cancel.
   const a_run r(read_problem(CONTCT_REFERENCE "/problems/pp06-plate-over-settling-line.toml"), "corrected");
   const std::string shown = table_of(r.result, {100, false}, false).text;

@@ -14,7 +14,7 @@ using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-TEST_CASE("a path that stops short of its load has one of three statuses, and a reason of its own") {
+TEST_CASE("a path that does not reach its load has one of three statuses, each with its own reason") {
   CHECK(status_name(path_status::solved) == "solved");
   CHECK(status_name(path_status::mechanism) == "mechanism");
   CHECK(status_name(path_status::path_ended) == "path-ended");
@@ -26,7 +26,7 @@ TEST_CASE("a path that stops short of its load has one of three statuses, and a 
   CHECK(end_reason(path_status::path_ended) == "path ended");
 }
 
-TEST_CASE("a certified run says how many steps are, and names no complaint") {
+TEST_CASE("a certified run gives the number of certified steps, and no complaint") {
   const a_run one(good_problem);
   CHECK(certificate_summary(one.result, true)[0] == "the final state is certified");
   CHECK(certificate_complaints(one.result).empty());
@@ -34,7 +34,7 @@ TEST_CASE("a certified run says how many steps are, and names no complaint") {
   CHECK(certificate_summary(two.result, true)[0] == "both final states are certified");
 }
 
-TEST_CASE("a path that ended before its full load is not certified as a whole, whatever its steps are") {
+TEST_CASE("a path that ended before its full load is not certified, even if all its steps are") {
   const a_run one(good_problem);
   const std::vector<std::string> items = certificate_summary(one.result, false);
   REQUIRE(items.size() == 2);
@@ -54,7 +54,8 @@ TEST_CASE("if the 1989 rule leaves a pair that pulls, the complaint has the pair
                                 Contains("; pair 2 (node 33, above) pulls with 0.129; in increment 2.1 "));
 }
 
-TEST_CASE("of a state with locked-in forces the summary names the step, the complaint the early toggle") {
+TEST_CASE(
+    "the summary of a state with locked-in forces names the step, and the complaint names the early toggle") {
   const a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"));
   const std::vector<std::string> complaints = certificate_complaints(r.result);
   REQUIRE_FALSE(complaints.empty());
@@ -80,7 +81,7 @@ TEST_CASE("a message about an error has its size in units first, then in per cen
              Contains("made contact 1e-05 m from its face (0.25 % of the largest deflection)"));
 }
 
-TEST_CASE("the digits that are proved of a run are those of its worst step") {
+TEST_CASE("the proved digits of a run are those of its worst step") {
   const a_run two(
       "[beam]\nlength = 100.0\nelements = 400\nEI = 1.0\n[[support]]\nnodes = [1, 401]\nfix = \"w\"\n"
       "[[step]]\nuniform = -1.0\n[[step]]\npoint = [ { node = 200, w = 1.0 } ]\n");
@@ -92,7 +93,7 @@ TEST_CASE("the digits that are proved of a run are those of its worst step") {
   CHECK(certificate_summary(two.result, true)[1] == "proved: " + said + " of every number");
 }
 
-TEST_CASE("a toggle too early by no more than rounding of the step's deflections is not told as the cause") {
+TEST_CASE("a toggle that is early only by rounding of the step's deflections is not named as the cause") {
   a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"));
   REQUIRE_FALSE(r.result.judged.all_certified());
   CHECK_THAT(certificate_complaints(r.result).at(0), Contains("; in increment 1."));
