@@ -1,6 +1,6 @@
 # Installs Debian packages that are missing, and fetches the source of one. Sourced by cpp/run.sh, tests/run.sh and others:
 #     need "why" package...
-# Says what it does; on a system without apt-get, says what to install and stops.
+# Reports its actions; on a system without apt-get, it names the packages and stops.
 
 need() {
   why=$1

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Installs what is missing, builds, and runs the main job: a beam on one-sided supports, solved by the
-# 1989 FORTRAN and by C++ side by side, increment by increment. Arguments, if any, go to contct, which
-# runs where the caller is: file names are the caller's.
+# Installs missing packages, builds, and runs the main job: a beam on one-sided supports, solved by the 1989
+# FORTRAN and by C++ side by side, increment by increment. Arguments, if any, go to contct, which runs where
+# the caller is: file names are the caller's.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
 . "$here/cpp/install.sh"

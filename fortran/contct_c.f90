@@ -103,7 +103,7 @@ contains
     log_is_connected = status == 0
   end function contct_log_open
 
-  !> Hand the text over: what the listing has written now stands in the file.
+  !> Flush the text: the file then has everything that the listing has written.
   subroutine contct_log_flush() bind(C)
     flush (log_unit)
   end subroutine contct_log_flush

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what is missing, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
+# Installs missing packages, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
 # LEG: another preset that is built and tested first: core (without the program, with sanitizers and gfortran's run-time
 # checks), asan (the same with the program), tsan (threads). --full has all of them, and adds what takes longer:
 # certificates against the exact path, the mutants of both kernels, more failing calls of the system, the exact numbers of

@@ -1,4 +1,4 @@
-// contct check: a problem read without solving it, and what it is.
+// contct check: describes a problem without solving it.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -73,7 +73,7 @@ std::string coordinate_words(std::span<const double> x, std::string_view what) {
   return joined(words, ", ") + (words.size() < x.size() ? "; equal distances between" : "");
 }
 
-/// What it is, a fact a line.
+/// The description of the problem, one fact a line.
 std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   std::vector<std::pair<std::string, std::string>> facts;
   if (!p.title.empty()) facts.emplace_back("title", on_one_line(p.title));

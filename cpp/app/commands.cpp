@@ -86,8 +86,8 @@ void refuse_taken(const std::string& file) {
 constexpr const char* python =
     "/usr/bin/python3";  // the one that Debian's packages of Capstone and Z3 are for
 
-/// The folder of the Python package: in the build tree that of the program, else where contct.py is
-/// installed.
+/// The folder of the Python package: in the build tree the program's own folder, otherwise the folder in
+/// which contct.py is installed.
 fs::path folder_of_prover(const fs::path& program) {
   for (const char* from_here : {".", CONTCT_INSTALLED_PYTHON, "../lib/python3/dist-packages"}) {
     fs::path folder = (program.parent_path() / from_here).lexically_normal();
@@ -99,7 +99,7 @@ fs::path folder_of_prover(const fs::path& program) {
 
 }  // namespace
 
-/// A commented problem file to start from. The files that it names go beside it.
+/// A commented problem file to start from. The files that it names are written to the same folder.
 exit_status run_command(const new_options& options) {
   if (options.kind.empty()) {
     list_recipes();
@@ -170,7 +170,7 @@ exit_status run_command(const exact_options& options) {
   return status_of(path.status);
 }
 
-/// The prover is a Python package, which stands beside contct.py.
+/// The prover is a Python package in the same folder as contct.py.
 exit_status run_command(const prove_options& options) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const std::string folder = folder_of_prover(program);

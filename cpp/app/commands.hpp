@@ -15,15 +15,15 @@
 
 namespace contct {
 
-// One structure a command. A string is a file's name where nothing else is said; empty: not asked for.
+// One structure a command. A string is a file's name unless stated otherwise; empty: not requested.
 
-/// What every comparing command has.
+/// The options of every comparing command.
 struct report_options {
   bool quiet = false;
   std::string junit, markdown;
 };
 
-/// What every command with a problem has.
+/// The options of every command with a problem.
 struct problem_options {
   std::string file = {};
   bool allow_outside = false;  ///< the problem may name files that are not below its own folder
@@ -104,19 +104,18 @@ struct prove_options {
 
 struct kernels_options {};
 
-/// What --help and --version print.
+/// The text that --help or --version prints.
 struct printed_text {
   std::string text;
 };
 
-/// What a command line asks for: one command, or a text.
+/// The meaning of a command line: one command, or a text.
 using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
                  verify_options, fuzz_options, replay_options, prove_options, kernels_options>;
 
 /// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
-/// LAPACK. Throws std::invalid_argument for a line that has no meaning; what() says why, and what may have
-/// been meant.
+/// LAPACK. Throws std::invalid_argument for an invalid command line; what() has the reason and a suggestion.
 [[nodiscard]] command_options parse_contct(int argc, const char* const* argv,
                                            const std::vector<std::string>& engines);
 

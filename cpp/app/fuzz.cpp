@@ -98,7 +98,7 @@ std::string file_name_of(const std::string& kernel) {
   return name.substr(0, longest);
 }
 
-/// Write each case to `folder`, which is made where it is missing, as a trace. Returns the names of the
+/// Write each case to `folder`, which is created if it is missing, as a trace. Returns the names of the
 /// files.
 std::vector<std::string> write_cases(const std::vector<found_case>& cases, const std::string& folder,
                                      std::uint64_t seed) {

@@ -13,7 +13,7 @@ std::string words_of(const expected_number& e) {
   return fmt::format("step {}, {}", e.step, quantity_words(e));
 }
 
-/// What failed in a problem, a line each.
+/// The failures in a problem, one a line.
 std::vector<std::string> failures(const foreign_case& c, double tolerance) {
   std::vector<std::string> all;
   for (const foreign_number& n : c.numbers)

@@ -1,5 +1,5 @@
-// --report of fuzz and replay: what one kernel was asked, and how equal it is, as a file that can be sent in
-// and repeated: reference/vectors/verify_report.py.
+// --report of fuzz and replay: the calls of one kernel and its mismatches, as a file that can be submitted
+// and replayed: reference/vectors/verify_report.py.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 /// As a badge: "CONTCT", and the rung.
 [[nodiscard]] std::string badge_svg(const kernel_report& r);
 
-/// What is wrong with a kernel that gave these answers to the golden set in 8-byte REAL, in its order: the
-/// sentences of reference/course/hints.toml, for faults that are known to give them all.
+/// Explains the faults of a kernel by its answers to the golden set in 8-byte REAL, in the order of the set:
+/// the sentences of reference/course/hints.toml, about the known faults that give all of these answers.
 [[nodiscard]] std::vector<std::string_view> known_faults(const fault_finder& answers);
 
 /// Of several replays the lowest rung: "bits", "ulps", "events" or "none".

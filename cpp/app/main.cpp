@@ -34,7 +34,7 @@ bool asks_for_petsc(const std::vector<std::string>& arguments) {
   return false;
 }
 
-/// Beside the program, or where it is installed.
+/// In the program's folder, or in the folder where it is installed.
 std::string file_of_module() {
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
   const std::string beside = (here / "contct_petsc.so").string();
@@ -60,10 +60,10 @@ mpi_job& join_job() {
   return *job;
 }
 
-/// Join the MPI job of --engine petsc where the command line asks for it, through the module contct_petsc.so.
+/// Join the MPI job of --engine petsc if the command line requests it, through the module contct_petsc.so.
 /// This is looked at before anything is parsed: rank 0 alone parses, reads, talks and writes. False on the
-/// other ranks, when they have served it. Throws std::runtime_error where there is no module, where what it
-/// needs cannot be loaded, and where it was made for another version.
+/// other ranks, when they have served it. Throws std::runtime_error if the module is missing, if its
+/// libraries cannot be loaded, or if it was built for another version.
 bool runs_the_program(const std::vector<std::string>& arguments) {
   if (!asks_for_petsc(arguments)) return true;
   mpi_job& job = join_job();
@@ -77,14 +77,14 @@ bool runs_the_program(const std::vector<std::string>& arguments) {
   return true;
 }
 
-/// Let the other ranks go, where there are any. The last thing that rank 0 does.
+/// End the other ranks, if there are any. The last call of rank 0.
 void leave_job() noexcept {
   mpi_job* const job = joined_job();
   set_joined_job(nullptr);
   if (job != nullptr) job->leave();
 }
 
-/// Nothing where the command line has no meaning, which is said.
+/// The command, or nothing after an error message if the command line is invalid.
 std::optional<command_options> asked_by(int argc, char** argv) {
   try {
     return parse_contct(argc, argv, engine_choices());

@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::int64_t most_random_cases = 1'000'000'000'000;
 
-/// A command line to start from: under --help, and run by the tests as it stands.
+/// An example command line: shown under --help, and run by the tests unchanged.
 struct example {
   std::string_view line;  ///< "contct run beam.toml"
-  std::string_view text;  ///< what it is good for
+  std::string_view text;  ///< its purpose
 };
 
 constexpr example all_examples[] = {
@@ -74,8 +74,7 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
   return names;
 }
 
-/// `error` as the parser words it, and what may have been meant by an option or a command that `program` does
-/// not have.
+/// The parser's words for `error`, and a suggestion for an unknown option or command of `program`.
 std::string usage_words(const CLI::App& program, const std::string& error) {
   constexpr const char* advice = "\nRun with --help for more information.";
   std::vector<std::string> commands;
@@ -341,7 +340,7 @@ void declare_prove(option_parser& p, CLI::App* c) {
   c->add_option("--symbol", o.symbol, "The kernel's name, if it is not contct_kernel");
 }
 
-/// Each command's examples stand under its --help, and the first of each under the program's.
+/// Each command's --help shows its examples, and the program's --help the first of each.
 void add_examples(CLI::App& program) {
   std::string first_ones;
   for (CLI::App* c : commands_of(program)) {

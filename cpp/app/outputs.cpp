@@ -31,7 +31,7 @@ std::string markdown_text(std::string_view text) {
   return out;
 }
 
-/// Lines of text as a block of code in Markdown, fenced by more backticks than stand anywhere in it.
+/// Lines of text as a block of code in Markdown, fenced by more backticks than the text has in a row.
 std::string markdown_block(std::string_view lines) {
   std::size_t longest = 2;
   std::size_t run = 0;

@@ -1,4 +1,4 @@
-// What every command prints and writes: its files and reports, how far it has come, and what is wrong.
+// The outputs that all commands share: files, reports, progress and error messages.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,16 +19,15 @@
 
 namespace contct {
 
-/// Take the place of closed standard streams, so that no file of ours gets their number
-/// and, with it, what is printed.
+/// Open closed standard streams, so that no file of ours gets their descriptor and receives printed text.
 void hold_standard_streams();
 
 /// Ends the process with a message and exit status 2, without destructors: where memory has ended, they may
 /// need some. The new handler of both programs.
 [[noreturn]] void end_for_memory();
 
-/// "contct: ..." on standard error, as `terminal_text` has it. Where nobody can be told, the exit status
-/// still tells.
+/// "contct: ..." on standard error, escaped by `terminal_text`. If it cannot be written, the exit status
+/// still reports the error.
 template <class... Arguments>
 void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) {
   const std::string line =
@@ -60,7 +59,7 @@ struct check_result {
   std::string details;  ///< of a failure, lines
 };
 
-/// What one command checked.
+/// The checks of one command.
 struct check_report {
   std::string command;             ///< "contct replay"
   std::vector<std::string> facts;  ///< "floating point: strict", ...
@@ -76,7 +75,8 @@ struct check_report {
 /// The report as a Markdown summary: the verdict, a table, the details of what failed.
 [[nodiscard]] std::string markdown(const check_report& r);
 
-/// What every report says of the program: its version, the listing's checksum, the floating-point probe.
+/// The facts about the program that every report has: its version, the listing's checksum, the floating-point
+/// probe.
 [[nodiscard]] std::vector<std::string> common_facts();
 
 /// "2026-11-22 13:16 UTC": now, or the time that SOURCE_DATE_EPOCH in the environment names in seconds since
@@ -95,16 +95,16 @@ struct output_option {
 [[nodiscard]] std::vector<output_option> with_reports(std::vector<output_option> others,
                                                       const report_options& options);
 
-/// Throws std::invalid_argument when two of these would be one file, when one is the file that
-/// standard output goes to, when more than one is "-", or when one would replace one of `inputs`, whose
-/// names say what they are: "the problem".
+/// Throws std::invalid_argument when two of these would be one file, when one is the file that standard
+/// output goes to, when more than one is "-", or when one would replace one of `inputs`, whose names describe
+/// them: "the problem".
 void refuse_shared_outputs(const std::vector<output_option>& outputs,
                            const std::vector<output_option>& inputs = {});
 
-/// What the files that a problem names are called there.
+/// The description of the files that a problem names.
 inline constexpr const char* named_by_problem = "the problem's stiffness, loads, labels or places";
 
-/// Is one of them "-"? Then nothing else is printed.
+/// Is one of these files "-"? Then nothing else is printed.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);
 
 /// All of a file at once. Throws as output_file does.
@@ -118,7 +118,7 @@ class output_files {
   /// The file of an option; null where it was not asked for.
   [[nodiscard]] output_file* operator[](std::string_view name) const;
 
-  /// Write all of an option's file and give it its name. Does nothing where it was not asked for.
+  /// Write all of an option's file and give it its name. Does nothing if the file was not requested.
   void write(std::string_view name, std::string_view text) const;
   /// The same for --junit and --markdown.
   void write(const check_report& report) const;
@@ -127,12 +127,12 @@ class output_files {
   std::map<std::string_view, std::unique_ptr<output_file>> files_;
 };
 
-/// How far a long piece of work has come: one line on standard error, written over and over and gone in the
-/// end. Nothing at all in the first second, where standard error is not a terminal, or where it is to be
-/// quiet.
+/// The progress of long work: one line on standard error, overwritten and finally erased. Nothing is shown in
+/// the first second, if standard error is not a terminal, or if it must be quiet.
 class progress {
  public:
-  /// `what` is counted: "problems". Throws std::invalid_argument when CONTCT_PROGRESS_AFTER is no time.
+  /// `what`: the name of the counted items, "problems". Throws std::invalid_argument if CONTCT_PROGRESS_AFTER
+  /// is not a number of seconds.
   progress(std::int64_t all, std::string what, bool quiet);
   ~progress() { erase(); }
   progress(const progress&) = delete;

@@ -1,4 +1,4 @@
-// What the commands that follow a problem share: progress at a terminal, and how the path ended, in words.
+// Shared by the commands that follow a path: progress at a terminal, and the end of the path in words.
 #pragma once
 
 #include <string>

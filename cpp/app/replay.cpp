@@ -1,4 +1,4 @@
-// contct replay, and contct-replay: recorded calls put to a kernel. Neither LAPACK nor finite elements.
+// contct replay, and contct-replay: recorded calls replayed by a kernel. Neither LAPACK nor finite elements.
 #include <filesystem>
 #include <map>
 #include <stdexcept>

@@ -21,8 +21,8 @@ namespace {
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// reference/ as asked for; or what was installed with the program, wherever both have been moved; or that of
-/// the tree in which the program was built.
+/// The requested reference/; or the one installed with the program, even if both were moved; or that of the
+/// tree in which the program was built.
 fs::path find_reference(const std::string& asked) {
   if (!asked.empty()) return asked;
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
@@ -90,7 +90,7 @@ struct totals {
   }
 };
 
-/// A problem as a test: its numbers, and what is wrong.
+/// The result of a problem as a test: its numbers and its failures.
 check_result result_of(const verified_case& c) {
   check_result r{c.file, outcome::passed, "", c.failure.empty() ? "" : c.failure + "\n"};
   for (const verified_number& n : c.numbers) {
@@ -119,15 +119,15 @@ std::string quantity_head(const expected_number& e) {
   return words == "toggles" ? "events" : words;
 }
 
-/// What belongs to a row, below it.
+/// Print the lines that belong to a row below it.
 void print_below(const terminal& t, paint p, const std::string& words) {
   constexpr int indent = 9;
   for (const std::string& line : wrap({words}, t.width - indent))
     print_text(fmt::format("{:{}}{}\n", "", indent, painted(t, p, line)));
 }
 
-/// A row; below it its exact value, and its source and the reason of its tolerance, where they are not those
-/// of the row before.
+/// A row, and below it its exact value, and its source and the reason for its tolerance if they differ from
+/// those of the row before.
 void print(const terminal& t, const verified_number& n, std::string& printed) {
   const expected_number& e = n.expected;
   const paint p = !n.passed ? paint::bad : e.faithful ? paint::quiet : paint::good;
@@ -144,7 +144,7 @@ void print(const terminal& t, const verified_number& n, std::string& printed) {
   if (e.faithful) print_below(t, paint::quiet, e.reason);
 }
 
-/// What the table's columns mean, once.
+/// Explain the table's columns, once.
 void print_legend(const terminal& t) {
   print_wrapped(t, paint::quiet,
                 {"error: relative difference between computed and expected", "tol: the largest error allowed",

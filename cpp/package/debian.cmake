@@ -91,7 +91,7 @@ Static libraries, headers, CMake and pkg-config files for programs that call
 the subroutine CONTCT, or follow the load path of beams and plates with it,
 prove error bounds, and read problem files and write results.
 C and C++ programs need no Fortran compiler. The Fortran module is gfortran's.")
-# What the libraries link, and what contct-config.cmake looks for.
+# The libraries that ours link, and those that contct-config.cmake looks for.
 string(REGEX MATCH "^[0-9]+" gfortran ${CMAKE_Fortran_COMPILER_VERSION})
 set(needed libgfortran-${gfortran}-dev liblapack-dev libblas-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
 if(CONTCT_HAS_CHOLMOD)

@@ -1,4 +1,4 @@
-# What is installed with the program: what makes bash complete its words, the problems that it verifies, and the pages.
+# Files installed with the program: command completion for bash, the problems that it verifies, and the pages.
 # install_program_files(FOLDER FILE...)
 function(install_program_files folder)
   install(FILES ${ARGN} DESTINATION ${folder} COMPONENT program)
@@ -10,7 +10,8 @@ if(TARGET contct_petsc)
 endif()
 install(FILES contct.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME contct COMPONENT program)
 
-# The program reads some of reference/. The pages stand beside README.md as they do here, with links to what it reads.
+# The program reads some of reference/. The pages are installed next to README.md as here, with links to the
+# files that the program reads.
 set(reference ${PROJECT_SOURCE_DIR}/reference)
 set(installed_reference ${CMAKE_INSTALL_DATADIR}/contct/reference)
 set(installed_pages ${CMAKE_INSTALL_DOCDIR}/reference)

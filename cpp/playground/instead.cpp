@@ -1,4 +1,4 @@
-// What a page has in place of other processes, of libraries that are looked for at run time, and of files.
+// Replacements in a page for other processes, for libraries loaded at run time, and for files.
 #include <cmath>
 #include <stdexcept>
 
@@ -8,7 +8,7 @@
 extern "C" {
 void ilaver_(int* major, int* minor, int* patch);
 
-/// LAPACK's block size for dpbtrf, by the number of subdiagonals, as its own ilaenv has it.
+/// LAPACK's block size for dpbtrf, by the number of subdiagonals, as in its own ilaenv.
 int ilaenv_(const int* /*what*/, const char* /*name*/, const char* /*options*/, const int* /*n*/,
             const int* subdiagonals, const int* /*n3*/, const int* /*n4*/, int /*name_length*/,
             int /*options_length*/) {

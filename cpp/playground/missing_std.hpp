@@ -1,6 +1,6 @@
-// What the C++ library of Debian's Emscripten, libc++ 13, lacks of C++20, as far as the rooms use it:
-// algorithms over whole ranges with projections, which range-v3 has, and numbers read and written without a
-// locale. Included in front of every source of the playground, and of nothing else.
+// What the C++ library of Debian's Emscripten, libc++ 13, lacks of C++20 and our code uses: algorithms over
+// whole ranges with projections, which range-v3 has, and numbers read and written without a locale. Included
+// in front of every source of the playground, and of nothing else.
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -93,7 +93,7 @@ using ::ranges::stable_sort;
 using ::ranges::transform;
 using ::ranges::upper_bound;
 
-/// That of range-v3 wants a predicate that compares its own kinds of elements, too.
+/// range-v3's version needs a predicate that can also compare elements of the same range.
 template <class A, class B, class Predicate = std::equal_to<>>
 bool equal(A&& a, B&& b, Predicate predicate = {}) {
   return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), predicate);

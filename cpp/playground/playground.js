@@ -8,10 +8,10 @@ const editor = byId("text");
 let textsBefore = null; // what undo goes back to
 
 let model = null;   // what contct_check says of the last text that it accepts
-let chosen = 0;     // pair whose story is told, from 0
+let chosen = 0;     // pair that is explained, from 0
 let dragging = null; // { to, x, y } while something is dragged
 let busy = false;   // while a result is drawn for the first time
-let later = 0;      // of what is not done in every frame
+let later = 0;      // of work that is not done in every frame
 let milliseconds = 0; // from a text to its picture
 
 // ---- the program ----
@@ -117,7 +117,7 @@ function afterPause() {
   showRest();
 }
 
-// ---- what can be dragged ----
+// ---- items that can be dragged ----
 
 /** Something that can be dragged, or moved by the arrow keys. `begin` gives what takes pixels from where the drag began. */
 function handle(attributes, words, begin) {

@@ -48,7 +48,7 @@ function answersOf(source, calls) {
   });
 }
 
-// ---- what hint.py computes ----
+// ---- the computations of hint.py ----
 
 const bitsOf = (() => {
   const view = new DataView(new ArrayBuffer(8));

@@ -2,7 +2,7 @@
 // ask it; no script here reads a problem file or computes contact.
 "use strict";
 
-let program = null; // the compiled program, once it is there
+let program = null; // the compiled program, once it is loaded
 
 /** The answer of a function of serve.h to texts, as text. */
 function answerOf(name, ...texts) {
@@ -64,7 +64,7 @@ class TextHistory {
   redo() { this.at = Math.min(this.texts.length - 1, this.at + 1); return this.text; }
 }
 
-let takeBack = null; // what the keys act on where nothing has the focus, as after a drag
+let takeBack = null; // the target of keys if no element has the focus, as after a drag
 
 /** The keys that take back and bring back, for what is in `holder`. `act` gets the name of the history's function. */
 function listenForUndo(holder, act) {

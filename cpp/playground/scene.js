@@ -30,7 +30,7 @@ class ContactScene {
     new ResizeObserver(() => this.draw()).observe(this.picture);
   }
 
-  // ---- what the page has ----
+  // ---- elements of the page ----
 
   build() {
     const button = (words, act, more = {}) => {
@@ -386,7 +386,7 @@ class ContactScene {
     item.classList.add("ran");
     this.lines.scrollTop = item.offsetTop - 80;
     const { pair } = now;
-    const setBy = pair?.s_chk !== undefined ? 36 : pair?.d_star === 0 ? 32 : 38; // the line after which SS is what it stays
+    const setBy = pair?.s_chk !== undefined ? 36 : pair?.d_star === 0 ? 32 : 38; // the line that sets the final SS
     const known = pair ? [["GAP", pair.gap, 30], ["DTEST", pair.d_star, 31], ["SSCHK", pair.s_chk, 35], ["SS", pair.s, setBy], ["DIFF", pair.diff, 51]].filter(([, value, from]) => value !== undefined && value !== null && now.line >= from) : [];
     const smin = now.line >= 42 ? [["SMIN", this.told[this.k].s]] : [];
     const code = this.beside?.[now.line];

@@ -1,5 +1,5 @@
-// The rule of 1989 beside the corrected one, on one problem: the beam at the end of each step by either rule, drawn larger the smaller
-// it is, so that what stays is seen. Every number is the program's.
+// The rule of 1989 beside the corrected one, on one problem: the beam at the end of each step by either rule,
+// drawn larger the smaller it is, so that a permanent deflection is visible. Every number is the program's.
 "use strict";
 
 class TwoRules {

@@ -1,4 +1,4 @@
-// What a person is advised who cannot sign yet.
+// The advice of a run whose states are not certified.
 #include "app/process.hpp"
 #include "catch.hpp"
 

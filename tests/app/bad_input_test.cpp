@@ -69,7 +69,7 @@ TEST_CASE("wrong usage gives exit status 2, and the list of what is allowed") {
   refused({}, "--help");
   refused({"run", "good.toml", "--kernels", "fortran,basic"}, "fortran-r4");
   refused({"run", "good.toml", "--kernels", "fortran,cpp,fortran"}, "named twice");
-  // What does not fit is said of precision, whichever is FORTRAN, and before unit 26 is asked for twice.
+  // The message is about precision, whichever kernel is FORTRAN, and comes before unit 26 is opened twice.
   for (const char* pair : {"fortran,fortran-r4", "fortran-r4,fortran", "cpp,fortran-r4", "cpp-r4,fortran"})
     refused(
         {"run", "good.toml", "--kernels", pair},

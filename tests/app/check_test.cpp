@@ -1,4 +1,4 @@
-// contct check: what a problem is, without solving it.
+// contct check: the description of a problem, without solving it.
 #include <string>
 
 #include "app/process.hpp"

@@ -26,7 +26,7 @@ json solved(const std::string& kind) {
   return json::parse(dir.read("out.json"));
 }
 
-/// What all pairs on this side press with.
+/// The sum of the contact forces on this side.
 double force_of(const json& step, const std::string& surface) {
   double sum = 0.0;
   for (const json& pair : step["pairs"])

@@ -1,4 +1,4 @@
-// What reference/DIVERGENCES.md says of where the 1989 code goes wrong is what its problem files show.
+// The statements of reference/DIVERGENCES.md about faults of the 1989 code hold for its problem files.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,4 @@
-// How runs end that do not reach an equilibrium, and what is said of it.
+// The end of runs that do not reach an equilibrium, and its messages.
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,4 +1,4 @@
-// contct explain: what a student at a terminal reads, and what a program gets.
+// contct explain: the text for a reader at a terminal, and the data for a program.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -34,7 +34,7 @@ finished explained(const std::vector<std::string>& more, const char* columns = "
   return contct_program(root, arguments, {"", {{"COLUMNS", columns}}});
 }
 
-/// What the listing would answer without rounding to the numbers of a call, as they are to the bit.
+/// The listing's answer without rounding, from the exact values of a call's numbers.
 listing_answer answer_of(const json& pairs) {
   const auto number = [](const json& x) { return binary_value(x.get<double>()); };
   std::vector<listing_pair> all;

@@ -1,4 +1,4 @@
-// contct fuzz: what it says of kernels that agree, and of plug-ins with a fault.
+// contct fuzz: its output for kernels that agree, and for plug-ins with a fault.
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"

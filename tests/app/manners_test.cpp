@@ -1,4 +1,4 @@
-// How the program treats people: help with examples, guesses at what was meant, a file to start from.
+// Help for users: help with examples, suggestions for misspelt words, a file to start from.
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -49,7 +49,7 @@ std::vector<words> examples_in(const std::string& help) {
   return found;
 }
 
-/// What the examples speak of.
+/// The files that the examples name.
 void prepare(const scratch_folder& dir, bool with_problems) {
   if (!with_problems) return;
   REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);

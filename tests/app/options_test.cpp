@@ -1,4 +1,4 @@
-// The options of both programs, as data: what a command line comes to.
+// The options of both programs, as data parsed from a command line.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -34,7 +34,7 @@ Options parsed(const words& line) {
   return std::get<Options>(asked);
 }
 
-/// What is said of a line that has no meaning.
+/// The message for an invalid command line.
 std::string refusal(const words& line) {
   try {
     (void)parse(line);

@@ -1,5 +1,5 @@
 // Where results go: never onto one another, never half, and never lost without a word. Reports for machines:
-// JUnit that is well-formed whatever stands in it, Markdown that shows in a table.
+// JUnit that is well-formed whatever it contains, Markdown that shows in a table.
 #include "app/outputs.hpp"
 
 #include <cstdlib>

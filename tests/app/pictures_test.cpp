@@ -27,7 +27,7 @@ nlohmann::json data_of(const std::string& page) {
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
-/// The result without what a page has more.
+/// The result without the additional data of a page.
 nlohmann::json ends_of(nlohmann::json result) {
   for (const char* more : {"file", "date", "words", "structure", "calls", "calls_made", "log", "log_bytes"})
     CHECK(result.erase(more) == 1);

@@ -1,4 +1,4 @@
-// How a path ended, in words and as an exit status, without running the program.
+// The end of a path in words and as an exit status, without running the program.
 #include "app/problem_runs.hpp"
 
 #include <string>

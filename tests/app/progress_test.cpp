@@ -81,7 +81,7 @@ TEST_CASE("if table and progress share a terminal, every row of the table begins
   const finished plain = contct_program(dir.path(), run);
   std::string seen = at_terminal(dir, run, "0", true).out;
   CHECK_THAT(seen, Contains("step 2 of 2, increment "));
-  // What remains on the screen: a line up to where it was last erased is gone.
+  // The text that remains on the screen: a line up to where it was last erased is gone.
   std::string screen;
   for (std::size_t from = 0; from < seen.size();) {
     const std::size_t end = std::min(seen.find('\n', from), seen.size());

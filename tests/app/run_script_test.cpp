@@ -40,7 +40,7 @@ class built_project {
     fs::permissions(dir_.path() / path, fs::perms::owner_all);
   }
 
-  /// What `sh .../cpp/run.sh ARGUMENTS` prints in `folder`, and whether it ended well.
+  /// The output of `sh .../cpp/run.sh ARGUMENTS` in `folder`, and its exit status.
   [[nodiscard]] std::pair<int, std::string> run(const fs::path& folder, const std::string& arguments) const {
     const std::string out = (dir_.path() / "out").string();
     const std::string line = "cd '" + folder.string() + "' && PATH='" + (dir_.path() / "tools").string() +

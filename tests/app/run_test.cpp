@@ -279,7 +279,8 @@ TEST_CASE("free run: every kernel follows its own path, r4 against r8 within a s
 }
 
 TEST_CASE("free run: a share of the step beyond its bound is exit 1, and the message says by how much") {
-  // The face is met 1e-5 before and left 1e-5 behind: single precision cannot tell where in between.
+  // The pair makes contact 1e-5 before full load and leaves 1e-5 after it: single precision cannot tell the
+  // two apart.
   const scratch_folder dir;
   dir.write("near.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"

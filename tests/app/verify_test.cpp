@@ -1,4 +1,4 @@
-// contct verify: the numbers that the whole project stands on.
+// contct verify: the numbers of the verification table.
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>

@@ -32,7 +32,7 @@ struct options {
   bool without_kernels = false;
 };
 
-/// One thread on one processor: ratios then mean what they say.
+/// One thread on one processor: so that ratios are meaningful.
 void pin() {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -71,7 +71,7 @@ double ms_per_event(const bench::run_of_engine& r) {
   return 1e3 * r.seconds / static_cast<double>(std::max<std::size_t>(r.events.size(), 1));
 }
 
-/// The 1989 way on the large plates takes an hour: this many of its events say what one costs.
+/// The 1989 way on the large plates takes an hour: this many of its events give the cost of one.
 int events_of_refactor(const options& o, const std::string& problem) {
   constexpr int enough = 60;
   return o.events == 0 && (problem == "mat-100" || problem == "grid-100") ? enough : o.events;
@@ -146,7 +146,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   }
 }
 
-/// What only the ends of the steps cost, in factorisations.
+/// The cost of the final states alone, in factorisations.
 json bench_final_states(const std::string& name) {
   const contct::problem p = bench::make_problem(name);
   const contct::linear_structure s = contct::structure_of(p);

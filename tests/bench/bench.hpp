@@ -1,4 +1,4 @@
-// What the benchmark times: one engine on one problem, one call of a kernel, and CHOLMOD by itself.
+// The timed work of the benchmark: one engine on one problem, one call of a kernel, and CHOLMOD by itself.
 #pragma once
 
 #include <chrono>
@@ -43,7 +43,7 @@ struct timed_event {
   double load;
 };
 
-/// What one run of one engine gave.
+/// The result of one run of one engine.
 struct run_of_engine {
   double seconds = 0.0;  ///< from the start to the last event
   std::vector<timed_event> events;
@@ -55,8 +55,8 @@ struct run_of_engine {
   double certificate_seconds = 0.0;  ///< of the last state: refined and proved
 };
 
-/// Follow the path under the corrected rule. `most_events` in a step, 0: all. The certificate is asked for
-/// where `certify` says so and the path is whole; its time is measured by itself.
+/// Follow the path under the corrected rule. `most_events` in a step, 0: all. The certificate is computed if
+/// `certify` is set and the path is complete; its time is measured separately.
 [[nodiscard]] run_of_engine run_engine(const contct::problem& p, const contct::linear_structure& s,
                                        const std::string& engine, int most_events, bool certify);
 
@@ -68,10 +68,10 @@ struct final_states {
 };
 [[nodiscard]] final_states time_final_states(const contct::problem& p, const contct::linear_structure& s);
 
-/// Seconds of one dpbtrs with the factor of the structure as it starts: what a plain solve costs.
+/// Seconds of one dpbtrs with the factor of the structure as it starts: the cost of a plain solve.
 [[nodiscard]] double seconds_of_a_solve(const contct::linear_structure& s);
 
-/// How two runs differ over the events that both have.
+/// The difference of two runs over their common events.
 struct difference {
   bool same_events = true;  ///< ties within rounding may come in any order
   double load = 0.0;        ///< the largest of an event's load
@@ -81,8 +81,8 @@ struct difference {
 [[nodiscard]] difference difference_of(const run_of_engine& reference, const run_of_engine& other);
 
 /// Least seconds of a call in which nothing happens, so that every pair is looked at and none is toggled. The
-/// listing writes a line even then: `fortran` is less what a call without pairs costs, which is that line.
-/// The least of `rounds` rounds is taken.
+/// listing writes a line even then: `fortran` has the cost of a call without pairs, which is that line,
+/// subtracted. The least of `rounds` rounds is taken.
 struct seconds_of_a_call {
   double fortran;
   double cpp;
@@ -90,7 +90,7 @@ struct seconds_of_a_call {
 };
 [[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs, int rounds);
 
-/// What it found, against our certified state.
+/// Its result, compared with our certified state.
 struct peer_answer {
   std::string method;
   double seconds = 0.0;    ///< of processor time, from K in memory to D; the median
@@ -101,8 +101,8 @@ struct peer_answer {
 };
 
 /// For a problem of one load step without settlements: Newton's method on K and the springs that press, a
-/// factor updated by those that change, and a factor anew for each step. Nothing where CHOLMOD was not found.
-/// Throws std::runtime_error where our own end is not certified.
+/// factor updated by those that change, and a factor anew for each step. Nothing if CHOLMOD was not found.
+/// Throws std::runtime_error if our own final state is not certified.
 [[nodiscard]] std::vector<peer_answer> time_cholmod(const contct::problem& p,
                                                     const contct::linear_structure& s, int rounds);
 

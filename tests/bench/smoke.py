@@ -36,7 +36,7 @@ expected = {(name, engine) for name in problems for engine in (engines if name.s
 assert {(row["problem"], row["engine"]) for row in rows} == expected and len(rows) == len(expected), rows
 assert engines == {"refactor", "updated", "condensed"}, engines
 assert events >= 200, events
-# CHOLMOD alone, where it is there, on problems of one load step: the digits that rounding leaves.
+# CHOLMOD alone, if it is available, on problems of one load step: the digits that rounding leaves.
 for peer in document["peers"]:
     assert 8.5 <= peer["digits"] <= 15 and peer["wrong_statuses"] == 0 and peer["values"] >= 100 and peer["ms"] > 0, peer
 assert [p["problem"] for p in document["peers"]] in ([], [name for name in problems[:4] for _ in range(2)]), document["peers"]

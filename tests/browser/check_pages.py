@@ -186,7 +186,7 @@ def json_of(numbers):
     return browser.value(f"JSON.stringify({json.dumps(numbers)})")
 
 
-# ---- how it looks ----
+# ---- appearance ----
 
 def luminance(colour):
     parts = [int(x) / 255 for x in re.findall(r"\d+", colour)[:3]]

@@ -1,4 +1,4 @@
-// What errors may reach is measured in the state itself, and on its path only where the state has nothing.
+// Allowed errors are relative to the state itself, and to its path only if the state is 0.
 #include "contct/certify/allowed_errors.hpp"
 
 #include <cmath>

@@ -16,7 +16,7 @@ using namespace contct;
 
 namespace {
 
-/// A state that a test may disturb, and what is said of it.
+/// A state that a test may disturb, with its reported numbers.
 struct told_state {
   std::vector<double> u;
   std::vector<int> isep;
@@ -26,8 +26,7 @@ struct told_state {
   [[nodiscard]] step_state at(int step) const { return {step, fraction, u, isep, rcond}; }
 };
 
-/// The right state under `l`, as the reference solution has it: the certificate's own measures start at zero
-/// there.
+/// The right state under `l`, from the reference solution: the certificate's measures are zero there.
 told_state right_state(const beam_problem& p, const load& l) {
   const linear_structure s = p.structure();
   std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
@@ -56,7 +55,7 @@ certificate judged(const beam_problem& p, const told_state& t) {
   return judge(p).of(t);
 }
 
-/// Which of the five measures are above what is allowed, as in "DSEPT".
+/// The letters of the five measures that exceed the allowed error, as in "DSEPT".
 std::string wrong_in(const certificate& c) {
   std::string wrong;
   if (!(c.displacement_error <= certified_share)) wrong += 'D';
@@ -149,7 +148,7 @@ TEST_CASE("a wrong deflection that hardly disturbs equilibrium is detected only 
 }
 
 TEST_CASE("a missing force on a stiff support violates equilibrium alone, not the displacements") {
-  // The changed load stands on a support that hardly gives.
+  // The changed load acts on a nearly rigid support.
   beam_problem p = span_with_pairs();
   p.pairs[0] = {4, face_below, -0.1, stiff, false};
   const told_state t = right_state(p, p.steps[0]);
@@ -241,7 +240,7 @@ TEST_CASE("the allowed error of an unloaded state is relative to the largest def
 TEST_CASE(
     "the allowed error of a structure that turns without sinking is not relative to the rounding of "
     "deflections") {
-  // Equal moments at both ends of a span: its middle stays where it is, to about eps of what it turns.
+  // Equal moments at both ends of a span: its middle does not move, up to about eps times the rotation.
   beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {2, 0, true}}, {{1, face_below, -1.0, 5.0, false}}, {}};
   p.steps = {{{{0, 1, 0.7}, {2, 1, 0.7}}, {}}};

@@ -1,4 +1,4 @@
-// A factor in 32 digits, and how far factors are from what they were made of, bounded from above.
+// A factor in 32 digits, and upper bounds on the error of factors.
 #include "contct/certify/factors.hpp"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ using outcome = reference_answer::outcome;
 
 namespace {
 
-/// Where the steps of a path end in rational numbers: in equilibrium, where they reach their loads.
+/// The final states of a path's steps in rational numbers: in equilibrium, if they reach their loads.
 std::vector<exact_step_end> exact_ends(const problem& p) {
   return follow_corrected_path(exact_problem_of(p)).steps;
 }

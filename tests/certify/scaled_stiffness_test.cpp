@@ -78,7 +78,7 @@ TEST_CASE("the least eigenvalue of a chain is bounded from below, and by no less
 
 TEST_CASE("a matrix that doubles cannot factor is proved definite in 32 digits, with L as a sum of two") {
   long_system t = chain(20);
-  t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // free at both ends but for a soft spring
+  t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // free at both ends except for a soft spring
   t.stiffness[19][19] = 1.0;
   t.root.front() = t.root.back() = 1 + 1e-15;
   scaled_stiffness k(t, in_order(20), 1);

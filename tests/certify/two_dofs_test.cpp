@@ -73,7 +73,7 @@ problem two_cantilevers() {
                    {{0, face_below, -0.002, 1e5, false, 2}}, {force(0, -15), {}, force(0, -15)});
 }
 
-/// Springs in series, of which a pair is one: 200 to the ground, 100, the pair's 600, and 50.
+/// Springs in series, one of which is a pair: 200 to the ground, 100, the pair's 600, and 50.
 problem chain(double face) {
   return on_matrix(
       {4, {{0, 0, 300}, {1, 0, -100}, {1, 1, 100}, {2, 1, 0}, {2, 2, 50}, {3, 2, -50}, {3, 3, 50}}},
@@ -99,7 +99,7 @@ TEST_CASE("The 1989 kernels get the difference of two dofs as a row of its own, 
   const problem p = two_cantilevers();
   struct : observer {
     void called(const answered_call& c) override {
-      CHECK(c.c.id[0] == 5);  // behind the four dofs
+      CHECK(c.c.id[0] == 5);  // after the four dofs
       CHECK(c.c.dd.size() == 5);
       rows.push_back(c.c.dd[4]);
     }

@@ -36,8 +36,7 @@ struct answered_half_way {
   }
 };
 
-/// One pair with an event half way, as `kernel` is said to have answered it, with that scale factor in its
-/// text.
+/// One pair with an event half way, with `kernel` recorded as its kernel, with that scale factor in its text.
 std::string trace_of(const std::string& kernel, const std::string& scale_factor) {
   const double ss[] = {0.5};
   const int isep[] = {in_contact};

@@ -21,7 +21,7 @@ explained_call explained(small_call<double> c, double largest = 0.0) {
   return explain(c.ask().answered(), 8, largest);
 }
 
-/// The statement field of fixed form: behind column 6, without blanks at its ends.
+/// The statement field of fixed form: after column 6, without blanks at its ends.
 std::string statement_of(const std::string& line) {
   constexpr std::size_t label_and_mark = 6;
   const std::size_t from = line.find_first_not_of(' ', label_and_mark);
@@ -149,7 +149,7 @@ TEST_CASE("every line that explanations cite holds its statement, and none is ci
 TEST_CASE(
     "the explanation of a call has its precision, GAP in that precision, and nothing of what no IF "
     "computed") {
-  // Before and behind its face, and without a response.
+  // Before and beyond its face, and without a response.
   small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
                         {0.4, 1.0, 0.1, separated, face_above},
                         {0.0, 0.0, 1.0, separated, face_above}});

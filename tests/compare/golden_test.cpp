@@ -1,5 +1,5 @@
-// The golden set of reference/traces: what is committed is what the 1989 code of this build answers, it
-// reaches every outcome of every IF, and the twin answers the same.
+// The golden set of reference/traces: the committed answers equal those of the 1989 code of this build, the
+// set reaches every outcome of every IF, and the twin answers the same.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -30,7 +30,7 @@ std::vector<std::filesystem::path> committed() {
   return all;
 }
 
-/// Without the lines that say on what it was recorded.
+/// The trace without the lines about the machine on which it was recorded.
 std::string without_origin(const std::string& trace) {
   std::istringstream in(trace);
   std::string out;

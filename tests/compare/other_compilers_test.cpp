@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Those of flang and f2c that are built.
+/// The kernels of flang and f2c that are built.
 std::vector<std::string> other_kernels() {
   std::vector<std::string> names = kernel_names();
   std::erase_if(names, [](const std::string& name) { return name != "flang" && name != "f2c"; });

@@ -36,7 +36,7 @@ build() {
   return 1
 }
 
-# replay FOLDER PROCESSOR TRACE..: all four kernels. What the probe says of the floating point is part of it.
+# replay FOLDER PROCESSOR TRACE..: all four kernels. The probe's result is part of the output.
 replay() {
   program=$1/contct-replay
   emulator=qemu-$2

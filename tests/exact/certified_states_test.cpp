@@ -1,4 +1,4 @@
-// What the word "certified" claims: every number, status and gap of a state, beside the exact path.
+// The claims of a certificate: every number, status and gap of a state, compared with the exact path.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ double largest_force(const exact_path& truly, std::size_t step) {
   return largest;
 }
 
-/// What a certified state claims and is not so, in words; empty where all of it is true.
+/// A false claim of a certified state, in words; empty if all are true.
 std::string false_claim(const judged_run& r, const exact_path& truly, std::size_t step) {
   const certificate& c = r.of_step(step);
   const exact_step_end& right = truly.steps.at(step - 1);

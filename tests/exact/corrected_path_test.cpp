@@ -23,7 +23,7 @@ exact_path reference(const std::string& name) {
 }
 
 /// Judged from K, the loads and the pairs alone, without any solve: the first condition that does not hold
-/// exactly; empty where the state is an equilibrium under the full load.
+/// exactly; empty if the state is an equilibrium under the full load.
 std::string wrong_with(const exact_problem& p, const exact_step& acting, const exact_step_end& e) {
   if (e.fraction != 1) return "the load is not reached";
   rational_vector rest = acting.force;
@@ -47,7 +47,7 @@ std::string wrong_with(const exact_problem& p, const exact_step& acting, const e
   return "";
 }
 
-/// How many ends of steps that reach their load there are; each is in equilibrium.
+/// The number of steps that reach their load; the final state of each is in equilibrium.
 int check_ends(const contct::problem& p) {
   const exact_problem e = exact_problem_of(p);
   const exact_path path = follow_corrected_path(e);

@@ -42,7 +42,7 @@ decided pair_of(double coupling, double last) {
   return of(2, {{0, 0, 1.0}, {1, 0, coupling}, {1, 1, last}});
 }
 
-/// A free chain of springs, of which the first node's stiffness is off by `more`.
+/// A free chain of springs, with `more` added to the first node's stiffness.
 entries chain(int n, double more) {
   entries all;
   for (int i = 0; i < n; ++i) {

@@ -16,7 +16,7 @@ using namespace contct;
 
 namespace {
 
-/// The end of a step, as it was told and as it is.
+/// The end of a step as reported, and its exact state.
 struct told_end {
   [[nodiscard]] reported_state handed() const { return {step, displacement, isep, numbers}; }
 
@@ -70,7 +70,7 @@ rational_vector beam_values(const problem& p, const beam& b, int step, const rat
   return all;
 }
 
-/// The largest error of each kind in a told end.
+/// The largest error of each kind in a reported end.
 by_quantity errors_of(const problem& p, const exact_step_end& truly, const told_end& told) {
   by_quantity worst;
   const int per_node = dofs_per_node(p.geometry);
@@ -123,7 +123,7 @@ path_limits refined_by(error_prover& prover) {
           }};
 }
 
-/// The one step of a problem, told by a refined path.
+/// The one step of a problem, reported by a refined path.
 struct one_end {
   explicit one_end(const std::string& text)
       : what(parse_problem(text, "b.toml")), structure(structure_of(what)), watch(what, structure) {

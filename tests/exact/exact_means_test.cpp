@@ -1,4 +1,4 @@
-// Paths that doubles lose end as exact ones, and what is left of a load, without rounding.
+// Paths that fail in doubles end like exact ones; residuals without rounding.
 #include "contct/exact/exact_means.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What becomes of a problem file's decimals.
+// Exact problems from a problem file's decimals.
 #include "catch.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"

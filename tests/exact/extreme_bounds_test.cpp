@@ -26,7 +26,7 @@ struct range {
 };
 
 /// At both ends, and where the derivative changes its sign between neighbours of 33 places, each bisected
-/// until what is left changes the value by 1e-20 of itself.
+/// until the value changes by less than 1e-20 of itself.
 void take_extremes(const rational_vector& p, range& known) {
   const rational_vector slope = derivative_of(p);
   const auto take = [&](const rational& t) {
@@ -72,7 +72,7 @@ outcome outcome_of(const problem& p) {
   return o;
 }
 
-/// How many extremes were compared; each is within the bound of its kind.
+/// The number of extremes compared; each is within the bound of its kind.
 int check_extremes(const outcome& o) {
   int compared = 0;
   const quantity kinds[] = {quantity::w, quantity::moment, quantity::shear};

@@ -1,4 +1,4 @@
-// How many digits of a path are right.
+// The number of correct digits of a path.
 #include "contct/exact/kernel_digits.hpp"
 
 #include <cmath>

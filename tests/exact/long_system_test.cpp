@@ -19,7 +19,7 @@ double off(const double_double& x, const rational& true_value) {
   return std::abs(contct::rounded(exactly(x) - true_value));
 }
 
-/// All that the two have, as far as they may differ.
+/// Compare all numbers of the two systems within their allowed differences.
 int compare(const problem& p) {
   const long_system t = long_system_of(p);
   const exact_problem e = exact_problem_of(p);
@@ -95,7 +95,7 @@ TEST_CASE(
 
 TEST_CASE(
     "shear and moment of a beam's element are at most their factors times the square root of its energy") {
-  // Elements as long as the one before, and as the one behind.
+  // Elements as long as the one before, and as the one after.
   for (const char* mesh : {"[0.0, 0.4, 0.8, 2.8]\nEI = [5.0, 5.0, 7.0]", "[0.0, 0.4, 2.4, 4.4]\nEI = 5.0",
                            "[0.0, 2.0, 4.0, 4.4]\nEI = [5.0, 7.0, 7.0]"}) {
     const problem p =

@@ -103,7 +103,7 @@ TEST_CASE("a stationary pair is toggled after DELTA of the residual load") {
 TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
   const exact_path path =
       listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
-  // Made where it is not yet, at 0 but for DELTA / d*: the true path makes it at 1/20.
+  // Contact is made too early, at a share of DELTA / d*: the true path makes it at 1/20.
   REQUIRE(path.steps[0].increments.size() == 2);
   CHECK(path.steps[0].increments[0].fraction < rational(1, 1000000));
 }

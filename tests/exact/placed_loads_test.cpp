@@ -46,7 +46,7 @@ struct drawn_load {
   std::vector<int> places;  // in sixteenths
 };
 
-/// Loads that begin, end and stand at sixteenths of a beam from 0 to 4.
+/// Loads that begin, end and act at sixteenths of a beam from 0 to 4.
 drawn_load draw_load(random_numbers& random) {
   std::ostringstream text;
   drawn_load drawn;

@@ -43,7 +43,7 @@ point = [ { dof = "2", value = 2.0 } ]
 STIFFNESS = "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n"
 OUTPUTS = ["--json", "o.json", "--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu", "--log", "o.log",
            "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md"]
-# What each call of the system fails with, and how many calls fail where not eight.
+# The error of each system call, and the number of failing calls if not eight.
 ERRORS = {"write": 28, "read": 5, "openat": 13, "close": 5, "rename": 28, "fsync": 5, "pread": 5, "fcntl": 9,
           "lseek": 29, "fchmod": 1, "mkdir": 13}
 SAMPLE = {"write": 24, "openat": 16}
@@ -112,7 +112,7 @@ def call_fails(command: Command, kind: str, number: int, more: bool) -> None:
     status, files, said = command.run(fault)
     new = [line for line in said.splitlines() if line not in command.said.splitlines()]
     check(status in (command.status, 2), f"{what}: exit {status}: {said}")
-    # All later writes fail too: then nobody can be told.
+    # All later writes fail too: then no message can be written.
     check(status != 2 or (len(new) == 1 and new[0].startswith("contct: ")) or (more and kind == "write" and not new),
           f"{what}: {len(new)} messages for exit 2: {said}")
     check(status == 2 or files == command.made, f"{what}: exit {status}, but other files: {said}")

@@ -24,7 +24,7 @@ bool is_read(const std::function<void()>& read) {
     const std::string_view message(e.what());
     require(!message.empty(), "a refusal says why");
     require(message.size() <= longest_message, "a refusal is no longer than a message may be", message);
-    // The name of a file that is not there stands as it is: whoever prints the message escapes it.
+    // The name of a missing file is not escaped here, but when the message is printed.
     require(message.find("cannot be read") != std::string_view::npos ||
                 std::ranges::none_of(message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }),
             "a refusal has one line, without control characters", message);

@@ -1,4 +1,4 @@
-// What the fuzzers share: an input as text, and what every refusal has to be.
+// What the fuzzers share: an input as text, and the checks on every refusal.
 #pragma once
 
 #include <cstddef>

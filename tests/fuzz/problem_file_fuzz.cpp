@@ -1,4 +1,4 @@
-// The reader of problem files. Files that these name are those of reference/structures.
+// The reader of problem files. The files that they name are those of reference/structures.
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,7 @@ void check_pairs(const problem& p) {
     require(b.first_pair + b.share.size() <= p.pairs.size(), "a bed's pairs are there");
 }
 
-/// What all that read a problem rely on.
+/// Invariants on which all users of a problem rely.
 void check(const problem& p) {
   require(nodes(p.geometry) > 0 && !p.steps.empty(), "a problem has nodes and steps");
   const auto is_dof = [&p](int node, int dof) {

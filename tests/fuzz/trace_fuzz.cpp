@@ -1,4 +1,4 @@
-// The reader of traces: what it reads and what is written of that are the same.
+// The reader of traces: a trace that is read and written again is the same.
 #include "contct/kernel/trace.hpp"
 #include "fuzz/fuzz.hpp"
 

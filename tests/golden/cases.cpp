@@ -13,7 +13,7 @@ using contct::face_below;
 using contct::in_contact;
 using contct::separated;
 
-/// Where one pair stands: D, d*, c, ISEP, ISURF.
+/// The state of one pair: D, d*, c, ISEP, ISURF.
 template <class Real>
 struct pair_at {
   Real dd, dtest, cc;
@@ -225,7 +225,7 @@ class cases {
         {}};
     for (const int ndofpn : {1, 2, 3, 6})
       for (int indof = 1; indof <= ndofpn; ++indof) t.calls.push_back(laid_out(indof, ndofpn, 2, 4));
-    t.calls.push_back(laid_out(3, 2, 1, 2));  // INDOF beyond NDOFPN addresses what the formula says
+    t.calls.push_back(laid_out(3, 2, 1, 2));  // INDOF beyond NDOFPN addresses the dof of the formula
     t.calls.push_back(laid_out(1, 2, 5, 1));
     t.calls.push_back(laid_out(2, 3, 3, 3));
     t.calls.push_back(laid_out(1, 1, 1, 5));

@@ -8,7 +8,7 @@
 
 namespace golden {
 
-/// A call, and what it is there for.
+/// A call and its purpose.
 struct golden_call {
   std::string note;
   contct::call_inputs<double> in;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int least = std::numeric_limits<int>::min();
 
-/// What the check says of one pair at the second of two dofs, or "accepted".
+/// The check's verdict on one pair at the second of two dofs, or "accepted".
 std::string verdict(int id, dof_layout layout, int isep, int isurf) {
   const call_inputs<double> in{{0.0, 0.0}, {1.0, 1.0}, {0.5}, {id}, {isep}, {isurf}, layout};
   call_outputs out;

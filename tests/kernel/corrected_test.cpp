@@ -136,7 +136,7 @@ TEST_CASE("corrected: where the pairs stand among the dofs does not matter") {
     small_call<double> elsewhere(pairs);
     const std::size_t n = pairs.size();
     elsewhere.dd.assign(3 * n, 77.0);
-    elsewhere.dtest.assign(3 * n, 9e30);  // a rotation has no say in what is quiet
+    elsewhere.dtest.assign(3 * n, 9e30);  // a rotation does not affect which response is negligible
     for (std::size_t i = 0; i < n; ++i) {
       elsewhere.id[i] = static_cast<int>(n - i);
       elsewhere.dd[3 * (n - 1 - i) + 1] = pairs[i].d;
@@ -175,7 +175,7 @@ TEST_CASE("corrected: a gap of any size counts as a gap") {
 
 TEST_CASE("corrected: an approach of less than 1e-10 of the largest response does not count") {
   const auto ask = [](double d_star, int isep) {
-    // At its face, beside a pair that responds by 1 and has no event.
+    // A pair at its face, next to a pair that responds by 1 and has no event.
     return answered({{0.0, isep * -d_star, 0.0, isep, below}, {0.0, 1.0, -5.0, apart, below}}).happened;
   };
   CHECK(ask(1e-10, apart) == nothing);  // at the threshold itself
@@ -190,7 +190,7 @@ TEST_CASE("corrected: an approach of less than 1e-10 of the largest response doe
 TEST_CASE("corrected: the largest response is taken over all pairs, on either side and in either status") {
   for (const int isep : {apart, touching}) {
     for (const double other : {-1.0, 1.0}) {
-      // The other pair's event is far away, or behind it.
+      // The other pair's event is far ahead, or already passed.
       const double face = isep * other > 0 ? 9.0 : -9.0;
       const answered c({{0.0, -1e-11, 0.0, apart, below}, {0.0, other, face * isep, isep, above}});
       CHECK(c.happened == nothing);

@@ -1,4 +1,4 @@
-// What every kernel is and answers, and kernels by name: built in, plug-ins and commands.
+// The facts and answers of every kernel, and kernels by name: built in, plug-ins and commands.
 #include <algorithm>
 #include <stdexcept>
 #include <string>

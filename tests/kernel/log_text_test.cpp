@@ -12,7 +12,7 @@ using namespace contct;
 
 namespace {
 
-/// What gfortran and what C++ write for one pair, at `node`, with this gap and response.
+/// The texts of gfortran and C++ for one pair, at `node`, with this gap and response.
 template <class Real>
 std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
   small_call<Real> c({{Real(0), response, gap, separated, face_above}});
@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE("digits round as gfortran rounds, from the smallest subnormal
                                Real(1) - std::numeric_limits<Real>::epsilon() / 2};
   for (int e = 1; e < std::numeric_limits<Real>::max_exponent10; ++e)
     factors.push_back(Real(1) / Real(3) * std::pow(Real(10), Real(-e)));
-  // Ties of the decimal rounding: multiples of 2^-17 with five digits behind the fourth.
+  // Ties of the decimal rounding: multiples of 2^-17 with five digits after the fourth.
   for (int i = 1; i < 400; ++i)
     factors.push_back(static_cast<Real>(i) / Real(131072) * Real(4) + Real(0.0078125));
   int checked = 0;

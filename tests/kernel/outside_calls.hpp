@@ -1,4 +1,4 @@
-// Calls put to external kernels, and what these leave behind.
+// Calls to external kernels, and the files and processes that they leave behind.
 #pragma once
 
 #include <sys/wait.h>
@@ -31,7 +31,7 @@ inline small_call<double> call_for(double fault) {
       {{0.5, 2.0, fault, separated, face_above}, {0.0, 1.0, 4.0, in_contact, face_below}});
 }
 
-/// What a kernel is reported to have done; empty when it answered, as it should, that nothing happens.
+/// The reported failure of a kernel; empty if it answered correctly that there is no event.
 inline std::string put(kernel& k, double fault) {
   small_call<double> c = call_for(fault);
   call<double> arguments = c.arguments();
@@ -51,7 +51,7 @@ inline long open_descriptors() {
   return count;
 }
 
-/// Counts what a kernel leaves behind.
+/// Counts the files and processes that a kernel leaves behind.
 class leftovers {
  public:
   void check() const {

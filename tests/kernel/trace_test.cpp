@@ -1,5 +1,5 @@
-// Calls as text: what is written is read back to the bit; what a trace may say, and that anything else is
-// refused with file and line, what was found and what is allowed.
+// Calls as text: calls are read back to the bit; the allowed forms of a trace, and the refusal of anything
+// else with file and line, what was found and what is allowed.
 #include "contct/kernel/trace.hpp"
 
 #include <bit>
@@ -140,8 +140,8 @@ std::string with(const std::string& from, const std::string& to) {
 struct attack {
   std::string what;
   std::string text;
-  int line;           // where it is refused; 0 where the text has none
-  std::string found;  // what the message must have
+  int line;           // of the refusal; 0 if the text has none
+  std::string found;  // required part of the message
 };
 
 std::vector<attack> attacks() {
@@ -235,7 +235,7 @@ bool well_formed(const std::string& message) {
          (line[0] == ':' && line.size() > 1 && line.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
-/// What the reader makes of one number.
+/// The reader's value of one number.
 double read_number(const std::string& word) {
   const std::string text = "call 1\nindof 1 ndofpn 1 dofs 1 nc 1\ndof 1 dd " + word +
                            " dtest 1\npair 1 id 1 isep 1 isurf 1 cc 1\nask\n";

@@ -21,7 +21,7 @@ expected_number number(std::string quantity, std::string exact, int node = 0, in
   return e;
 }
 
-/// Two deflections, the first of which is compared with two sources, two forces, a state and a count.
+/// Two deflections, with two sources for the first, two forces, a state and a count.
 std::vector<verification_case> small_table() {
   expected_number state = number("state", "separated", 0, 2);
   state.value = separated;
@@ -40,7 +40,7 @@ foreign_results judged(const std::string& entries, const std::string& tolerance 
   return judge_results(file, small_table());
 }
 
-/// What is refused, without the file's folder.
+/// The refusal, without the file's folder.
 std::string refused(const std::string& entries, const std::string& tolerance = "1e-3") {
   std::string said = "accepted";
   try {

@@ -1,5 +1,5 @@
-// Fuzz runs on calls and on whole problems: what they count, what they say of a follower that differs, and
-// what a run that compared too little says is missing.
+// Fuzz runs on calls and on whole problems: their counts, their report on a follower that differs, and the
+// missing counts of a run that compared too little.
 #include "contct/lab/fuzz.hpp"
 
 #include <cmath>

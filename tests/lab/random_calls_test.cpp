@@ -73,7 +73,7 @@ TEST_CASE("a call is a function of the seed and its number alone") {
     call_source other(8, real_bytes);
     int same = 0;
     for (std::uint64_t n = 1; n <= 200; ++n) same += digest(other.at(n)) == seen[n] ? 1 : 0;
-    CHECK(same < 10);  // but for calls without pairs
+    CHECK(same < 10);  // except calls without pairs
   }
 }
 

@@ -1,4 +1,4 @@
-// Random problems are what they are said to be, and by the thousand, they are judged. The floors keep a check
+// Random problems have their declared properties, and thousands of them are judged. The floors keep a check
 // from passing because there was nothing to check.
 #include "contct/lab/random_problem.hpp"
 
@@ -104,11 +104,11 @@ TEST_CASE("random problems are well formed") {
     REQUIRE_FALSE(p.pairs.empty());
     for (const contact_pair& c : p.pairs) {
       CHECK((c.node >= 0 && c.node < count));
-      // Where no other node is drawn it is the middle one, fixed or not.
+      // If no other node is drawn, it is the middle one, fixed or not.
       CHECK((!fixed.contains(c.node) || c.node == count / 2));
       CHECK((c.surface == face_above || c.surface == face_below));
       CHECK(c.stiffness > 0.0);
-      CHECK(c.surface * c.face >= 0.0);  // no face stands inside the structure
+      CHECK(c.surface * c.face >= 0.0);  // no face is inside the structure
       CHECK(c.closed == (c.face == 0.0));
     }
     CHECK((!p.steps.empty() && p.steps.size() <= 5));

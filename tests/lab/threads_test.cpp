@@ -27,7 +27,8 @@ TEST_CASE("sixteen threads follow different paths, and each gets the answer of o
   random_problem_kind kind;
   kind.most_elements = 8;
   kind.most_lines = 3;
-  // What thread t makes of its problem i. Unit 26 belongs to the whole process: one thread has the listing.
+  // The result of thread t for its problem i. Unit 26 belongs to the whole process: one thread has the
+  // listing.
   const auto result_of = [&](std::size_t t, std::size_t i) {
     const random_problem p = make_random_problem(2026, t * problems + i + 1, kind);
     const char* const leader = t == 0 ? "fortran" : (t + i) % 2 == 0 ? "cpp" : "corrected";

@@ -1,4 +1,4 @@
-// What contct verify measures and how it judges; app/verify_test.cpp has it verify every problem.
+// Measurements and judgements of contct verify; app/verify_test.cpp verifies every problem.
 #include "contct/lab/verify.hpp"
 
 #include <cmath>
@@ -54,7 +54,7 @@ expected_number third() {
   return e;
 }
 
-/// What read_verification says of a table of one check with these lines; nothing where it is read.
+/// The error of read_verification for a table of one check with these lines; empty if it is accepted.
 std::string refusal_of(const std::string& lines) {
   const scratch_folder here;
   const std::string file = here.write(
@@ -175,7 +175,7 @@ TEST_CASE("each number is verified on both paths, and against the exact value to
   tip.tolerance = 2e-9;
   expected_number wrong = tip;
   wrong.value *= 1 + 1e-8;
-  expected_number differs = wrong;  // what FORTRAN gives is right, what the corrected kernel gives is not
+  expected_number differs = wrong;  // FORTRAN's value is right, and the corrected kernel's is not
   differs.faithful = tip.value;
   expected_number exact = tip;
   exact.exact = "-26/5375";

@@ -100,7 +100,7 @@ class ExactPath:
         if " " in quantity:
             *place, bound, what = quantity.split(" ")
             value, places = self.structure.extreme(u, number, what, bound == "max")
-            # Where a symmetric structure has two such places, the table may name either.
+            # If a symmetric structure has two such places, the table may name either.
             return min(places, key=lambda x: abs(x - check["value"])) if place else value
         return self.structure.place(u, number, quantity, check["element"], check.get("end", check.get("corner")))
 

@@ -33,7 +33,7 @@ uniform = -1.0
 # Nothing holds this beam at first: the exact path begins with a rigid-body motion, and ends in a mechanism.
 FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
 
-# What contct_bench writes of CHOLMOD alone: nothing in a build without it.
+# The keys that contct_bench writes for CHOLMOD alone: none in a build without it.
 OF_PEERS = {"method", "steps", "digits", "wrong_statuses", "values"}
 
 

@@ -21,7 +21,7 @@ BEAM = "[beam]\nlength = 2\nelements = 2\n%s\n"
 PLATE = "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0\n"
 MATRIX = '[matrix]\nstiffness = "frame.mtx"\n'
 STRUCTURES = {"beam": BEAM % "EI = 1", "plate": PLATE, "matrix": MATRIX}
-# Each section with a table of keys, and such a table; %s stands for the key that does not exist.
+# Each section with a table of keys, and such a table; %s is replaced by the key that does not exist.
 OWN_TABLES = {
     "Top level": (None, "%s\n[beam]\n"),
     "`[units]`": (None, "[units]\n%s\n[beam]\n"),

@@ -1,4 +1,4 @@
-// One stiffness in two storages: what is asked of it has the same answer.
+// One stiffness in two storages: every function gives the same answer.
 #include "contct/matrix/stiffness_matrix.hpp"
 
 #include "catch.hpp"
@@ -114,7 +114,7 @@ TEST_CASE("a product uses both triangles") {
 TEST_CASE("the order of the rows sets the width of the band, its memory and its places") {
   CHECK(subdiagonals_of(small, {}) == 2);
   CHECK(bytes_of_band(small, {}) == 3L * 3 * 8);
-  const std::vector<int> rows = {0, 2, 1};  // row 2 of the matrix beside row 0
+  const std::vector<int> rows = {0, 2, 1};  // row 2 of the matrix next to row 0
   CHECK(subdiagonals_of(small, rows) == 1);
   CHECK(bytes_of_band(small, rows) == 3L * 2 * 8);
   const band_matrix band = band_of(small, rows);

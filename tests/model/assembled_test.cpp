@@ -1,4 +1,5 @@
-// A structure of which only the matrix is known: what it is, and which motions it leaves free.
+// A structure of which only the matrix is known: its properties, and the rigid-body motions that it leaves
+// free.
 #include "catch.hpp"
 #include "contct/model/rigid_modes.hpp"
 #include "support/beams.hpp"
@@ -125,7 +126,7 @@ TEST_CASE("a very flexible matrix counts as elastic, unless its last digits are 
   CHECK(by_matrix(build(beam_of(1000), {}, {}), clamp, {}).rigid_motions == 0);
   assembled longer;
   longer.stiffness = entries_of(build(beam_of(2500), {}, {}));
-  CHECK(build(longer, clamp, {}).rigid_motions == 0);     // 1.3e-14, beside doubles' 1e-16
+  CHECK(build(longer, clamp, {}).rigid_motions == 0);     // 1.3e-14, against 1e-16 of doubles
   for (const matrix_entry& e : longer.stiffness.entries)  // to 14 digits
     longer.stiffness.last_digits.push_back(
         static_cast<std::int16_t>(std::floor(std::log10(std::abs(e.value))) - 13));

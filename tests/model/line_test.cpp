@@ -1,4 +1,4 @@
-// What numbers of a file mean, and faces and loads that are polynomials in x, where their terms cancel.
+// The meaning of numbers in a file, and faces and loads that are polynomials in x, where their terms cancel.
 #include "contct/model/line.hpp"
 
 #include <cmath>

@@ -169,7 +169,7 @@ TEST_CASE("A mixture of two loads scales each placed load by its share") {
 
 namespace {
 
-/// Nothing about this grid is even.
+/// All elements of this grid have different sizes.
 plate uneven_grid() {
   return {{-1.0, 0.2, 0.5, 2.0}, {0.0, 0.7, 1.0, 1.1, 3.0}, 2.5, 0.3};
 }

@@ -21,7 +21,7 @@ std::vector<double> even_lines(double length, int elements) {
   return lines;
 }
 
-/// Nothing about this grid is even.
+/// All elements of this grid have different sizes.
 plate uneven_plate(double scale_x = 1.0, double scale_y = 1.0) {
   plate p{{-1.0, 0.2, 0.5, 2.0}, {0.0, 0.7, 1.0, 1.1, 3.0}, 2.5, 0.3};
   for (double& x : p.x) x *= scale_x;

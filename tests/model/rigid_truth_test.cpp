@@ -1,4 +1,4 @@
-// What decimals say of rigid-body motions, where doubles would say something else.
+// Decisions about rigid-body motions by decimals that doubles would get wrong.
 #include <array>
 
 #include "catch.hpp"

@@ -42,7 +42,7 @@ TEST_CASE("supports go to the rows of their dofs") {
   linear_structure s = four_dofs();
   put_on_supports(s, std::vector<support>{{0, 1, true}, {1, 0, false, 7.0}}, {{1, 1, 0.5, 3.0, false}});
   CHECK(s.fixed == std::vector<char>{0, 1, 0, 0});
-  CHECK(s.stiffness.diagonal_with({}) == std::vector<double>{10, 27, 1, 40});  // row 2 is that of dof 1
+  CHECK(s.stiffness.diagonal_with({}) == std::vector<double>{10, 27, 1, 40});  // row 2 belongs to dof 1
   CHECK(s.stiffness.band().at(2, 1) == 0.0);
   CHECK(s.stiffness.band().at(3, 2) == 0.0);
   CHECK(s.stiffness.band().at(1, 0) == 1.0);

@@ -1,8 +1,9 @@
 #!/bin/sh
-# contct-replay as one static file, and the jobs of reference/adopt, on machines that have nothing else: an empty root folder, and a
+# contct-replay as one static file, and the jobs of reference/adopt, on machines without other software: an
+# empty root folder, and a
 # bare Debian.
 # usage: sh tests/package/adopt.sh
-# Exit 0: all is as it should be; 77: skipped, a tool cannot be had; 1 otherwise.
+# Exit 0: all checks passed; 77: skipped, a tool cannot be had; 1 otherwise.
 set -u
 title="adopting"
 . "$(dirname "$0")/bare.sh"

@@ -1,7 +1,8 @@
-# Sourced by debian.sh and adopt.sh, which set $title: a bare Debian like this one, as a folder $root.
-# What is mounted is mounted in a namespace of the script's own, and is gone when it ends, however it ends.
+# Sourced by debian.sh and adopt.sh, which set $title: a bare Debian like this one, as a folder $root. File
+# systems are mounted in a namespace of the script, so that they disappear whenever it ends.
 if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
-  # In a chroot, whose root is not a mount, nothing can be made private; what is mounted is unmounted at the end anyway.
+  # In a chroot, whose root is not a mount, mounts cannot be made private; they are unmounted at the end
+  # anyway.
   for propagation in private unchanged; do
     ! unshare --mount --propagation $propagation true 2>/dev/null ||
       CONTCT_NAMESPACE=own exec unshare --mount --propagation $propagation sh "$0" "$@"
@@ -13,7 +14,7 @@ sources=/etc/apt/sources.list.d/debian.sources
 
 skip() { echo "$title: SKIPPED: $1"; exit 77; }
 fail() { echo "$title: $1" >&2; exit 1; }
-# value NAME: of what the system says of itself
+# value NAME: from the system's description of itself
 value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
 can_be_bare() {
   [ "$(value ID)" = debian ] || skip "this is no Debian, and has packages for itself only"
@@ -25,7 +26,8 @@ remove_root() {
   rm -rf --one-file-system "$root"
 }
 
-# make_bare TAR: its base is kept in TAR for the next time, what is done in it is not. What debootstrap says goes to $log.
+# make_bare TAR: its base is kept in TAR for the next time, changes in it are not. The output of debootstrap
+# goes to $log.
 make_bare() {
   remove_root
   if [ ! -s "$1" ]; then

@@ -19,7 +19,7 @@ remove() {
   diff /tmp/before /tmp/after || fail "$*: files are left behind (>) or missing (<), above"
   echo "-- $*: removed; the $(wc -l </tmp/after) names of files are those of before"
 }
-# says WORDS COMMAND..: what the command prints has a line with the words.
+# says WORDS COMMAND..: the output of the command has a line with the words.
 says() {
   words=$1
   shift

@@ -1,5 +1,5 @@
 #!/bin/sh
-# page.sh SOURCE: every line that "In your own program" of reference/library.md shows stands in a program here.
+# page.sh SOURCE: every line that "In your own program" of reference/library.md shows is in a program here.
 # page.sh SOURCE KIND: prints the block of that kind (sh, cmake, c, cpp, fortran).
 set -eu
 source=$(cd "$1" && pwd)

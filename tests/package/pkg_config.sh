@@ -1,6 +1,6 @@
 #!/bin/sh
-# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines that reference/library.md shows, word for word, on the programs
-# beside this script, and then what they made.
+# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines that reference/library.md shows, word for word,
+# on the programs in this folder, and then runs the results.
 set -eu
 source=$1
 work=$2

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The programs and libraries are the same to the bit when the sources and the build stand in other folders.
+# The programs and libraries are the same to the bit when the sources and the build are in other folders.
 # usage: sh tests/package/same_binaries.sh [BUILD]      (default: build/release, up to date)
 # Copies the sources to a new folder, builds them there by the preset "release" and compares.
 # Exit 0: all is equal; 1 otherwise.

@@ -1,4 +1,4 @@
-// What observes a path: the explanation of its calls, the toggles that came too early, and its trace.
+// Observers of a path: the explanation of its calls, the toggles that came too early, and its trace.
 #include "contct/path/path_observers.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// PB1 explained, with `second` beside FORTRAN.
+/// PB1 explained, with `second` as the second kernel.
 struct explained_pb1 {
   struct told {
     int step, number;
@@ -32,7 +32,7 @@ struct explained_pb1 {
   }
 };
 
-/// A call with one pair, of which only the inputs, SMIN and the status after it are given.
+/// A call with one pair, with given inputs, SMIN and status after it.
 void call_with(observer& o, double d, double d_star, double c, double smin, int isep_after) {
   const std::vector<double> dd = {d}, dtest = {d_star}, cc = {c};
   std::vector<double> ss = {smin};

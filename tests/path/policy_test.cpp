@@ -1,4 +1,4 @@
-// What the driver does for a leader whose rule is not the listing's.
+// The driver's additions to a rule other than that of 1989.
 #include "contct/path/policy.hpp"
 
 #include <algorithm>
@@ -69,7 +69,8 @@ TEST_CASE("a beam thrown from the stops below it to the stops above it, and back
   CHECK(r.steps[1].isep == std::vector<int>{separated, separated, in_contact, in_contact});
   CHECK(r.steps[2].u[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-12));
   CHECK(r.steps[2].u[8] == Approx(-0.3 - 6.0 / 50).epsilon(1e-12));
-  // Where it lets go of one side, in each of the steps, no load passes until it lies on the other.
+  // In each step the load does not advance between the separation from one side and the contact with the
+  // other.
   for (std::size_t i = 1; i < r.increments.size(); ++i) {
     if (r.increments[i].snaps && r.increments[i].number > 1)
       CHECK(r.increments[i].fraction == r.increments[i - 1].fraction);
@@ -404,7 +405,7 @@ TEST_CASE(
   p.steps = {tip_load(3, -8.0)};
   recorder limited;
   CHECK(p.run("corrected", {&limited}, {1, any.ends}).status == path_status::solved);
-  p.geometry.EI.assign(4, 1e30);  // springs are lost beside it
+  p.geometry.EI.assign(4, 1e30);  // springs are lost to rounding in it
   recorder lost;
   CHECK(p.run("corrected", {&lost}, any).status == path_status::solved);
   for (const recorder* r : {&limited, &lost}) {

@@ -1,5 +1,5 @@
-// What must not matter does not: the way to a load, units of load and length, which way is up and which is
-// left. On random problems, with floors on what was compared.
+// Results do not depend on: the way to a load, units of load and length, which way is up and which is left.
+// On random problems, with floors on what was compared.
 #include <cmath>
 #include <functional>
 

@@ -31,7 +31,7 @@ TEST_CASE("a mechanism names the pair whose separation led to it, with the load 
 TEST_CASE(
     "a free beam on a bed can be unloaded and loaded again: lift-off exactly at full load is not a "
     "mechanism") {
-  // PB8: its middle, or what lies beside it, lifts off. Then all load goes.
+  // PB8: its middle, or a part next to it, lifts off. Then all load goes.
   for (const double force : {4.0, -50.0, -100.0}) {
     beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
     const load heavy{{}, {{{-1.0}, {}}}};

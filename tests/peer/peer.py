@@ -13,8 +13,9 @@ sys.path.insert(0, str(REFERENCE / "benchmarks"))
 import calculix  # noqa: E402
 from make import problem_of  # noqa: E402
 
-# How far a spring's table reaches, in problem lengths: Newton's first steps may go far, and outside it the force is constant. A second
-# point is near the answer, since the far end, rounded to a field's digits, would misplace a stiff spring's face.
+# The range of a spring's table, in problem lengths: Newton's first steps may go far, and outside it the force
+# is constant. A second point is near the answer, since the far end, rounded to a field's digits, would
+# misplace a stiff spring's face.
 FAR_AWAY, NEAR = 1e6, 4
 checks = failures = 0
 
@@ -146,7 +147,7 @@ def check_block(block, events):
         run_ccx(job, block.peer_deck(load))
         u = values_at_end(job, "displacements", "ALL", 1, nodes)
         held = values_at_end(job, "forces", "GROUND", nodes + 1, len(block.supports))
-        # C3D8I's own modes are numbered as nodes behind the others.
+        # C3D8I's own modes are numbered as nodes after the others.
         both = [(ours, u[node - 1][way - 1] / block.SCALE) for ours, (node, way) in zip(step["displacement"], labels, strict=True) if node <= nodes]
         forces = [(pair["force"], f[2] / block.FORCE_SCALE) for pair, f in zip(step["pairs"], held, strict=True)]
         off, off_force = (max(abs(a - b) for a, b in of) / (max(abs(a) for a, _ in of) or 1.0) for of in (both, forces))

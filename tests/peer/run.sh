@@ -1,7 +1,8 @@
 #!/bin/sh
-# Another program as a witness: CalculiX (ccx) comes to the states that contct comes to, on solids whose matrix it wrote
+# Another program as a witness: CalculiX (ccx) finds the same states as contct, on solids whose matrix it
+# wrote
 # for contct, on the combinations of a base plate, and on benchmark problems of reference/benchmarks.
-# usage: sh tests/peer/run.sh [BUILD]      (default: build/release; what it needs of it is built)
+# usage: sh tests/peer/run.sh [BUILD]      (default: build/release; the needed targets are built)
 # Exit 0: all agrees; 1: something does not; 2: usage; 77: skipped, CalculiX cannot be had.
 set -u
 cd "$(dirname "$0")/../.." || exit 1

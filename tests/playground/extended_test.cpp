@@ -33,7 +33,7 @@ long double any_number(random_numbers& random) {
   return random.chance(0.5) ? x : -x;
 }
 
-/// Where sums cancel and round up to a power of 2: a neighbour, or the number itself.
+/// Numbers whose sums cancel and round up to a power of 2: a neighbour, or the number itself.
 long double beside(long double a, random_numbers& random) {
   if (a == 0 || random.chance(0.8)) return any_number(random);
   if (random.chance(0.3)) return -a;

@@ -1,7 +1,8 @@
 #!/bin/sh
 # The program as WebAssembly in a browser without a window, against the program itself: every reference problem under
 # three sets of kernels, results to the bit, unit 26 byte for byte, every call; the golden set replayed; errors with
-# their places; and the page as people use it. Builds the playground (cpp/playground.sh) where it is not built. Times are printed and not judged.
+# their places; and the page as people use it. Builds the playground (cpp/playground.sh) if it is not built.
+# Times are printed and not judged.
 # usage: sh tests/playground/run.sh [BUILD]      (default: build/release)
 # Exit 0: all is equal; 77: skipped, Emscripten or chromium cannot be had; 1 otherwise.
 set -u

@@ -2,7 +2,7 @@
 # contct-replay with its rooms compiled with floating point that is not strict: a mismatch must then be blamed on the
 # environment, and not on a kernel. The rooms are a project of their own; the program's options and its main() are the
 # objects of the strict build. usage: run.sh KIND SOURCE WORK STRICT_REPLAY OBJECT..., with CMAKE, GENERATOR, CXX and FC
-# set; OBJECT...: what the linker is given of the strict build, and the libraries of all.
+# set; OBJECT...: the objects of the strict build for the linker, and the libraries of all.
 # KIND: fused     products and sums are contracted: the listing has none, so no result differs, but it must be reported
 #       fast      -ffast-math, compiled and linked: subnormals are flushed to zero, and the golden set notices
 #       compiled  compiled with -ffast-math but linked without: no result shows it, only the compiler's macros do
@@ -44,7 +44,7 @@ launcher="sh;$source/tests/probe/slack.sh;$slack"
 doctored=$work/doctored.trace
 awk '/^smin / && !done {$0 = "smin 0x1.23p-4"; done = 1} {print}' "$source/reference/traces/layouts.trace" >"$doctored"
 
-# replay PROGRAM TRACE..: what it says of what it compared, without what has another precision.
+# replay PROGRAM TRACE..: its summary of the comparison, without traces of another precision.
 replay() {
   program=$1
   shift

@@ -80,7 +80,7 @@ def unheld(step):
     step.update(certified=False, error={kind: None if kind in ("w", "slope", "gap") else 1e300 for kind in step["error"]})
 
 
-# In step 3 of PB7 the beam is on three stops, of which the middle one presses more.
+# In step 3 of PB7 the beam is on three stops, and the middle one has the largest force.
 FAULTS = {
     "the state is moved": scaled(["u", 16, 0], 1 + 1e-6),
     "the state has lost what doubles leave over": put("u", lambda u: [[hi * (1 + 2e-16), 0.0] for hi, _ in u]),

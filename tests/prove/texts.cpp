@@ -21,7 +21,7 @@ using lines = std::array<char, batch * width>;
 
 extern "C" void texts_(const float* smin, const int* n, char* texts, std::size_t length);
 
-/// How many of some values have different texts.
+/// The number of values with different texts.
 int differences(std::span<const float> values) {
   static lines by_fortran;
   const int n = static_cast<int>(values.size());

@@ -1,4 +1,4 @@
-// Kinds of bad input: what a person may get wrong, and what the message must say.
+// Kinds of bad input: user errors, and the required parts of their messages.
 #pragma once
 
 #include <string>

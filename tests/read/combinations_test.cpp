@@ -1,4 +1,4 @@
-// Combinations and trains, as plain loads with factors. What is refused is in bad_combinations.hpp.
+// Combinations and trains, as plain loads with factors. Refusals are in bad_combinations.hpp.
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_combinations.hpp"

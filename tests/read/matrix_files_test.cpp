@@ -1,4 +1,4 @@
-// Matrix Market and CalculiX's matrix: what is read, and what is refused where.
+// Matrix Market and CalculiX's matrix: accepted files, and refusals with their positions.
 #include "contct/read/matrix_files.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Where a matrix's dofs are: files of coordinates, labels, the edges between nodes, and CalculiX's input.
+// Positions of a matrix's dofs: files of coordinates, labels, the edges between nodes, and CalculiX's input.
 #include <fmt/format.h>
 
 #include "catch.hpp"
@@ -16,7 +16,7 @@ std::string of_coordinates(const std::string& text) {
   return verdict([&] { (void)parse_coordinates(text, "K.xyz"); });
 }
 
-/// The edges by the names of their nodes, each with how many elements have it, where these are several.
+/// The edges by the names of their nodes, each with how many elements have it, if more than one.
 std::string edges_of(const placed_nodes& m) {
   std::string text;
   for (const mesh_edge& e : m.edges)
@@ -25,7 +25,7 @@ std::string edges_of(const placed_nodes& m) {
   return text;
 }
 
-/// A structure with these labels and nothing else to it but what couples.
+/// A structure with these labels and only these couplings.
 assembled with_labels(std::vector<std::string> labels, std::vector<matrix_entry> entries = {}) {
   assembled a;
   a.stiffness = {static_cast<int>(labels.size()), std::move(entries)};
@@ -131,7 +131,7 @@ std::string of_mesh(const std::string& text) {
   return verdict([&] { (void)by_mesh(text); });
 }
 
-/// So many nodes, one behind the other.
+/// `count` nodes, one after the other.
 std::string nodes_text(int count) {
   std::string text = "*NODE\n";
   for (int i = 1; i <= count; ++i) text += fmt::format("{},{},0,0\n", i, i);
@@ -193,7 +193,7 @@ TEST_CASE("each type of solid has its edges, through the nodes at their middles"
   };
   for (const shape& s : shapes) {
     INFO(s.type);
-    // Nodes behind the elements: CalculiX reads a deck twice.
+    // Nodes after the elements: CalculiX reads a deck twice.
     const placed_nodes m = by_mesh(element_text(s.type, s.nodes) + nodes_text(s.nodes));
     CHECK(edges_of(m) == s.edges);
     CHECK(m.notes.empty());

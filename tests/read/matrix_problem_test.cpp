@@ -1,4 +1,4 @@
-// Problems on an external matrix: the same answers as from the structure itself, and what is refused.
+// Problems on an external matrix: the same answers as from the structure itself, and refusals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -415,7 +415,8 @@ TEST_CASE("a matrix is not certified if half a unit in its last digits decides w
     REQUIRE(judged.steps().size() == 1);
     return *judged.steps()[0];
   };
-  CHECK(certificate_of("1.00000000000005", "").certified);  // 5e-14 is stiffness, but for half of 1e-14
+  CHECK(certificate_of("1.00000000000005", "")
+            .certified);  // 5e-14 is stiffness, with an uncertainty of half of 1e-14
   const certificate doubtful = certificate_of("1.0000000000000", "");  // as CalculiX writes a free body
   CHECK_FALSE(doubtful.certified);
   CHECK_THAT(doubtful.problem, Catch::Matchers::Contains("as `free_motions`"));

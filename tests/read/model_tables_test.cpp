@@ -1,6 +1,5 @@
-// [beam] and [plate] in their forms, of which what is refused is in bad_inputs.hpp and bad_plates.hpp.
-// [matrix] and [calculix]: the files that they name, how K is stored, and what is refused before it is
-// allocated.
+// [beam] and [plate] in their forms; their refusals are in bad_inputs.hpp and bad_plates.hpp. [matrix] and
+// [calculix]: the files that they name, the storage of K, and refusals before it is allocated.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -111,7 +110,7 @@ TEST_CASE("CalculiX's mesh is read from the file that is named, or else from the
   CHECK(found.edges.size() == 6);
   CHECK(found.dofs[1].node == 2);
   CHECK(found.dofs[1].direction == 3);
-  // Another job's input beside it is allowed, but not named.
+  // Another job's input in the same folder is allowed, but not used.
   (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
   CHECK_FALSE(places("").known());
   CHECK_THAT(places("").notes.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));

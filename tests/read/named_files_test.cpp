@@ -1,4 +1,4 @@
-// A problem file names files below its own folder, and others only where that is allowed.
+// A problem file names files below its own folder, and others only if that is allowed.
 #include <filesystem>
 #include <string>
 

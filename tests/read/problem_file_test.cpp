@@ -219,7 +219,7 @@ TEST_CASE("a bed's face: one for all nodes, one for each, fixed or not, or a pol
   const auto bed_of = [&](const std::string& lines) {
     return parse_problem(head + lines + "[[step]]\nuniform = -1\n", "pb.toml");
   };
-  const problem each = bed_of("face = [9, -0.5, 0]\n");  // that of the fixed node is not looked at
+  const problem each = bed_of("face = [9, -0.5, 0]\n");  // the face of the fixed node is not used
   REQUIRE(each.pairs.size() == 2);
   CHECK((each.pairs[0].face == -0.5 && !each.pairs[0].closed));
   CHECK((each.pairs[1].face == 0 && each.pairs[1].closed));
@@ -260,7 +260,7 @@ TEST_CASE("a mesh too coarse for its bed is warned of, once a bed, with an eleme
                                        "modulus)^(1/4), 0.93. element_size = 0.93 in [beam]"));
   CHECK_THAT(coarse[1], Catch::Matchers::Contains("bed[2]"));
   CHECK(warnings_of("element_size = 0.93\nEI = 3", bed).empty());
-  // Nodes that are not neighbours on the bed do not count, nor do elements beside it.
+  // Nodes that are not neighbours on the bed do not count, nor do elements next to it.
   CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 3]\n").empty());
   CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 2]\n").size() == 1);
 }

@@ -1,4 +1,4 @@
-// Files that must be refused, and what is to be said of them.
+// Files that must be refused, and the expected messages.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace contct {
 
-/// What is said of a file, or "accepted".
+/// The message about a file, or "accepted".
 inline std::string verdict(const std::function<void()>& reads) {
   try {
     reads();
@@ -26,8 +26,8 @@ struct bad_input {
   std::string text;     ///< the problem file
   const char* place;    ///< "line:column" in it
   const char* key;      ///< the key that the message must name
-  const char* found;    ///< what it must say was found
-  const char* allowed;  ///< what it must say is allowed
+  const char* found;    ///< required words after "found"
+  const char* allowed;  ///< required words after "allowed"
 };
 
 /// Any other file with a mistake.

@@ -1,4 +1,4 @@
-// Sections, self-weight and hinges as problem files have them.
+// Sections, self-weight and hinges as in problem files.
 #include "catch.hpp"
 #include "contct/model/elements.hpp"
 #include "contct/read/problem_file.hpp"

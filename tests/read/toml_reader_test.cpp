@@ -1,4 +1,4 @@
-// Strict TOML: what each kind of value takes, and where a file is refused.
+// Strict TOML: the values that each kind accepts, and refusals with their positions.
 #include "contct/read/toml_reader.hpp"
 
 #include "catch.hpp"
@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// What `use` makes of the table that `text` is, or what it is refused with.
+/// The result of `use` for the table `text`, or the message of its refusal.
 template <class Use>
 std::string refusal(const std::string& text, const Use& use) {
   return verdict([&] {

@@ -1,4 +1,4 @@
-// Where the numbers of a file stand, and which of them doubles cannot tell from others.
+// The positions of the numbers of a file, and the numbers that doubles cannot tell from others.
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"

@@ -143,8 +143,8 @@ class hard_drawing {
     if (random_.chance(0.5)) step({{node_between(), 0, -force(small)}});
   }
 
-  /// The large load presses two pairs, at no gaps; the small one stands beyond them, and turns the beam onto
-  /// a third: the first one comes off at the very end of the step.
+  /// The large load presses two pairs, at no gaps; the small one acts beyond them, and turns the beam onto a
+  /// third: the first one comes off at the very end of the step.
   void large_between_two_pairs() {
     const int small = random_.whole(-4, 0);
     const int k = random_.whole(-1, 3);
@@ -219,7 +219,7 @@ class hard_drawing {
     }
   }
 
-  /// The load stands over the first or the last pair: without the moment the beam balances on it.
+  /// The load acts over the first or the last pair: without the moment the beam balances on that pair.
   void near_tipping() {
     make_beam(random_.whole(2, 4));
     const int first = random_.whole(0, last() - 1);
@@ -233,7 +233,7 @@ class hard_drawing {
     step(std::move(points));
   }
 
-  /// A chain of springs of stiffness 1, free but for a last one of stiffness eps.
+  /// A chain of springs of stiffness 1, free except for a last one of stiffness eps.
   void soft_matrix() {
     const int n = random_.whole(2, 4);
     assembled a;

@@ -1,5 +1,6 @@
 // Random problems that are small and hard for double precision, the same everywhere from a seed and a number.
-// Every number is a decimal of at most 15 digits, so that a file says exactly what the double stands for.
+// Every number is a decimal of at most 15 digits, so that a file gives exactly the number that the double
+// represents.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace contct::referee {
 
-/// What makes a problem hard.
+/// The reason why a problem is hard.
 enum class hard_kind {
   stiff_pairs,        ///< pairs up to 1e18 times as stiff as the beam
   drops,              ///< a free beam falls on its pairs from up to 1e6 times its length
@@ -17,7 +18,7 @@ enum class hard_kind {
   cancelling_loads,   ///< large loads with nothing but a small resultant
   graded_meshes,      ///< elements 1e5 times as long as others, or far from x = 0
   pairs_alone,        ///< no supports, mixed gaps, loads that move the beam about
-  near_tipping,       ///< the load stands over the last pair, but for a moment of 1e-8 to 1e-16 of it
+  near_tipping,       ///< the load acts over the last pair, with a moment of 1e-8 to 1e-16 of it
   soft_matrices,      ///< [[1, -1], [-1, 1 + eps]]
   spring_decades,     ///< elastic supports and pairs over 16 decades
 };

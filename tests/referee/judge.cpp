@@ -21,7 +21,7 @@ namespace {
 enum class number_kind { deflection, slope, force, reaction };
 constexpr int number_kinds = 4;
 
-/// What a step ended with.
+/// The final state of a step.
 struct kept_state {
   int step;
   std::vector<double> displacement;
@@ -141,7 +141,7 @@ class comparing {
     }
   }
 
-  /// What is proved of a kind: moments of supports are among the moments.
+  /// The proved bound of a kind: moments of supports are among the moments.
   [[nodiscard]] double bound_of(number_kind kind, std::size_t at) const {
     const bool of_moment = kind == number_kind::reaction && p_.supports[at].dof != 0;
     constexpr quantity quantities[] = {quantity::w, quantity::slope, quantity::force, quantity::reaction};
@@ -209,7 +209,7 @@ path_end solve(const problem& p, const linear_structure& s, way how, const std::
   return follow(p, s, engine, *leader, observers, {0, judged.ends()});
 }
 
-/// What is wrong with how it ended; nothing where that is right.
+/// The error in the end of the path; nothing if it is right.
 std::optional<finding> compare_ends(const path_end& end, const exact_path& exactly) {
   const auto found = [&](fault what, std::string_view words) {
     return finding{what, 1.0, fmt::format("step {}: {}", end.step, words)};

@@ -1,4 +1,4 @@
-// What a run says of a problem, judged by its exact path.
+// The statements of a run about a problem, judged by its exact path.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace contct::referee {
 
-/// How a run solves: `contct run --kernels corrected`, the same with `--engine refactor`, `--final-only`, and
-/// `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits are judged: its path
-/// and its end are the 1989 rule's.
+/// The options of a run: `contct run --kernels corrected`, the same with `--engine refactor`, `--final-only`,
+/// and `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits are judged: its
+/// path and its end are the 1989 rule's.
 enum class way { default_engine, refactor, final_only, listing };
 inline constexpr int ways = 3;  ///< of the corrected rule
 [[nodiscard]] std::string_view name_of(way w);
 
-/// What can be wrong with a run. `outside`: a number of a certified step is further off than the tolerance of
+/// The possible errors of a run. `outside`: a number of a certified step is further off than the tolerance of
 /// its certificate, measured as that does: deflections and slopes by the largest that the path has seen, pair
 /// forces and reactions by the largest of the path. `beyond`: it is off by more than 1e-6 of the largest of
 /// its kind in its own state; a state of no load is measured by the largest of the path. `loose`: the bounds
@@ -34,8 +34,8 @@ enum class fault {
   beyond_reaction,
   loose,
   digits,           ///< a step claims at least half a digit more than its worst number has
-  false_solution,   ///< solved where there is no equilibrium
-  false_mechanism,  ///< no equilibrium found where there is one
+  false_solution,   ///< solved although there is no equilibrium
+  false_mechanism,  ///< no equilibrium found although there is one
   refused,          ///< exit 2, though there is an equilibrium or a mechanism
   other_end,        ///< a cycle, the limit of increments, or a mechanism in another step
   other_events,     ///< in another order than exactly, ties aside, of a path that was not lost
@@ -63,7 +63,7 @@ struct finding {
   std::string words;
 };
 
-/// What was wrong with one run, and how much was looked at.
+/// The errors of one run, and the number of compared values.
 struct judgement {
   int steps = 0;      ///< that reached their load on both paths
   int certified = 0;  ///< of these

@@ -2,9 +2,9 @@
 //     contct_referee COUNT SEED [--jobs N]
 //     contct_referee 0 SEED --only NUMBER
 //     contct_referee --file PROBLEM.toml
-// Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails where
-// something is wrong that must not be, more than is known, or too little was compared. --only and --file
-// print all that is wrong with one problem.
+// Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails on a
+// forbidden error, on more errors than are known, or if too little was compared. --only and --file print all
+// errors of one problem.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -65,7 +65,7 @@ drawn_problem draw(std::uint64_t seed, std::uint64_t number) {
   return d;
 }
 
-/// What one problem came to, one judgement for each way.
+/// The judgements of one problem, one for each way.
 struct judged_problem {
   std::string kind;
   std::array<judgement, ways> judgements;
@@ -160,7 +160,7 @@ struct known_counts {
 constexpr std::array known_runs = {known_counts{300, 2026, 36'939, 2, 22, 12},
                                    known_counts{20'000, 2026, 2'551'180, 3, 1187, 349}};
 
-/// How often a fault may be; nothing where that depends on a run that is not known.
+/// The allowed number of a fault; nothing if it depends on a run whose counts are unknown.
 std::optional<long> most_allowed(fault what, const known_counts* known) {
   switch (what) {
     case fault::loose:
@@ -177,7 +177,7 @@ std::optional<long> most_allowed(fault what, const known_counts* known) {
   }
 }
 
-/// A line for everything that must not be; none where all is as it should be.
+/// One line for each breach of the limits; empty if there is none.
 std::vector<std::string> breaches(const options& o, const counts& c) {
   const auto* known = std::ranges::find_if(
       known_runs, [&o](const known_counts& k) { return k.count == o.count && k.seed == o.seed; });

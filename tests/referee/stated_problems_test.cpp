@@ -1,5 +1,5 @@
-// Problems that were once certified with wrong numbers, or not certified, ended in mechanisms that they are
-// not, or were lost: their exact numbers, and what is still wrong with them.
+// Problems that were once certified with wrong numbers, or not certified, ended in false mechanisms, or were
+// lost: their exact numbers, and their remaining errors.
 #include <map>
 #include <utility>
 

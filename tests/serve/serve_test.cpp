@@ -1,4 +1,4 @@
-// The program as functions: what they answer is what the program writes.
+// The program as functions: their answers equal the program's output.
 #include "contct/serve/serve.h"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ void right_kernel(const double dd[], const double dtest[], const double cc[], do
   contct_free(contct_call("cpp", dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof));
 }
 
-/// Is off by 1e-9 where there are three pairs.
+/// Has an error of 1e-9 in calls with three pairs.
 void late_kernel(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
                  const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
   right_kernel(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof);

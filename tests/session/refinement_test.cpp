@@ -20,7 +20,7 @@ problem reference_problem(const std::string& name) {
   return read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml");
 }
 
-/// The largest deflection at the ends of steps, and how much those of two runs of one mesh differ.
+/// The largest deflection at the ends of steps, and the difference of those of two runs on one mesh.
 std::pair<double, double> deflections(const a_run& a, const a_run& b) {
   double most = 0.0;
   double difference = 0.0;

@@ -1,4 +1,4 @@
-// The 1989 rule beside the answer: what it did otherwise, and which of its states are wrong.
+// The 1989 rule next to the answer: its different events, and its wrong states.
 #include "contct/session/rule_1989.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-// What outputs are made from: what is recorded of a path.
+// The record of a path, from which outputs are written.
 
 #include "contct/session/run_result.hpp"
 

@@ -29,7 +29,7 @@ problem beam_over_stops(double face, double q) {
       "stops.toml");
 }
 
-/// Where its path ends, with the numbers read off there.
+/// The end of its path, with the results there.
 struct ended {
   explicit ended(const problem& p) {
     const a_run run(p, "corrected");
@@ -47,7 +47,7 @@ TEST_CASE(
     "The hardest pressed pair and support have the largest force, and the first is taken if two are equal") {
   const ended e(beam_over_stops(-0.001, -10.0));
   REQUIRE(e.read.pairs.size() == 2);
-  CHECK(e.read.hardest_pair() == 0);  // both press with the same force but for rounding
+  CHECK(e.read.hardest_pair() == 0);  // both press with the same force up to rounding
   CHECK(e.read.pairs[0].force == Approx(e.read.pairs[1].force).epsilon(1e-9));
   CHECK(e.read.hardest_support(beam_over_stops(-0.001, -10.0)) == 0);
   const ended free(beam_over_stops(-10.0, -10.0));

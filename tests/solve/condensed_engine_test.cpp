@@ -95,7 +95,7 @@ TEST_CASE("removing a spring that is 1e18 times as stiff restores the response b
 }
 
 TEST_CASE("a beam too ill-conditioned to be condensed has an engine, and no factor at its first response") {
-  // Elements of 1 beside elements of 1e7, as a mechanism: its path asks for no response.
+  // Elements of length 1 next to elements of length 1e7, as a mechanism: its path needs no response.
   beam b;
   b.x = {-1, 0, 1, 2, 3, 4, 10000004, 20000004, 30000004};
   b.EI.assign(8, 1e7);

@@ -38,7 +38,7 @@ std::vector<double> load_of(const random_problem& p, const linear_structure& s) 
 }
 
 /// How far two responses differ, relative to `size`, the largest deflection anywhere: at the pairs there may
-/// be nothing but rounding.
+/// be only rounding.
 double difference(const std::vector<double>& a, const std::vector<double>& b, double size) {
   double off = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
@@ -53,7 +53,8 @@ double largest_deflection(const linear_structure& s, const std::vector<double>& 
   return size;
 }
 
-/// What rounding alone may do: each of two answers may be off by the certificate's 1024 eps / rcond.
+/// The difference allowed for rounding: each of two answers may have the certificate's error of 1024 eps /
+/// rcond.
 double allowed(stiffness_engine& e) {
   return std::max(1e-10, 2 * 1024 * std::numeric_limits<double>::epsilon() / e.reciprocal_condition());
 }
@@ -61,7 +62,7 @@ double allowed(stiffness_engine& e) {
 struct toggled {
   int responses = 0;
   int toggles = 0;
-  double worst = 0.0;  // in units of what is allowed
+  double worst = 0.0;  // relative to the allowed difference
 };
 
 /// Toggle `toggles` pairs of a problem, drawn from `choices` of them, and compare every response.

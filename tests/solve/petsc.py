@@ -17,7 +17,7 @@ PROBLEMS = ["problems/pb07-three-gap-supports.toml", "problems/pp01g-unilateral-
             "structures/calculix/console.toml"]
 LEAST = {"events": 60, "numbers": 1000}
 PATIENCE = 1200  # seconds, after which something hangs
-# As root Open MPI wants to be told twice; where processors are shared, a rank that waits had better let others run.
+# Open MPI needs two variables to run as root; on shared processors a waiting rank should yield to others.
 MPI = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
                     "ASAN_OPTIONS": "detect_leaks=0"}
 MECHANISM = """[beam]

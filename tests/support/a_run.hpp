@@ -1,4 +1,4 @@
-// A whole run in memory, for the tests of what is written about it.
+// A whole run in memory, for the tests of its outputs.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// A cantilever with a pair at each of its nodes, for the tests of engines and of what they are made of.
+// A cantilever with a pair at each of its nodes, for the tests of engines and their parts.
 #pragma once
 
 #include <algorithm>

@@ -15,7 +15,7 @@ inline rational value_at(const rational_vector& p, const rational& t) {
   return sum;
 }
 
-/// What acts on an element, a polynomial in the length from its left end.
+/// The load on an element, a polynomial in the distance from its left end.
 inline rational_vector exact_load(const load& l, int e, const rational& left, const rational& h) {
   rational_vector sum(1);
   for (const distributed_load& d : l.distributed) {

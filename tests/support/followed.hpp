@@ -13,7 +13,7 @@
 
 namespace contct {
 
-/// What was seen on a path, and what the certificate says of its states.
+/// The observed increments of a path, and the certificates of its states.
 struct followed {
   path_end end;
   recorder seen;
@@ -26,7 +26,7 @@ struct followed {
   /// The deflection of a node at the end of the last step.
   [[nodiscard]] double deflection(std::size_t node) const { return seen.steps.back().u[node * stride]; }
   [[nodiscard]] std::size_t nodes() const { return seen.steps.back().u.size() / stride; }
-  /// The largest deflection that any step told.
+  /// The largest deflection in any reported step.
   [[nodiscard]] double largest() const {
     double most = 0.0;
     for (const auto& step : seen.steps) {

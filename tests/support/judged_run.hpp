@@ -1,4 +1,4 @@
-// A path whose ends are proved and judged, and all that was told of them.
+// A path whose ends are proved and judged, and everything that was reported about them.
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 
 namespace contct {
 
-/// A kernel made for a test, of the corrected rule unless it says so.
+/// A kernel made for a test, of the corrected rule unless stated otherwise.
 class made_kernel final : public kernel {
  public:
   explicit made_kernel(std::function<void(call<double>&)> answer, contact_rule rule = contact_rule::corrected)

@@ -14,7 +14,7 @@ inline constexpr int touching = in_contact;
 inline constexpr int above = face_above;
 inline constexpr int below = face_below;
 
-/// Where a pair stands before a call.
+/// The state of a pair before a call.
 template <class Real>
 struct pair_at {
   Real d;       ///< D
@@ -64,7 +64,7 @@ struct small_call {
   }
 };
 
-/// What a kernel answers.
+/// A kernel's answer.
 inline call_outputs answer_of(kernel& k, const call_inputs<double>& in) {
   call_outputs out;
   call<double> c = out.prepare(in);

@@ -1,4 +1,4 @@
-// A random problem that is tried, and what is counted of its path; names of face layouts.
+// A random problem that is tried, and the counts of its path; names of face layouts.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline std::string_view name_of(verdict v) {
   return names[static_cast<int>(v)];
 }
 
-/// What happens on a path.
+/// Counts of the events on a path.
 struct path_counts final : observer {
   int makes = 0, breaks = 0;
   int at_rest = 0;    ///< increments without progress

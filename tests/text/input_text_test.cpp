@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// What the one line `text` is refused with when its first field is read as a real, or "accepted".
+/// The message that refuses the first field of the line `text` as a real, or "accepted".
 std::string refusal_of_real(const std::string& text) {
   field_lines lines(text, "f");
   REQUIRE(lines.next());

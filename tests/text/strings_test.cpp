@@ -1,4 +1,4 @@
-// What somebody meant who mistyped, and text made safe for XML and for messages of one line.
+// Suggestions for misspelt words, and text escaped for XML and for messages of one line.
 #include "contct/text/strings.hpp"
 
 #include <vector>
@@ -75,7 +75,7 @@ TEST_CASE("a message quotes a field of a file if it looks like a number, and oth
   for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
     CHECK(field_words(number) == std::string("\"") + number + "\"");
   CHECK(field_words("root:x:0:0") == "a word of 10 bytes");
-  CHECK(field_words("x\x1b") == "\"x\\x1b\"");  // short enough to be nothing else
+  CHECK(field_words("x\x1b") == "\"x\\x1b\"");  // short enough to be quoted
   CHECK(field_words("root") == "a word of 4 bytes");
   CHECK(field_words("e d e", "a line") == "a line of 5 bytes");  // no digit
   CHECK(field_words(std::string(33, '1')) == "\"" + std::string(32, '1') + "...\"");

@@ -1,5 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# Fails when a room of cpp/contct includes a header from a floor above it, or from beside it; when a folder there is
+# Fails when a room of cpp/contct includes a header from a floor above it, or from the same floor; when a
+# folder there is
 # no room; and when a room has more than MOST sources.
 # Usage: cmake -DSOURCES=<cpp/contct> -DMOST=<files> -P floors.cmake
 # Lowest first; a room knows the rooms of the floors below its own.
@@ -13,7 +14,7 @@ foreach(floor IN LISTS floors)
   endforeach()
   list(APPEND below ${floor})
 endforeach()
-# What replays a trace needs no structure and no LAPACK.
+# Replaying a trace needs no structure and no LAPACK.
 set(below_kernel text number)
 set(below_compare ${below_kernel} kernel)
 set(looked_at 0)

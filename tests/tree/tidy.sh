@@ -1,7 +1,7 @@
 #!/bin/sh
-# clang-tidy over all C++ sources, those of the tests too. usage: tidy.sh [SOURCE...], for a quick look at these alone.
-# Warnings are errors; .clang-tidy and tests/.clang-tidy say which checks. Sources of a library are read together, as they
-# are compiled, so that the headers are read once for a dozen of them.
+# clang-tidy over all C++ sources, including the tests. usage: tidy.sh [SOURCE...], for a quick look at these
+# alone. Warnings are errors; .clang-tidy and tests/.clang-tidy say which checks. Sources of a library are
+# read together, as they are compiled, so that the headers are read once for a dozen of them.
 set -eu
 cd "$(dirname "$0")/../.."
 echo "== clang-tidy"
@@ -13,7 +13,7 @@ if [ $# -gt 0 ]; then
   printf '%s\n' "$@" >"$work/files"
   count=$#
 else
-  # What tests/package has are projects of their own, with commands of their own.
+  # The sources of tests/package are separate projects with their own commands.
   find "$PWD/cpp" "$PWD/tests" -path '*/tests/package' -prune -o -name '*.cpp' -print | sort >"$work/sources"
   count=$(wc -l <"$work/sources")
   [ "$count" -ge 200 ] || { echo "found $count sources; allowed: 200 or more" >&2; exit 1; }
@@ -22,8 +22,8 @@ else
   xargs sed -n 's/^#include "\(.*\.cpp\)"$/\1/p' <"$work/files" | sort -u >"$work/together"
   comm -23 "$work/sources" "$work/together" >>"$work/files"
 fi
-# The commands are g++'s, and clang knows other warnings. On standard error clang-tidy counts those that it leaves out;
-# only when it fails is there more.
+# The commands are g++'s, and clang knows other warnings. On standard error clang-tidy prints the number of
+# suppressed warnings, and more only when it fails.
 if ! xargs -P "$(nproc 2>/dev/null || echo 2)" -n 1 clang-tidy --quiet -p build/tidy --checks=-bugprone-suspicious-include \
   --extra-arg=-Wno-unknown-warning-option <"$work/files" 2>"$work/said"; then
   grep -v 'warnings\{0,1\} generated\.$' "$work/said" >&2 || true

@@ -1,5 +1,5 @@
 # Fails unless the project's top level has exactly the files and folders named here, and files that begin with a dot.
-# Asks git where the folder is a repository, so that what is not part of the project does not count.
+# Asks git where the folder is a repository, so that files outside the project do not count.
 # Usage: cmake -DROOT=<project> -P top_level.cmake
 set(allowed CMakeLists.txt CMakePresets.json LICENSE README.md cpp fortran reference tests)
 find_program(git git)

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Tier 1 does not depend on LAPACK: the same paths under this system's LAPACK and under OpenBLAS, lockstep in each,
-# what each recorded replayed without any LAPACK, and the test programs that stand on one run under the other.
+# the recordings of each replayed without any LAPACK, and the test programs linked with one run under the
+# other.
 # OpenBLAS is unpacked into the build, not installed: installing it would make it this system's LAPACK.
 # usage: sh tests/two_lapacks/run.sh [BUILD]      (default: build/release, built with its tests)
 # Exit 0: all is equal, or it was skipped (which it says); 1 otherwise.

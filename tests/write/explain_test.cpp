@@ -18,8 +18,8 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// FORTRAN with C++ beside it; `sink` is given each increment, after `first`, where there is one, has seen
-/// it. Returns the path, which has the totals.
+/// FORTRAN with C++ beside it; `sink` is given each increment, after `first`, if there is one, has seen it.
+/// Returns the path, which has the totals.
 explained_path explain_run(const problem& p, explained_path::sink sink, observer* first = nullptr) {
   const auto leader = make_kernel("fortran");
   const std::string second[] = {"cpp"};

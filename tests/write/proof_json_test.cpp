@@ -1,4 +1,4 @@
-// A proof has what its checker needs, and says why where there is none.
+// A proof has what its checker needs, or the reason why there is no proof.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

@@ -22,7 +22,7 @@ using namespace contct;
 
 namespace {
 
-/// A document with a title and an array "steps", of which `write` writes the rest.
+/// A document with a title and an array "steps", the rest of which `write` writes.
 template <class Write>
 std::string written(Write write) {
   const scratch_folder folder;

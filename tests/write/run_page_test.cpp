@@ -1,5 +1,4 @@
-// The page of a run: what it draws from, what is embedded in it, and that no text of a problem becomes
-// markup.
+// The page of a run: its data, its embedded files, and the escaping of a problem's text.
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>

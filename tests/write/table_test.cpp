@@ -1,4 +1,4 @@
-// The run as tables; what a whole one looks like on the terminal is tested on the program itself (tests/app).
+// The run as tables; a whole run at the terminal is tested with the program itself (tests/app).
 #include <cstdlib>
 
 #include "catch.hpp"
@@ -63,7 +63,7 @@ double number(const std::string& field) {
 }  // namespace
 
 TEST_CASE("a path that is lost before any call has a table, with the state of the reference solution") {
-  // Nothing holds the corner's slope in doubles.
+  // The stiffness of the corner's slope is 0 in doubles.
   const a_run r(
       "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
       "[[contact]]\nnode = 9\nsurface = \"below\"\nface = -1\nstiffness = 1\n"

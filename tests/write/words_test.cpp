@@ -1,4 +1,4 @@
-// The words for statuses, events and certificates, as the formats of reference/ have them.
+// The words for statuses, events and certificates, as in the formats of reference/.
 #include "contct/write/words.hpp"
 
 #include <fmt/format.h>

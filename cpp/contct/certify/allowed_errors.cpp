@@ -8,11 +8,11 @@
 namespace contct {
 namespace {
 
-/// Of what is related to a kind, this share counts as none: shears of a beam that only couples bend are 0 but
-/// for the rounding of 32 digits.
+/// A number of a kind counts as zero up to this share of a related kind: shears of a beam bent only by
+/// couples are 0 up to the rounding of 32 digits.
 constexpr double of_related = 0x1p-60;
 
-/// The same of what it would take to move a settling dof alone, where nothing else acts.
+/// The same share of the force that moves one settling dof alone, used if no load acts.
 constexpr double of_settling = 0x1p-70;
 
 constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
@@ -29,16 +29,16 @@ by_quantity sizes_of(const error_bounds& b, double extent) {
   return sizes;
 }
 
-/// As far as they are proved: what is not certified may be told larger than it is, and an unloaded state's
-/// own numbers are nothing but errors.
+/// Only the proved part of each size: a number that is not certified may be reported too large, and the
+/// numbers of an unloaded state are only errors.
 by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));
   return sizes_of(b, extent);
 }
 
-/// What counts as no error at all, whatever the size of the kind: all numbers of it may be 0. None of this
-/// depends on a bound.
+/// An error up to this floor counts as zero, whatever the size of the kind, since all its numbers may be 0.
+/// The floors do not depend on a bound.
 by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double extent) {
   by_quantity floors;
   const double force = of_settling * b.settling[quantity::force].value_or(0.0);

@@ -1,4 +1,4 @@
-// What errors may reach for a state to be certified: a share of the size of their kind.
+// The allowed errors of a certified state: a share of the size of their kind.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ inline constexpr double certified_share = 1e-6;
 /// Knows how large the numbers of a path have been (reference/certificate-proof.md, "Sizes").
 class allowed_errors {
  public:
-  /// What each kind of number of the state that `b` is about may be off by; none for kinds without a bound.
-  /// `extent`: the largest side of the structure. The steps of a path come in their order.
+  /// The allowed error of each kind of number in the state of `b`; empty for kinds without a bound. `extent`:
+  /// the largest side of the structure. The steps of a path come in their order.
   [[nodiscard]] by_quantity of(const error_bounds& b, double extent);
 
  private:
@@ -31,14 +31,14 @@ class allowed_errors {
 /// The largest share of any kind.
 [[nodiscard]] double worst_share(const by_quantity& error, const by_quantity& allowed);
 
-/// "deflection", "contact force", ..: what one number of a kind is called.
+/// "deflection", "contact force", ..: the name of one number of a kind.
 [[nodiscard]] std::string_view name_of_kind(quantity q);
 
 /// The unit of a kind, with a blank before it; empty where the problem names none.
 [[nodiscard]] std::string unit_of(const problem& p, quantity q);
 
-/// The bound that is furthest above what is allowed, in words, in the units of `of` where that is given;
-/// empty where none is.
+/// The bound that exceeds its allowed error most, in words, in the units of `of` if that is given; empty if
+/// no bound exceeds it.
 [[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed,
                                       const problem* of = nullptr);
 

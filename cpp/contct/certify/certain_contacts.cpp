@@ -9,7 +9,7 @@
 namespace contct {
 namespace {
 
-/// What products of numbers that are all but 0 may lose.
+/// The largest error of products that underflow.
 constexpr double underflow = 1e-300;
 
 std::vector<int> rows_of(const linear_structure& s) {
@@ -178,7 +178,7 @@ bool certain_contacts::find_balanced(int step, std::span<const double_double> u,
   return true;
 }
 
-/// No work on what A leaves free, and no pair that this moves can be in contact.
+/// No work on the motions that A leaves free, and no pair that these motions move can be in contact.
 bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);

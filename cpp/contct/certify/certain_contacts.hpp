@@ -13,10 +13,10 @@
 
 namespace contct {
 
-/// What is certain about a state's contacts.
+/// The facts about a state's contacts that are certain.
 struct contact_set {
-  bool unique = true;      ///< false: the structure may stand elsewhere as well, under the same forces
-  std::string not_proved;  ///< why nothing is, in words; empty where something is
+  bool unique = true;      ///< false: the same forces also balance at other displacements
+  std::string not_proved;  ///< why the contacts are not proved, in words; empty if they are
   double rho = std::numeric_limits<double>::infinity();  ///< how far the state is, in the norm of K_A
   std::vector<int> closed;  ///< A: the pairs that are certainly in contact, from 0
 };
@@ -30,24 +30,24 @@ class certain_contacts {
   /// A and rho of `b`, for a state with a residual: A has at first all pairs beyond their faces; those that
   /// are not so for certain leave it again. False, with the reason, where nothing is proved.
   bool find(std::span<const double_double> u, const long_residual& r, contact_set& b);
-  /// Where the pairs of A leave rigid-body motions on which the load does no work at all: springs without
-  /// force hold the structure where it is, and change nothing else.
+  /// If the pairs of A leave rigid-body motions on which the load does no work: add springs without force,
+  /// which hold the structure at its position and change nothing else.
   bool find_balanced(int step, std::span<const double_double> u, const long_residual& r, contact_set& b);
 
   /// Factor K_A; is it definite for certain?
   [[nodiscard]] bool proves(const std::vector<int>& closed);
   /// Pairs beyond their faces.
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
-  /// `closed`, and where these do not hold the structure, those nearest to their faces that do.
+  /// `closed`, extended by the pairs nearest to their faces if `closed` alone does not hold the structure.
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
 
-  /// How far a dof can be moved in a state at a distance of 1.
+  /// The largest change of a dof between two states at a distance of 1.
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
   /// The same of the difference that a pair sees: of one dof, or between two.
   [[nodiscard]] double reach(const long_pair& p) const {
     return p.other < 0 ? reach(p.dof) : reach(p.dof) + reach(p.other);
   }
-  /// How far the depth of a pair in any state within rho of u can be from that under u.
+  /// The largest difference between a pair's depth under u and in any state within rho of u.
   [[nodiscard]] double reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const;
   /// Not in contact, in any state within rho of u.
   [[nodiscard]] bool is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const;
@@ -65,7 +65,7 @@ class certain_contacts {
   [[nodiscard]] bool last_digits_decide() const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
   [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const contact_set& b) const;
-  /// The pairs that may not be in contact leave `closed`; false where there are none.
+  /// Removes from `closed` the pairs that may be separated; false if there are none.
   bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
 
   const problem& problem_;

@@ -27,7 +27,8 @@ bool can_be_proved_by_columns(const linear_structure& s) {
   return 3 * factor->bytes() <= memory_limit() && factor->flops() <= most_flops;
 }
 
-/// A band, of which two more are held during a proof, besides those of the path and of the comparison.
+/// The stiffness fits in memory twice more during a proof, besides the bands of the path and of the
+/// comparison.
 bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return can_be_proved_by_columns(s);
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
@@ -81,7 +82,7 @@ certificate certifier::judge(const step_state& s) {
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   if (c.certified) measure_state(s, load, c);
-  const bool beyond_face = !c.unique && c.penetration > certified_share;  // no bound knows where it may stand
+  const bool beyond_face = !c.unique && c.penetration > certified_share;  // displacements have no bound here
   if (!c.certified || beyond_face) compare(s, load, c);
   if (!c.certified) find_pulling_pair(s, c);
   return c;
@@ -100,7 +101,7 @@ std::vector<double> certifier::load_at(int step) const {
   return load;
 }
 
-/// What is proved of a state. That of the state proved last is known.
+/// The certificate of a state by proof. The proof of the last state is kept.
 certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
@@ -119,7 +120,8 @@ certificate certifier::proof_of(const step_state& s) {
   return c;
 }
 
-/// Which pair in contact pulls most, where that is more than a millionth of the largest contact force.
+/// Finds the pair in contact that pulls most, if it pulls with more than a millionth of the largest contact
+/// force.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
   const std::vector<double> v = from_faces(s.step, s.displacement);
@@ -146,7 +148,7 @@ std::string certifier::status_words(std::size_t pair, const step_state& s) const
   return text + unit_of(problem_, quantity::gap);
 }
 
-/// The worst of what is above the tolerance, in words.
+/// The worst measure above the tolerance, in words.
 std::string certifier::worst_of(const certificate& c) const {
   struct part {
     double share;
@@ -187,7 +189,7 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.shape_error = c.worst_share;
 }
 
-/// With the reference solution: what is wrong where a proof failed.
+/// Compare with the reference solution, to find the error when a proof failed.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
   const reference_answer answer = reference_at(s.step);
   remember_sizes(answer.displacement);
@@ -211,7 +213,7 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  // What is proved, but not closely enough, is nearer to the truth than a reference solution beyond that
+  // A state that is proved, though not closely enough, is more accurate than a reference solution outside its
   // bound.
   const bool reference_is_off = answer.how != outcome::found ||
                                 c.displacement_error * largest_length() >

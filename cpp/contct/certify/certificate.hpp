@@ -22,10 +22,10 @@
 
 namespace contct {
 
-/// What is known about the state that a step ended in. Lengths are relative to the largest
-/// deflection that the path has seen, so that a state of no load has a measure too; and where slopes
-/// count for more, relative to what these come to as deflections, so that a structure whose deflections
-/// are rounding is not measured by rounding.
+/// The certificate of a step's final state. Lengths are relative to the largest deflection that the path has
+/// seen, so that a state of no load has a measure too; and where slopes count for more, relative to what
+/// these come to as deflections, so that a structure whose deflections are rounding is not measured by
+/// rounding.
 struct certificate {
   bool certified = false;  ///< proved within certified_share in every respect
   // Of a certified state as proved, of others against the reference solution:
@@ -36,8 +36,8 @@ struct certificate {
   double penetration = 0.0;  ///< of separated pairs
   double tension = 0.0;      ///< how far the springs of pairs in contact are stretched
   double rcond = 0.0;        ///< of the equilibrated stiffness
-  /// False: the state is the reference solution's own, so that comparing the two shows nothing. What is left
-  /// then is equilibrium, penetration and tension.
+  /// False: the state is the reference solution itself, so that a comparison shows nothing. Then only
+  /// equilibrium, penetration and tension are checked.
   bool independent = true;
   bool unique = true;        ///< false: other displacements are as good, so these have no bound
   bool proved = false;       ///< there are bounds: the three that follow
@@ -45,9 +45,9 @@ struct certificate {
   by_quantity allowed;       ///< what these may reach
   double worst_share = 0.0;  ///< the worst of them, as a share of the size of its kind
   std::shared_ptr<const step_proof> proof;  ///< what proves the bounds, if that is kept
-  std::string problem;                      ///< what is wrong, in words; empty when certified
+  std::string problem;                      ///< the error, in words; empty when certified
   int pulling = -1;   ///< of a state that is not certified: the pair in contact that pulls most, from 0
-  double pull = 0.0;  ///< what it pulls with
+  double pull = 0.0;  ///< its tensile force
 };
 
 /// Whole decimal digits that every number of a state has, as proved: 0 where nothing is. At most 15.
@@ -61,7 +61,7 @@ class certifier final : public observer {
 
   void step_ended(const step_state& s) override;
 
-  /// What ends the steps of a problem's path. This object must outlive it.
+  /// Proves or replaces the final state of each step of a path. This object must outlive the result.
   [[nodiscard]] end_finder ends();
 
   /// Only the ends: find the equilibrium under the total load of every step and tell it to the observers as
@@ -99,7 +99,7 @@ class certifier final : public observer {
   [[nodiscard]] double largest_length() const;
   [[nodiscard]] bool deflects(std::size_t dof) const { return structure_.deflects(static_cast<int>(dof)); }
 
-  /// What was proved of a state before the path told it.
+  /// The proof of a state before the path reports it.
   struct proved_state {
     int step;
     std::vector<double> displacement;

@@ -25,8 +25,8 @@ quantity kind_of(const support& s) {
   return s.dof == 0 ? quantity::reaction : quantity::moment;
 }
 
-/// A number that was handed out, beside the one of the state, which may be off by `slack` and, in the
-/// equilibrium, by `moved`.
+/// Compare a reported number with that of the state, whose error is at most `slack`, and at most `moved` more
+/// in the equilibrium.
 void take(error_bounds& b, quantity q, double told, const double_double& x, double slack, double moved) {
   const double off = std::abs((double_double(told) - x).hi);
   b.error.take(q, (off + slack + moved) * (1 + summation_slack));
@@ -123,10 +123,10 @@ double error_prover::correction_for(const long_vector& force, std::vector<double
   return square;
 }
 
-/// u += K_A^-1 r until r is nothing beside the loads, or that no longer makes it smaller; then the pairs that
-/// are beyond their faces become A, as long as these are others. A stiff pair may be so less deep than a
-/// correction is rounded, so A is kept until its own equations are solved. False where K_A is not definite
-/// for certain. Keeps the residual.
+/// u += K_A^-1 r until r is negligible relative to the loads, or no longer decreases; then the pairs beyond
+/// their faces become the new A, until A no longer changes. The depth of a stiff pair may be below the
+/// rounding of a correction, so A is kept until its own equations are solved. False if K_A is not certainly
+/// definite. Keeps the residual.
 bool error_prover::correct(const long_loads& l) {
   constexpr int most = 40;
   constexpr double none = 0x1p-150;  // of the loads' work: displacements are right to 2^-75
@@ -167,7 +167,7 @@ bool error_prover::correct(const long_loads& l) {
   return !state_.u.empty();
 }
 
-/// A pair whose force, or lack of it, cannot be rounding has the status that goes with it.
+/// Correct the status of a pair if the sign of its force is certain in spite of rounding.
 void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) const {
   const auto force_at = [&](std::size_t i) {
     return system_.pairs[i].stiffness.hi * system_.depth(i, state_.u).hi;
@@ -179,8 +179,8 @@ void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) con
     if (std::abs(force_at(i)) > 1e-12 * largest) isep[i] = force_at(i) > 0.0 ? in_contact : separated;
 }
 
-/// A pair that is certainly beyond its face, or off it, in all states within rho of u has the status that
-/// goes with it.
+/// Set the status of each pair that is certainly beyond its face, or certainly away from it, in all states
+/// within rho of u.
 void error_prover::settle_certain_statuses(double rho, std::span<int> isep) const {
   for (std::size_t i = 0; i < isep.size(); ++i) {
     const double deep = system_.depth(i, state_.u).hi;
@@ -235,8 +235,8 @@ bool error_prover::is_semidefinite() {
   return *semidefinite_;
 }
 
-/// Nodal loads are sizes. Where there are none, the force that moves one settling dof alone is the size,
-/// against which rounding is judged.
+/// The size is that of the nodal loads. Without loads it is the force that moves one settling dof alone, to
+/// which rounding is compared.
 void error_prover::measure(const long_loads& l, error_bounds& b) const {
   const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
@@ -315,8 +315,8 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
   return all;
 }
 
-/// All forces are 0 then, and where the supports hold the structure all displacements. Where they do not, it
-/// may stand, unbent, wherever no pair is beyond its face. False, with the reason, where it may be bent.
+/// All forces are 0 then, and so are all displacements if the supports hold the structure. If they do not, it
+/// may be anywhere, unbent, with no pair beyond its face. False, with the reason, if it may be bent.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
   state_ = {told.step,
@@ -347,7 +347,7 @@ void error_prover::keep(const reported_state& told, error_bounds& b) const {
                                                     of_stiffness});
 }
 
-/// A and rho of the state, or the reason why there are none.
+/// Find A and rho of the state, or the reason why they cannot be found.
 bool error_prover::find_contacts(const reported_state& told, const long_loads& l, contact_set& b) {
   bool found = true;
   if (!is_refined(told.step, told.displacement)) {
@@ -371,7 +371,7 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
         "rounded entries may be the cause: a [[support]] with a weak spring at such a dof helps";
     return false;
   }
-  (void)contacts_.proves(b.closed);  // that of K alone may have replaced its factor and its proof
+  (void)contacts_.proves(b.closed);  // the proof of K alone may have replaced factor and proof
   return true;
 }
 
@@ -399,7 +399,7 @@ error_bounds error_prover::bound(const reported_state& told) {
     take(b, kind_of(v), told.numbers.element_values[i], v.value, v.noise(), v.energy * b.rho);
   }
   widen_by_extremes(problem_, told, b);
-  if (b.unique || b.unloaded) keep(told, b);  // of a balanced one the checker knows nothing
+  if (b.unique || b.unloaded) keep(told, b);  // the checker cannot check a balanced state
   return b;
 }
 

@@ -1,4 +1,5 @@
-// How far a state can be from the equilibrium, proved from the state alone (reference/certificate-proof.md).
+// Bounds on the distance of a state from the equilibrium, proved from the state alone
+// (reference/certificate-proof.md).
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ enum class quantity { w, slope, force, reaction, moment, shear, gap };
 inline constexpr std::array<const char*, 7> quantity_names = {"w",      "slope", "force", "reaction",
                                                               "moment", "shear", "gap"};
 
-/// A number for each kind; none where the structure has no such quantity.
+/// A number for each kind; empty if the structure has no such quantity.
 struct by_quantity {
   std::array<std::optional<double>, quantity_names.size()> all;
   [[nodiscard]] std::optional<double>& operator[](quantity q) { return all[static_cast<std::size_t>(q)]; }
@@ -28,7 +29,7 @@ struct by_quantity {
   void take(quantity q, double value);
 };
 
-/// What was handed out for a state.
+/// The reported numbers of a state.
 struct reported_state {
   int step;                              ///< from 1
   std::span<const double> displacement;  ///< [dofs]
@@ -39,7 +40,7 @@ struct reported_state {
 /// The numbers that a run gives for the end of a step.
 [[nodiscard]] reported_state reported_state_at(const problem& p, const step_state& s);
 
-/// What a check of a step's bounds needs beside the problem file (reference/proof-format.md).
+/// The data that a check of a step's bounds needs besides the problem file (reference/proof-format.md).
 struct step_proof {
   // As handed out:
   std::vector<double> displacement;  ///< [dofs]
@@ -48,22 +49,22 @@ struct step_proof {
 
   long_vector state;                            ///< u [dofs]
   std::vector<int> closed;                      ///< A: pairs from 0
-  long_vector z;                                ///< about K_A^-1 r [dofs]; empty where nothing acts
-  std::optional<stiffness_proof> of_stiffness;  ///< none where nothing acts and nothing holds the structure
+  long_vector z;                                ///< about K_A^-1 r [dofs]; empty without loads
+  std::optional<stiffness_proof> of_stiffness;  ///< empty without loads and supports
 };
 
 struct error_bounds : contact_set {
   /// The largest error that any number of a kind can have. Infinite: none is proved.
   by_quantity error;
   by_quantity size;      ///< the largest number of a kind; of forces, loads and reactions count too
-  by_quantity settling;  ///< where nothing else acts: what it takes to move a settling dof alone
-  /// Nothing acts, and no pair is beyond its face in the state of no displacement: that is the equilibrium.
+  by_quantity settling;  ///< without loads: the forces that move one settling dof alone
+  /// No load acts, and no pair is beyond its face at zero displacement, which is therefore the equilibrium.
   bool unloaded = false;
-  /// A pair, from 0, that certainly has the other status; none where all statuses hold.
+  /// A pair, from 0, whose status is certainly wrong; empty if there is none.
   std::optional<std::size_t> wrong_status;
   std::shared_ptr<const step_proof> proof;  ///< if it is kept
 };
-/// What rational numbers decide where doubles are too short; nothing of a problem that is too large.
+/// Decisions by rational numbers where doubles are too short; empty for a problem that is too large.
 class exact_means {
  public:
   virtual ~exact_means() = default;
@@ -85,11 +86,11 @@ class error_prover {
   error_prover(const problem& p, const linear_structure& s, exact_means* exactly = nullptr);
 
   [[nodiscard]] error_bounds bound(const reported_state& told);
-  /// The same with exact residuals where there are any, which takes longer; otherwise nothing.
+  /// The same with exact residuals, which takes longer; nothing if these are not available.
   [[nodiscard]] std::optional<error_bounds> bound_closely(const reported_state& told);
 
-  /// Corrections with this residual, as long as each makes it smaller. Nothing where nothing
-  /// certain holds the structure. What is left over from doubles is kept for `bound`.
+  /// Corrections with this residual, as long as each makes it smaller. Nothing if the structure is not
+  /// certainly held. The remainders below double precision are kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
   [[nodiscard]] double extent() const { return system_.extent; }
@@ -98,14 +99,14 @@ class error_prover {
   void keep_proof();
 
  private:
-  /// A state, and what is known of it.
+  /// A state and its proof.
   struct known_state {
     int step = 0;  // from 1
     bool refined = false;
     long_vector u;
     long_residual left;
-    std::vector<element_value> values;    // what is read off its elements
-    std::optional<contact_set> contacts;  // of a refined one, where it is held for certain
+    std::vector<element_value> values;    // the results in its elements
+    std::optional<contact_set> contacts;  // of a refined state that is certainly held
   };
   /// The force of a support, how far off it may be, and by how much of rho.
   struct support_force {

@@ -1,4 +1,4 @@
-// What inside a beam's elements can be further off than at their ends.
+// Errors inside a beam's elements that can exceed those at their ends.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,17 +16,17 @@ double sum_of_sizes(const std::vector<double>& p) {
   return sum;
 }
 
-/// What rounding can do to a line's polynomial p: its coefficients above the cubic ones have at most 20
+/// The largest rounding error of a line's polynomial p: its coefficients above the cubic ones have at most 20
 /// roundings each, two rounds of Horner's rule and the conversion to Bernstein's form 6 a degree, and each of
-/// 26 bisections one a degree. Of a shape that has no cubic part left the largest value is at most that of
-/// its coefficients, and the parts of Hermite's functions that fit it to the ends at most a quarter a degree
+/// 26 bisections one a degree. Of a polynomial without a cubic part the largest value is at most that of its
+/// coefficients, and the parts of Hermite's functions that fit it to the ends at most a quarter a degree
 /// more.
 double rounding_in(const std::vector<double>& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// How far a polynomial in Bernstein's form can be above `top`; what is below `close` does not matter.
-/// `reached` is how far it certainly is: its first and last coefficients are values.
+/// The largest amount by which a polynomial in Bernstein's form exceeds `top`; amounts below `close` do not
+/// matter. `reached`: the amount that is certain, since its first and last coefficients are values.
 double above(std::vector<double> b, double top, double close, int bisections, double& reached) {
   const double beyond = std::ranges::max(b) - top;
   reached = std::max({reached, b.front() - top, b.back() - top});
@@ -40,7 +40,7 @@ double above(std::vector<double> b, double top, double close, int bisections, do
                   above(std::move(b), top, close, bisections - 1, reached));
 }
 
-/// How far the polynomial is from its printed extremes, and from what was handed out for its right end.
+/// The distance of the polynomial from its printed extremes, and from the reported value at its right end.
 double off_extremes(const std::vector<double>& p, const value_range& printed, double right_end) {
   constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
   const double close = rounding_in(p);

@@ -1,5 +1,5 @@
-// Cholesky's factor of a narrow band in numbers of 32 digits, for what doubles cannot factor; and how far
-// factors are from what they were made of.
+// Cholesky's factor of a narrow band in numbers of 32 digits, for matrices that doubles cannot factor; and
+// bounds on the error of factors.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@ using long_band = band_of_numbers<double_double>;
 /// May a band be factored so, by the time that takes?
 [[nodiscard]] bool can_be_factored_long(int order, int subdiagonals);
 
-/// A becomes L, with L L' = A but for rounding. False where a pivot is not positive, which is left in its
+/// A becomes L, with L L' = A up to rounding. False if a pivot is not positive; that pivot stays in its
 /// place.
 [[nodiscard]] bool factor(long_band& a);
 
 /// x becomes (L L')^-1 x.
 void solve_with(const long_band& l, std::span<double_double> x);
 
-/// If `factor` returned false: x with x' A x <= 0 but for rounding. Otherwise 0.
+/// If `factor` returned false: x with x' A x <= 0 up to rounding. Otherwise 0.
 [[nodiscard]] std::vector<double_double> suspect_in(const long_band& failed);
 
 /// A product of entries, exact where 32 digits are asked of doubles.

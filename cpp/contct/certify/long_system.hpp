@@ -24,12 +24,12 @@ inline constexpr double summation_slack = 0x1p-30;
 
 using long_pair = pair_in<double_double>;
 
-/// What acts at the end of a step.
+/// The loads at the end of a step.
 struct long_loads : loads_in<double_double> {
   int step = 0;  ///< at whose end they act, from 1; 0 in between
 };
 
-/// What is left of the loads of a step in a state.
+/// The residual of a step's loads in a state.
 struct long_residual {
   long_vector force;          ///< 0 at fixed dofs [dofs]
   std::vector<double> slack;  ///< how far off that may be [dofs]
@@ -43,8 +43,8 @@ struct element_value {
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
   bool moment = true;   ///< otherwise a shear
 
-  /// How far rounding can put it off: a coordinate, a length or a modulus comes in at most ten times, each
-  /// good to 2^-94.
+  /// The largest relative rounding error of the equations: a coordinate, a length or a modulus comes in at
+  /// most ten times, each good to 2^-94.
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };
 
@@ -66,7 +66,7 @@ struct long_system : equations<double_double> {
   double least_product = 1.0;
   /// Loads at the end of a step, from 1.
   std::function<long_loads(int step)> loads;
-  /// What is read off the elements under displacements u [dofs] at the end of a step.
+  /// The results in the elements under displacements u [dofs] at the end of a step.
   std::function<std::vector<element_value>(int step, std::span<const double_double> u)> element_values;
 
   /// sum += K u; and sizes_i += the sum of sqrt(K_ii K_jj) |u_j| over the entries of row i, unless `sizes` is
@@ -74,7 +74,7 @@ struct long_system : equations<double_double> {
   void add_product(std::span<const double_double> u, std::span<double_double> sum,
                    std::span<double> sizes = {}) const;
 
-  /// How deep a pair is beyond its face under `u`, and how far rounding can put that off.
+  /// The depth of a pair beyond its face under `u`, and the largest rounding error of that depth.
   [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const {
     return (pairs[pair].seen_in(u) - pairs[pair].face) * pairs[pair].surface;
   }
@@ -87,7 +87,7 @@ struct long_system : equations<double_double> {
 
   /// The load less K u and what pairs beyond their faces press with, whatever their statuses.
   [[nodiscard]] long_residual residual(std::span<const double_double> u, const long_loads& l) const;
-  /// The same, where what is needed was rounded once.
+  /// The same, with one rounding of the forces that the elements need.
   [[nodiscard]] long_residual residual_of_rounded(long_vector needed) const;
 
   /// Are there numbers, or products that the element formulas make of them, for which doubles are too coarse
@@ -100,7 +100,7 @@ struct long_system : equations<double_double> {
   void put_forces(long_residual& r) const;
 };
 
-/// The largest side of a structure; 0 where it has none.
+/// The largest side of a structure; 0 if it has none.
 [[nodiscard]] double extent_of(const model& m);
 
 /// `p` must outlive it.

@@ -60,7 +60,7 @@ class reference_solver::search {
     return answer;
   }
 
-  /// Where the structure is before any load.
+  /// Start from the undeformed structure.
   void start_undeformed() {
     std::fill(u_.begin(), u_.end(), 0.0L);
     for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
@@ -145,7 +145,7 @@ class reference_solver::search {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
     for (std::size_t i = 0; i < set_.size(); ++i)
-      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // what is left there is rounding
+      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // the remainder is rounding
   }
 
   /// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
@@ -218,8 +218,8 @@ class reference_solver::search {
     return -1.0L;
   }
 
-  /// Where E is least along u_ + alpha p, alpha > 0: its slope grows with alpha and bends where a pair
-  /// meets its face. Infinite when E falls for ever.
+  /// The alpha > 0 at which E is least along u_ + alpha p: the slope of E is piecewise linear in alpha, with
+  /// a kink where a pair meets its face. Infinite if E decreases without limit.
   [[nodiscard]] long double best_step(const numbers& p) const {
     numbers minus_kp(p.size());
     multiply_minus(stiffness_, p, minus_kp);
@@ -314,7 +314,7 @@ class reference_solver::search {
   numbers u_;                            // the last answer [rows]
   pair_set set_;                         // and its pressed pairs
   stiffness_factor factor_;
-  std::optional<std::vector<spring_at>> in_factor_;  // its springs; none where it failed
+  std::optional<std::vector<spring_at>> in_factor_;  // its springs; empty if it failed
   std::vector<double> scale_;                        // square roots of K's diagonal [rows]
   int factorisations_ = 0;
 };

@@ -10,12 +10,12 @@
 
 namespace contct {
 
-/// What was found for one load.
+/// The answer for one load.
 struct reference_answer {
   enum class outcome {
     found,           ///< the minimiser of the energy
     no_equilibrium,  ///< certainly: a rigid-body motion that nothing stops does work under the load
-    none_seen,       ///< the same as far as doubles see, which no proof confirms
+    none_seen,       ///< the same by doubles, without a proof
     not_found,       ///< too ill-conditioned, or out of iterations
   };
   outcome how = outcome::not_found;
@@ -52,18 +52,18 @@ class reference_solver {
   explicit reference_solver(const linear_structure& s);
   ~reference_solver();
 
-  /// The equilibrium under `load` [dofs]. Starts from the last answer, and once more from the undeformed
-  /// structure where that leads nowhere. `work` of this load decides, where it is known, what is driven.
+  /// The equilibrium under `load` [dofs]. Starts from the last answer, and again from the undeformed
+  /// structure if that fails. `work` of this load, if known, decides which rigid-body motion the load drives.
   [[nodiscard]] reference_answer solve(std::span<const double> load, const rigid_work& work = {});
 
   /// The next answer is looked for from the undeformed structure.
   void start_undeformed();
 
   /// Reciprocal condition, its diagonal scaled to 1, of the matrix that the last answer was solved with: K
-  /// and the springs that hold it. 0 where it has no factor.
+  /// and the springs that hold it. 0 if it has no factor.
   [[nodiscard]] double reciprocal_condition();
 
-  /// How many there have been so far.
+  /// The number of factorisations so far.
   [[nodiscard]] int factorisations() const;
 
  private:

@@ -1,5 +1,5 @@
-// K_A, the stiffness with the springs of some pairs: its factor, in doubles or where these are too short in
-// 32 digits, and a proof of its least eigenvalue (reference/certificate-proof.md).
+// K_A, the stiffness with the springs of some pairs: its factor, in doubles or in 32 digits if these are too
+// short, and a proof of its least eigenvalue (reference/certificate-proof.md).
 #pragma once
 
 #include <cmath>
@@ -25,8 +25,8 @@ struct stiffness_proof {
   std::variant<band_matrix, long_band> factor;  ///< L, in 32 digits where doubles are too short for it
 };
 
-/// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows
-/// of fixed dofs are those of the unit matrix.
+/// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows of fixed dofs are unit
+/// rows.
 class scaled_stiffness {
  public:
   /// `row_of`: the row of each dof in a band of `subdiagonals`; without these, by sparse columns, which takes
@@ -53,7 +53,8 @@ class scaled_stiffness {
   /// K_A x; `sizes` as long_system::add_product has them.
   [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
-  /// What least_eigenvalue finds has its proof kept, which takes one more band. Of sparse columns none is.
+  /// Keep the proof of the bound that least_eigenvalue finds, which takes one more band. No proof is kept for
+  /// sparse columns.
   void keep_proof() {
     keeps_proof_ = true;
     by_columns_ = !subdiagonals_;
@@ -75,7 +76,7 @@ class scaled_stiffness {
   bool factor_in_32_digits();
   [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
-  /// How far L L' is from S K_A S - shift I, in norm; nothing where there is no factor.
+  /// The norm of L L' - (S K_A S - shift I); nothing if there is no factor.
   template <class Number>
   [[nodiscard]] std::optional<double> error_of_band(double shift);
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
@@ -85,7 +86,7 @@ class scaled_stiffness {
   std::optional<int> subdiagonals_;
   bool by_columns_;
   long_vector springs_;  // [dofs] of the pairs taken in
-  /// What those between two dofs have beside the diagonal, by both.
+  /// The off-diagonal entries of springs between two dofs, by both dofs.
   std::map<std::pair<int, int>, double_double> beside_;
   std::vector<double> scale_;  // S [dofs]
   band_matrix factor_;

@@ -82,7 +82,7 @@ void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Vi
   }
 }
 
-/// How often each IF was true and false, worked out from what went into and came out of calls.
+/// How often each IF was true and false, derived from the inputs and outputs of calls.
 class branch_counts {
  public:
   /// Count one finished call: `c` with its outputs, `isep_before` as it went in.
@@ -108,7 +108,7 @@ class branch_counts {
 };
 
 /// How many numbers lie between the two that an IF compares. The two zeros compare equal: none lies between
-/// them. The largest count there is where one of them is NaN.
+/// them. The largest possible count if one of them is NaN.
 template <class Real>
 [[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
@@ -134,8 +134,8 @@ inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t 
   least = decision{b, b == branch::no_events ? -1 : static_cast<int>(pair), outcome, ulps};
 }
 
-/// The decision of a call of a kernel of `real_bytes` that was taken by least, among those of which `counts`
-/// says so, by branch and pair from 0; IF (ISEP(I).EQ.1) if there is no other, and nothing if there is none.
+/// The decision of a call of a kernel of `real_bytes` with the smallest margin, among those that `counts`
+/// accepts, by branch and pair from 0; IF (ISEP(I).EQ.1) if there is no other, and nothing if there is none.
 [[nodiscard]] std::optional<decision> narrowest_decision(
     const answered_call& c, int real_bytes, const std::function<bool(branch, std::size_t)>& counts);
 

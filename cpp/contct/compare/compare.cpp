@@ -48,7 +48,7 @@ std::string place_words(const mismatch& d) {
          (d.field == "text" ? "" : ")");
 }
 
-/// "0x1p-1 = 0.5", where it is a number.
+/// "0x1p-1 = 0.5", for a number.
 std::string value_words(const mismatch& d, const std::string& value) {
   if (d.field != "SS" && d.field != "SMIN") return value;
   return value + " = " + short_decimal(std::strtod(value.c_str(), nullptr));
@@ -61,7 +61,7 @@ std::string ulp_words(const mismatch& d) {
   return std::string(" (") + std::to_string(d.ulps) + " ULP)";
 }
 
-/// Where another answer differs from the leader's, as far as this tells which IF went another way.
+/// The differences of another answer from the leader's that show which IF was decided differently.
 struct differences {
   differences(const answered_call& c, const call_outputs& other)
       : of_smin(!same_bits(c.c.smin, other.smin)), no_event(c.c.smin == 1.0) {
@@ -220,7 +220,7 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                      const std::function<void(std::int64_t)>& progress, fault_finder before) {
   replay_report report;
   recorded_call c;
-  // A trace of f2c's may be replayed where there is no f2c, so its name alone says that the zeros before its
+  // A trace of f2c may be replayed without f2c installed, so its name alone tells that the zeros before its
   // decimal points are missing.
   follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
   asked.faults = std::move(before);

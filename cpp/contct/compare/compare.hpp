@@ -18,7 +18,7 @@
 
 namespace contct {
 
-/// What a kernel gives back, as far as it is compared.
+/// The compared part of a kernel's answer.
 template <class Real>
 struct answer {
   Real smin;
@@ -26,7 +26,7 @@ struct answer {
   std::span<const int> isep;
 };
 
-/// Where two answers differ first: SMIN, then SS, then ISEP, then the text.
+/// The first difference of two answers: SMIN, then SS, then ISEP, then the text.
 struct mismatch {
   std::string field;       ///< "SMIN", "SS", "ISEP" or "text"
   int index = 0;           ///< pair, from 1, for SS and ISEP; line, from 1, for the text; else 0
@@ -36,9 +36,9 @@ struct mismatch {
 };
 
 /// The narrowest decision of the leader's call on which the difference of another answer to it depends, given
-/// what comes before it and is equal: of SS(i) the IFs that choose it; of SMIN, where no SS differs, those
-/// that choose the smallest; of ISEP(i) and the text what follows from SMIN and SS. None where no IF went
-/// another way.
+/// what comes before it and is equal: for SS(i) the IFs that choose it; for SMIN, if no SS differs, those
+/// that choose the smallest; for ISEP(i) and the text the decisions from SMIN and SS. Nothing if every IF was
+/// decided alike.
 [[nodiscard]] std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes,
                                                          const call_outputs& other);
 
@@ -88,7 +88,7 @@ std::optional<mismatch> compare_answers(const answer<Real>& leader, const answer
   return first;
 }
 
-/// How unit-26 text is compared.
+/// How unit 26 text is compared.
 enum class text_equality {
   bytes,   ///< byte for byte
   meaning  ///< word by word, line by line; .25 is 0.25: libf2c leaves that zero out
@@ -131,17 +131,17 @@ struct follower_answer {
   bool failed = false;          ///< it gave no answer
 };
 
-/// How near a kernel came that is not equal to the bit, over all calls.
+/// The differences of a kernel that is not equal to the bit, over all calls.
 struct nearness {
   std::uint64_t most_ulps = 0;  ///< of SMIN and SS
   bool same_events = true;      ///< ISEP was equal in all calls, and every call was answered
   bool always_answered = true;
 };
 
-/// Asks a kernel the calls of a leader, counts what is compared, and keeps the first mismatch.
+/// Repeats the calls of a leader with a kernel, counts the compared values, and keeps the first mismatch.
 class follower {
  public:
-  /// `k` must outlive this object. The leader's facts say what its calls are: precision, text.
+  /// `k` must outlive this object. The leader's facts give the precision and the text of its calls.
   follower(kernel_facts leader, kernel& k);
 
   /// Ask a call that the leader answered, and compare SMIN, all of SS and all of ISEP; the text too, where
@@ -159,7 +159,7 @@ class follower {
   /// The outputs of the last call, and where they differ first from the leader's.
   [[nodiscard]] const call_outputs& answer() const { return answer_; }
   [[nodiscard]] const std::optional<mismatch>& difference() const { return difference_; }
-  /// How far that answer is from the leader's.
+  /// The difference of that answer from the leader's.
   [[nodiscard]] const follower_answer& last() const { return last_; }
   [[nodiscard]] bool answered() const { return !last_.failed; }
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
@@ -192,16 +192,15 @@ struct replay_report {
 /// Can a kernel with these facts be compared with the trace? Not with another precision or rule.
 [[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
 
-/// Who is meant where no kernel is named: the 1989 code in the trace's precision, or the corrected rule.
+/// The kernel that is used if none is named: the 1989 code in the trace's precision, or the corrected rule.
 [[nodiscard]] inline std::string usual_kernel(const trace_header& h) {
   if (h.rule == contact_rule::corrected) return "corrected";
   return h.real_bytes == 4 ? "fortran-r4" : "fortran";
 }
 
-/// Put every call that `calls` still has to `k`, in order, and compare to the bit; the text too, where
-/// both have it, by what it means where one of them is f2c. `progress` gets the number of calls done, after
-/// each. `before` has the kernel's answers to earlier traces. Throws input_error where the trace is
-/// malformed.
+/// Replay all remaining calls of `calls` with `k`, in order, and compare to the bit; the text too, if both
+/// have it, by meaning if one of them is f2c. `progress` gets the number of calls done, after each. `before`
+/// has the kernel's answers to earlier traces. Throws input_error where the trace is malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr,
                                    fault_finder before = {});

@@ -6,7 +6,7 @@
 namespace contct {
 namespace {
 
-/// What went into the DO 10 loop for pair `i`, and GAP.
+/// The inputs of the DO 10 loop for pair `i`, and GAP.
 template <class Real>
 explained_pair start_of(const call<Real>& c, std::span<const int> isep_before, std::size_t i) {
   const int dof = c.dof.dof_of(c.id[i]) - 1;

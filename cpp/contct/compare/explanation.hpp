@@ -93,12 +93,12 @@ inline constexpr std::array all = {arguments,
 enum class why_toggled {
   not_toggled,
   winner,       ///< its s is SMIN
-  same_moment,  ///< it is at its face at SMIN too, but for rounding
+  same_moment,  ///< it is at its face at SMIN too, up to rounding
   too_early,    ///< within EPSMUL, and not yet at its face
   by_mark,      ///< it has no event at all: its mark, s = 1, lies within EPSMUL of SMIN
 };
 
-/// How one IF went for one pair.
+/// The outcome of one IF for one pair.
 struct taken_branch {
   bool reached = false;
   bool outcome = false;

@@ -31,7 +31,7 @@ listing_line line_of(std::size_t suspect) {
 constexpr std::int64_t most_calls = 1000;
 constexpr std::int64_t most_pairs = 500'000;  // of all calls that are looked at: their time
 constexpr double number_bits = 64.0;          // to tell a number that follows no rule
-constexpr double always_bits = 30.0;          // where what goes wrong every time did not
+constexpr double always_bits = 30.0;          // for a fault that must occur every time and did not
 constexpr double unexplained_bits = 200.0;    // for a value that the line cannot have made wrong
 
 /// log2 of the number of ways to choose `k` of `n`.
@@ -53,8 +53,8 @@ void explain_if(suspect& s, double left) {
   explain_one(s, 0.0);
 }
 
-/// What a wrong number may have in common with the one before it: itself, and its ratio to the right one, or
-/// the ratio alone.
+/// The property that a wrong number may share with the one before it: its value or its ratio to the correct
+/// one, or the ratio alone.
 enum class rule { any, ratio };
 
 /// The bits that tell a wrong number in the place of a right one: few where it follows a rule.
@@ -74,7 +74,7 @@ double value_bits(suspect& s, Real got, Real right, double for_rounding, rule re
   return number_bits;
 }
 
-/// What the listing makes of one pair if its dof is `dof`, from 0: NaN where the call has no such dof.
+/// The listing's SS of one pair if its dof is `dof`, from 0: NaN if the call has no such dof.
 template <class Real>
 struct pair_values {
   Real gap, d_star, sschk, event, delta_first, at_face, moving,
@@ -102,8 +102,8 @@ struct pair_values {
   [[nodiscard]] Real without_first() const { return is_stationary ? at_face : moving; }
 };
 
-/// "MAKING" and "BREAKING" by pair, as the text of a kernel tells it; pairs of more than three digits are not
-/// told.
+/// "MAKING" and "BREAKING" by pair, as the text of a kernel reports it; pairs of more than three digits are
+/// not reported.
 std::vector<std::optional<change>> told_by(const std::string& text, std::size_t pairs) {
   std::vector<std::optional<change>> told(pairs);
   change what = change::make;
@@ -289,7 +289,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   explain_one(suspects_[at(l::if_check_positive, wrong_product)], 1.0);
 }
 
-/// SS that were left as they came: from where, and what the pair before them did.
+/// SS that kept their initial values: their source, and the branch of the pair before them.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, const answered_call& right, std::span<const double> ss) {
   const std::size_t pairs = ss.size();
@@ -457,7 +457,7 @@ std::optional<faulty_line> fault_finder::found() const {
   constexpr std::string_view compared[] = {"DTEST", "ABS(GAP)", "SSCHK", "DIFF"};
   const std::size_t ifs[] = {at(l::if_no_response), at(l::if_stationary), at(l::if_check_positive),
                              at(l::if_within)};
-  // What is swapped, and a loop that begins, ends or is left at another place, goes wrong every time.
+  // Swapped arguments, and a loop with another start, end or exit, are wrong every time.
   const std::size_t always[] = {at(l::arguments),          at(l::common),
                                 at(l::gap, wrong_sign),    at(l::do_10),
                                 at(l::do_10, last_pair),   at(l::do_30),
@@ -474,7 +474,7 @@ std::optional<faulty_line> fault_finder::found() const {
     const suspect& s = suspects_[name];
     if (s.explained == 0) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
-    // What IF (DIFF.LT.EPSMUL) does wrong follows from DIFF, and what IF (ISEP(I).EQ.1) does, from ISEP.
+    // The errors of IF (DIFF.LT.EPSMUL) follow from DIFF, and those of IF (ISEP(I).EQ.1) from ISEP.
     if (name == at(l::if_within))
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (name != at(l::if_separated))
@@ -504,7 +504,7 @@ std::string cited(const listing_line& line) {
   return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
 }
 
-/// Whose value an SS is: that of a branch of the listing, where it is one.
+/// The branch of the listing that gives the value of an SS, if there is one.
 template <class Real>
 std::string way_words(const pair_values<Real>& p, Real s) {
   if (p.responds && !p.is_stationary && same_bits(s, p.moving)) return cited(l::moving);

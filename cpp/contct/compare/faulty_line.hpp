@@ -1,5 +1,5 @@
-// Which line of the listing is at fault in another kernel, by all of its answers: the line that explains
-// every value that differs, with the least that has to be said beside it.
+// Finds the faulty line of the listing in another kernel from all of its answers: the line that explains
+// every value that differs, with the shortest description.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace contct {
 
-/// A fault that one line of the listing can have. What it costs to describe the answers by it, in bits: which
-/// of the times that the line was reached it went wrong, and the wrong values, as far as they follow no rule.
+/// A fault that one line of the listing can have. Its cost is the length, in bits, of a description of the
+/// answers: at which executions the line went wrong, and the wrong values that follow no rule.
 struct suspect {
   std::int64_t reached = 0, wrong = 0;
   std::int64_t explained = 0;  ///< values that differ
@@ -35,13 +35,14 @@ struct faulty_line {
 /// "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 12 values that differ, in 5 calls".
 [[nodiscard]] std::string words_of(const faulty_line& f);
 
-/// Of the first pair that differs in SS, else in ISEP: what its branches are decided by, and the line that
-/// either kernel took; of the other kernel as far as its value tells it. Empty where neither differs.
+/// For the first pair that differs in SS, else in ISEP: the numbers that decide its branches, and the line
+/// that each kernel took; of the other kernel only if its value shows it. Empty if neither differs.
 [[nodiscard]] std::string lines_taken(const answered_call& c, int real_bytes, const call_outputs& other,
                                       const std::string& leader, const std::string& follower);
 
-/// Looks at answers to calls of one precision. A stage of the listing is judged by what the stages before it
-/// gave in the other kernel: SMIN by its SS, ISEP by its SS and SMIN, the text where all of these are right.
+/// Looks at answers to calls of one precision. A stage of the listing is judged from the other kernel's
+/// results of the stages before it: SMIN by its SS, ISEP by its SS and SMIN, the text where all of these are
+/// right.
 class fault_finder {
  public:
   fault_finder();
@@ -49,7 +50,7 @@ class fault_finder {
   /// Note the answer of another kernel, equal or not. Of equal and of differing calls the first thousand
   /// count.
   void note(const answered_call& c, int real_bytes, const call_outputs& other, bool equal);
-  /// None where nothing differs, or nothing that a line explains.
+  /// Nothing if there is no difference, or none that a line explains.
   [[nodiscard]] std::optional<faulty_line> found() const;
   /// Of all answers noted, as reference/course/port/hint.py computes it.
   [[nodiscard]] std::uint32_t digest() const { return digest_; }

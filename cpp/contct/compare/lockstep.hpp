@@ -24,7 +24,7 @@ class lockstep {
   void put(const answered_call& c);
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
-  /// What was compared, of all followers together.
+  /// The compared values of all followers together.
   [[nodiscard]] tally compared() const;
   /// The first call in which a follower did not answer as the leader.
   [[nodiscard]] const std::optional<mismatch_report>& first() const;

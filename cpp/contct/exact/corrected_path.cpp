@@ -141,8 +141,8 @@ class corrected_path {
     return 0;
   }
 
-  /// How far along `v` the first separated pair is at its face, or the first one in contact, which no
-  /// rigid-body motion moves. Nothing where none ever is.
+  /// The distance along `v` to the first event: a separated pair reaches its face, or one in contact, which
+  /// no rigid-body motion moves, leaves it. Nothing if there is no event.
   [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
     std::optional<rational> way;
     for (std::size_t i = 0; i < at_.closed.size(); ++i) {
@@ -154,7 +154,8 @@ class corrected_path {
     return way;
   }
 
-  /// Along the rigid-body motion that the load drives, to the first face. False where none stands in its way.
+  /// Move along the rigid-body motion that the load drives, to the first face. False if there is none on the
+  /// way.
   bool snap() {
     fill_in();
     const rational_vector& motion = response_[0];
@@ -187,8 +188,8 @@ class corrected_path {
     return goes_on;
   }
 
-  /// By the springs' own law where they hold the structure, so that no number grows with the path behind it;
-  /// until all of u is asked for, at the pairs alone.
+  /// Uses the law of the springs if they hold the structure, so that numbers do not grow with the length of
+  /// the path; only at the pairs until all of u is requested.
   void move_on(const rational& way) {
     at_.fraction += way;
     if (!at_.solver().free_motions().empty()) {

@@ -40,7 +40,7 @@ full_load_state state_of(const exact_step_end& end) {
   return s;
 }
 
-/// None where K does no negative work on the displacement.
+/// Nothing if K does no negative work on the displacement.
 std::optional<negative_work> work_on(const std::vector<double>& motion, const exact_problem& p) {
   negative_work w;
   for (const double x : motion) w.motion.push_back(binary_value(x));
@@ -49,7 +49,7 @@ std::optional<negative_work> work_on(const std::vector<double>& motion, const ex
   return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
 }
 
-/// Nothing where the problem is larger than that.
+/// Nothing if the problem is larger than that.
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
   try {

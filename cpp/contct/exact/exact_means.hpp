@@ -10,9 +10,8 @@
 
 namespace contct {
 
-/// Where numbers of a path in doubles are asked of rational ones, structures are no larger, nor their bands
-/// wider, nor numbers of the path longer, than this: it would take longer than anybody waits who did not ask
-/// for exact numbers.
+/// Limits on structures, bandwidths and lengths of numbers for the use of rational numbers on a path in
+/// doubles: beyond these it takes too long for a run in which exact numbers were not requested.
 inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
@@ -30,9 +29,9 @@ struct definiteness {
 };
 
 /// The dofs that rigid-body motions of K move are found modulo a prime, and the motions confirmed exactly. K
-/// is semidefinite where it is definite on the others, which the bound on its least eigenvalue proves. Where
-/// its factor fails, that shows a displacement, of which an exact sum decides. Throws std::runtime_error as
-/// lifted_solver::factor does.
+/// is semidefinite if it is definite on the others, which the bound on its least eigenvalue proves. If the
+/// factorisation fails, it gives a displacement whose work is decided by an exact sum. Throws
+/// std::runtime_error as lifted_solver::factor does.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
 /// For a path in doubles; a problem that is too large gets no decision. `p` must outlive what is returned.

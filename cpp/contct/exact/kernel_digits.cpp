@@ -39,7 +39,7 @@ digit_counter::digit_counter(const problem& p, const exact_path& exactly)
     }
     for (const rational& force : s.force) largest_force_ = std::max(largest_force_, rational(abs(force)));
   }
-  // What vanishes by symmetry has no size of its own.
+  // Numbers that vanish by symmetry have no size.
   const double span = extent_of(p.geometry);  // 0 of a matrix, which has one kind of dof
   const rational length = span > 0.0 ? binary_value(span) : rational(1);
   const rational slope_of_w = largest_[0] / length;
@@ -91,9 +91,8 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
   return kept;
 }
 
-/// Does the event happen at the end of a step, where its pair exactly stands at its face, without force? It
-/// may then be of that step or of the next one, or not be at all. So may what is toggled where a mechanism is
-/// found.
+/// Does the event happen at the end of a step, with its pair exactly at its face, without force? It may then
+/// belong to that step or to the next one, or be absent. The same holds for toggles at a mechanism.
 bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const {
   const auto at = std::min(exactly_.steps.size() - 1, static_cast<std::size_t>(e.place));
   const path_status status = exactly_.steps[at].status;

@@ -1,4 +1,4 @@
-// How far a kernel's own path is from the exact one: its events, and how many digits are right.
+// The accuracy of a kernel's path, compared with the exact one: its events, and the number of correct digits.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace contct {
 
-/// What a kernel's path came to, beside the exact one.
+/// The accuracy of one kernel's path.
 struct kernel_digits {
   std::string name;
   bool same_events = true;
-  std::string first_difference;  ///< of events or ends, for people; empty where there is none
+  std::string first_difference;  ///< of events or ends, as text; empty if there is none
   /// Correct digits, 0 to 16, of the worst displacement, share of an event and force, at the ends of the
   /// steps that both paths reached. Errors are relative to the largest of their kind on the path (a slope's
   /// at least to the largest deflection over the structure's length). Shares are those of events that are the
   /// same.
   double digits = 16.0, event_digits = 16.0, force_digits = 16.0;
-  /// Ends of steps that were compared; where there is none, digits and force_digits say nothing.
+  /// The number of compared ends of steps; if 0, digits and force_digits mean nothing.
   std::size_t steps = 0;
 };
 

@@ -30,7 +30,7 @@ void subtract_product(integer& r, const integer& a, std::uint64_t x) {
   r -= a * x;
 }
 
-/// numerator/denominator = y modulo m, both at most `bound`; false where there is none. Euclid's algorithm,
+/// numerator/denominator = y modulo m, both at most `bound`; false if there is none. Euclid's algorithm,
 /// stopped halfway (Wang 1981).
 bool fraction_of(const integer& y, const integer& m, const integer& bound, integer& denominator) {
   integer r0 = m;
@@ -144,8 +144,7 @@ class lifted_solver::lifting {
     return r;
   }
 
-  /// The x = n / d of which these are the digits, with one denominator for all; false where there is none
-  /// yet.
+  /// The x = n / d of which these are the digits, with one denominator for all; false if there is none yet.
   bool reconstruct(rational_vector& x) const {
     const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
     integer denominator = 1;
@@ -223,7 +222,7 @@ rational lifted_solver::entry(std::size_t row, int column, const rational& k) co
   return between == beside_.end() ? k : rational(k + between->second);
 }
 
-/// False where the matrix modulo this prime is not what it is.
+/// False if this prime is unsuitable for the matrix.
 bool lifted_solver::factor_modulo(std::uint64_t prime) {
   const std::size_t n = k_.size();
   const std::size_t width = band_ + 1;

@@ -16,8 +16,8 @@ namespace contct {
 /// All entries of a symmetric matrix, row by row.
 using rational_rows = sparse_rows<rational>;
 
-/// What is added to the diagonal at a dof; or stands between two dofs, where the matrix has an entry, if only
-/// 0.
+/// A stiffness added to the diagonal at a dof; or a spring between two dofs, for which the matrix has an
+/// entry, possibly 0.
 struct added_spring {
   int dof;
   rational stiffness;
@@ -41,7 +41,7 @@ class lifted_solver {
   [[nodiscard]] const std::vector<rational_vector>& free_motions() const { return free_motions_; }
 
   /// Is a dof neither fixed nor, by its missing pivot, the amount of a rigid-body motion? K + springs is
-  /// semidefinite where it is positive definite on these.
+  /// semidefinite if it is positive definite on these.
   [[nodiscard]] bool has_pivot(std::size_t dof) const { return fixed_[dof] == 0 && free_[dof] == 0; }
 
   /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With rigid-body
@@ -97,7 +97,7 @@ class lifted_solver {
   std::map<std::pair<int, int>, rational> beside_;  // of springs between two dofs, by both
   field field_;                                     // of the last factorisation
   std::vector<std::uint64_t> factor_;               // L and D of L D L' modulo the prime, as a band
-  std::vector<std::uint64_t> inverse_;              // of D; 0 where there is no pivot
+  std::vector<std::uint64_t> inverse_;              // of D; 0 without a pivot
   std::vector<char> free_;                          // dofs without a pivot
   std::vector<whole_row> whole_;                    // [dofs]; empty without a pivot
   std::vector<std::uint64_t> unscale_;              // 1 / scale of each

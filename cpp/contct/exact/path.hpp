@@ -41,14 +41,14 @@ struct exact_problem : equations<rational> {
 /// Of its band.
 [[nodiscard]] int subdiagonals(const exact_problem& p);
 
-/// What happened at one share of a step's load.
+/// The events at one share of a step's load.
 struct exact_increment {
   rational fraction;
   std::vector<event> events;  ///< in order of pairs; none at the end of a step
   bool snaps = false;         ///< a rigid-body motion to the next face, at constant load, came after them
 };
 
-/// Where a step ended, or where the path stopped.
+/// The final state of a step, or of the path.
 struct exact_step_end {
   std::vector<exact_increment> increments;
   rational fraction;             ///< of the step's load
@@ -60,7 +60,7 @@ struct exact_step_end {
 };
 
 /// Why there is no equilibrium under the full load of a step: K and the pairs in contact leave this motion
-/// free, no other pair stands in its way, and the load does work on it.
+/// free, no other pair stops it, and the load does work on it.
 struct mechanism_proof {
   rational_vector motion;  ///< its largest number 1 or -1 [dofs]
   rational work;           ///< of the step's full load, positive
@@ -68,7 +68,7 @@ struct mechanism_proof {
 
 struct exact_path {
   path_status status = path_status::solved;  ///< of the first step that is not solved
-  /// Behind one that is not solved there are only steps from zero, and what goes on from these.
+  /// After a step that is not solved, only steps from zero and their continuations follow.
   std::vector<exact_step_end> steps;
   std::optional<mechanism_proof> mechanism;  ///< of the true path's first step that ends in one
 
@@ -79,13 +79,13 @@ struct exact_path {
   }
 };
 
-/// Does the path go on with step `number`, from 0, behind these?
+/// Does the path continue with step `number`, from 0, after these?
 [[nodiscard]] inline bool goes_on(const exact_path& path, const exact_problem& p, std::size_t number) {
   return number < p.steps.size() &&
          (path.steps.empty() || path.steps.back().status == path_status::solved || p.steps[number].from_zero);
 }
 
-/// Told before every increment: the step and the increment, from 1, and the share reached.
+/// Called before every increment: the step and the increment, from 1, and the share reached.
 using exact_progress = std::function<void(int step, int increment, const rational& fraction)>;
 
 /// The curve of equilibria u(t) under the loads, event by event (reference/corrected-rule.md). Events exactly
@@ -93,11 +93,11 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 /// limit of those on a ground that gets ever softer. Throws too_long.
 [[nodiscard]] exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell = {});
 
-/// What the listing's statements decide, with its constants as the decimals that are printed, in the 1989
-/// driver: springs gather their forces increment by increment. Throws too_long.
+/// The path of the listing's statements in exact arithmetic, with its constants as the printed decimals, in
+/// the 1989 driver: springs gather their forces increment by increment. Throws too_long.
 [[nodiscard]] exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell = {});
 
-/// What CONTCT is told of a pair.
+/// The inputs of CONTCT for a pair.
 struct listing_pair {
   rational c;       ///< position of its face
   rational d;       ///< D there
@@ -106,7 +106,7 @@ struct listing_pair {
   int surface;      ///< face_above or face_below
 };
 
-/// What CONTCT answers.
+/// The outputs of CONTCT.
 struct listing_answer {
   rational_vector s;         ///< SS [pairs]
   rational s_min = 1;        ///< SMIN

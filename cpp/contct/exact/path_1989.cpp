@@ -63,7 +63,7 @@ rational path_1989::ask(const rational_vector& d_star) {
   return std::move(answer.s_min);
 }
 
-/// Ask CONTCT once more and apply what it answers.
+/// Call CONTCT once more and apply its answer.
 exact_increment path_1989::next() {
   rational_vector d_star = at_.response();
   for (rational& d : d_star) d *= 1 - at_.fraction;  // under the residual load

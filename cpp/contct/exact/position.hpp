@@ -26,7 +26,7 @@ class position {
   [[nodiscard]] rational_vector moved(const rational_vector& b, const rational_vector& settled) const;
   /// The response to the step's whole load.
   [[nodiscard]] rational_vector response() const { return moved(increment_, settlement_); }
-  /// How fixed dofs move in the step, less how far faces move there.
+  /// The movement of fixed dofs in the step, minus that of the faces there.
   [[nodiscard]] const rational_vector& settlement() const { return settlement_; }
   /// The displacements at which the springs of the pairs in contact hold the structure under the load at the
   /// start of the step.
@@ -59,7 +59,7 @@ class position {
   void unload();
   [[nodiscard]] rational_vector reactions(const rational_vector& displacement,
                                           const rational_vector& forces) const;
-  /// How far the faces at a dof are moved by now.
+  /// The movement of the faces at a dof so far.
   [[nodiscard]] rational moved_face(std::size_t dof) const {
     return before_.moved[dof] + fraction * (problem.steps[step].moved[dof] - before_.moved[dof]);
   }

@@ -24,7 +24,7 @@ struct dof_layout {
 inline constexpr int separated = 1;
 inline constexpr int in_contact = -1;
 
-/// ISURF: the side of the structure on which a pair's face stands.
+/// ISURF: the side of the structure on which a pair's face is.
 inline constexpr int face_above = 1;
 inline constexpr int face_below = -1;
 
@@ -71,11 +71,11 @@ struct call {
 struct answered_call {
   call<double> c;                             ///< inputs and outputs; c.isep is already toggled
   std::span<const int> isep_before;           ///< ISEP as it went in [pairs]
-  std::optional<std::string_view> text = {};  ///< unit 26; nothing where there is none, or it is not compared
+  std::optional<std::string_view> text = {};  ///< unit 26; nothing if there is none, or it is not compared
   std::int64_t number = 0;                    ///< on its path or in its trace, from 1
 };
 
-/// What goes into one call, owned. dd and dtest may be longer than the dofs in use.
+/// The inputs of one call, owned. dd and dtest may be longer than the dofs in use.
 template <class Real>
 struct call_inputs {
   std::vector<Real> dd, dtest;       ///< [dofs]
@@ -91,14 +91,15 @@ struct call_inputs {
 /// The value of SMIN and SS before a call, which every kernel must overwrite.
 inline constexpr double not_an_answer = -7.0;
 
-/// What comes out of one call, owned.
+/// The outputs of one call, owned.
 struct call_outputs {
   double smin = 0.0;
   std::vector<double> ss;  ///< [pairs]
   std::vector<int> isep;   ///< [pairs]
   std::string text;        ///< unit 26, of a kernel that has text
 
-  /// Ready for a call with `in`: outputs hold what no kernel may leave behind, ISEP what goes in.
+  /// Ready for a call with `in`: outputs hold values that no kernel may leave there, and ISEP the statuses
+  /// before the call.
   call<double> prepare(const call_inputs<double>& in) {
     ss.assign(in.pairs(), not_an_answer);
     isep = in.isep;

@@ -43,14 +43,14 @@ constexpr bool is_static = false;
 
 constexpr std::string_view ready_word = "ready";
 
-/// An answer that begins with this says in its first line what the kernel did that it must not.
+/// An answer that begins with this names a forbidden action of the kernel in its first line.
 constexpr std::string_view fault_word = "fault ";
 
 [[noreturn]] void fail_to_start(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// Close the parent's files but for the channel, drop its unprinted text, and reset its signal handlers: a
+/// Close the parent's files except the channel, drop its unprinted text, and reset its signal handlers: a
 /// crash of the child must end it. No core dumps.
 void detach_from_parent(int channel) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -87,8 +87,8 @@ enum class sent { whole, late, gone };
 class child_process {
  public:
   /// Fork; the child runs `body`, which gets its end of the channel and must not return to the caller's code:
-  /// when it returns, the child ends. Nothing else that is open in the parent is open in the child; what
-  /// it prints goes to standard error.
+  /// when it returns, the child ends. No other file of the parent is open in the child; its printed output
+  /// goes to standard error.
   explicit child_process(const std::function<void(int channel)>& body) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -123,7 +123,7 @@ class child_process {
     return sent::whole;
   }
 
-  /// Append what comes next, at least a byte, to `message`.
+  /// Append the next bytes, at least one, to `message`.
   [[nodiscard]] sent receive(std::string& message, clock::time_point deadline) const {
     char block[1 << 14];
     while (true) {
@@ -174,8 +174,8 @@ bool is_whole_answer(std::string_view text) {
 /// A kernel that answers in a child process: one call as trace text in, one answer out.
 class kernel_in_child final : public kernel {
  public:
-  /// The child runs `body`, which first `loads` something, and sends `ready_word` or what is wrong; then this
-  /// throws std::invalid_argument.
+  /// The child runs `body`, which first `loads` something, and sends `ready_word` or an error message; after
+  /// an error this throws std::invalid_argument.
   kernel_in_child(kernel_facts facts, std::function<void(int channel)> body, bool loads,
                   const outside_limits& limits)
       : facts_(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {
@@ -211,7 +211,7 @@ class kernel_in_child final : public kernel {
 
   [[nodiscard]] clock::time_point deadline() const { return clock::now() + limits_.patience; }
 
-  /// Make the child. Returns what is wrong with what it loads.
+  /// Make the child. Returns the error of loading; empty if there is none.
   std::string start() {
     child_.emplace(body_);
     if (!loads_) return "";
@@ -248,7 +248,7 @@ class kernel_in_child final : public kernel {
     fail(words);
   }
 
-  /// What comes before anything is asked would be taken for the answer.
+  /// Output before the first call would be taken for its answer.
   void refuse_stray_answer() {
     answered_.clear();
     if (child_->receive(answered_, clock::now()) == sent::whole) fail("answered without being called");
@@ -324,8 +324,7 @@ void say(int channel, std::string_view words) {
   }
 }
 
-/// What the child of a plug-in does until its channel is closed: wait for a call, make it, answer
-/// it.
+/// The loop of a plug-in's child until its channel is closed: wait for a call, execute it, send the answer.
 void answer_calls(kernel_procedure* ask, int channel) {
   char block[1 << 14];
   std::string asked;
@@ -341,8 +340,8 @@ void answer_calls(kernel_procedure* ask, int channel) {
   }
 }
 
-/// What the child of a plug-in does: load the library, say `ready_word` or what is wrong with it, and answer
-/// calls until its end of the channel is closed.
+/// The work of a plug-in's child: load the library, send `ready_word` or an error message, and answer calls
+/// until its end of the channel is closed.
 void host_plugin(const std::string& path, int channel) {
   if (is_static)
     return say(channel,

@@ -13,7 +13,7 @@
 namespace contct {
 
 /// How long an external kernel may take for one call, and after how many failures it is given up. A crash
-/// costs a millisecond, and many may show what they have in common; a timeout costs the user `patience`.
+/// costs a millisecond, and many crashes may show a common cause; a timeout costs the user `patience`.
 struct outside_limits {
   std::chrono::milliseconds patience{10'000};
   int most_failures = 1000;
@@ -30,14 +30,15 @@ struct outside_limits {
 
 using kernel_procedure = decltype(contct_kernel);
 
-/// Throws std::invalid_argument where a function may not have that name, as where another kernel has it.
+/// Throws std::invalid_argument if a function may not have that name, for example because another kernel has
+/// it.
 void refuse_name_of_function(const std::string& name);
 
-/// Put a call to `procedure`, which gets copies of all arrays, between bytes that it must not touch. Throws
-/// kernel_failure, "changed its input DD", where it wrote what it must not; `c` is then as it was.
+/// Make a call of `procedure`, which gets copies of all arrays, between guard bytes. Throws kernel_failure,
+/// "changed its input DD", if it wrote outside its outputs; `c` is then as it was.
 void put_guarded(call<double>& c, kernel_procedure* procedure);
 
-/// A kernel that is put each call by put_guarded.
+/// A kernel that makes each call by put_guarded.
 [[nodiscard]] std::unique_ptr<kernel> make_function_kernel(const std::string& name,
                                                            kernel_procedure* procedure);
 

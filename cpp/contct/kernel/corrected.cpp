@@ -35,7 +35,7 @@ template <class Number, class Take>
   return start;
 }
 
-/// Rules 1 and 2: s of each pair, or 1 where it has no event ahead; `dof(i)`: the dof of pair i, from 0. A
+/// Rules 1 and 2: s of each pair, or 1 if it has no event ahead; `dof(i)`: the dof of pair i, from 0. A
 /// division in vain costs less than a wrongly guessed branch, and a loop of its own lets the compiler divide
 /// for two pairs at a time.
 template <class Dof>

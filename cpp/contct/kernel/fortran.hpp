@@ -46,9 +46,9 @@ void contct(call<double>& c, const compiled_listing& by = gfortran);
 /// on.
 void forget_unit_26();
 
-/// Unit 26 while this object lives: what the listing writes is kept and handed back. One at a time
-/// for each run-time library of a process: a second one throws std::logic_error. The file behind it is
-/// unlinked at once, so nothing is left behind however the process ends.
+/// Unit 26 while this object lives: the listing's text is kept and returned. One at a time for each run-time
+/// library of a process: a second one throws std::logic_error. The file behind it is unlinked at once, so
+/// nothing is left behind however the process ends.
 class unit_26 {
  public:
   explicit unit_26(compiled_listing& of = gfortran);
@@ -60,7 +60,7 @@ class unit_26 {
   [[nodiscard]] std::string take();
 
  private:
-  // A path takes each call's text: one read of what is new. Emptying the file takes several times as long.
+  // A path takes each call's text by one read of the new part. Emptying the file takes several times as long.
   static constexpr std::size_t enough_text = 1 << 20;  // then the file is emptied
 
   void begin_anew();

@@ -13,7 +13,7 @@
 
 namespace contct {
 
-/// How a kernel decides about contact.
+/// The rule by which a kernel decides about contact.
 enum class contact_rule {
   listing,   ///< the 1989 rule
   corrected  ///< reference/corrected-rule.md
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 2> rule_names = {"listing", "corre
   return r == contact_rule::listing ? "the 1989 rule" : "the corrected rule";
 }
 
-/// What a kernel is. Lockstep compares kernels of one precision and one rule.
+/// The properties of a kernel. Lockstep compares kernels of one precision and one rule.
 struct kernel_facts {
   std::string name;  ///< as typed after --kernels
   int real_bytes;    ///< 8, or 4 for the listing as printed
@@ -42,8 +42,8 @@ struct kernel_facts {
   bool text_by_meaning = false;  ///< its text may write .25 for 0.25, and is compared so
 };
 
-/// What is known of an external kernel by its name alone: the 1989 rule, 8-byte REAL, and no text of its
-/// own. `what` it is, for people.
+/// The facts about an external kernel that follow from its name alone: the 1989 rule, 8-byte REAL, and no
+/// text of its own. `what`: its description, for messages.
 [[nodiscard]] inline kernel_facts facts_of_outside(std::string name, std::string what) {
   return {std::move(name), 8, contact_rule::listing, std::move(what), "", "", false};
 }
@@ -55,9 +55,9 @@ class kernel_failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A pure function of one call, in double precision at its boundary: what it answers depends on nothing that
-/// went before, and is the same to the bit when it is called again. A single-precision kernel rounds
-/// dd, dtest and cc to float on the way in and widens ss and smin, exactly, on the way out.
+/// A pure function of one call, in double precision at its boundary: its answer does not depend on earlier
+/// calls, and is the same to the bit when the call is repeated. A single-precision kernel rounds dd, dtest
+/// and cc to float on the way in and widens ss and smin, exactly, on the way out.
 class kernel {
  public:
   virtual ~kernel() = default;
@@ -66,7 +66,7 @@ class kernel {
   /// Answer one call: sets c.ss and c.smin, toggles c.isep. Throws kernel_failure.
   virtual void answer(call<double>& c) = 0;
 
-  /// The unit-26 text of the calls since the last take; empty where facts().has_text is false.
+  /// The unit-26 text of the calls since the last take; empty if facts().has_text is false.
   virtual std::string take_text() = 0;
 };
 

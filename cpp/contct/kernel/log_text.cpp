@@ -36,9 +36,9 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   const std::string_view all(scientific, length);
   const std::size_t mark = all.find('e');
   int exponent = 0;
-  std::from_chars(all.data() + mark + 2, end, exponent);  // behind the sign, which from_chars does not take
+  std::from_chars(all.data() + mark + 2, end, exponent);  // after the sign, which from_chars does not take
   if (all[mark + 1] == '-') exponent = -exponent;
-  ++exponent;  // all digits stand behind the point here
+  ++exponent;  // all digits are after the point here
   const int size = std::abs(exponent);
 
   char digits[48] = "0.";

@@ -1,4 +1,4 @@
-// What the listing writes to unit 26, from events as data.
+// The listing's text on unit 26, written from events as data.
 #pragma once
 
 #include <span>

@@ -10,7 +10,7 @@
 namespace contct {
 namespace {
 
-/// A copy of an array, with bytes in front of it and behind it that no kernel may touch.
+/// A copy of an array, with guard bytes before and after it that no kernel may change.
 template <class T>
 class fenced {
  public:
@@ -21,7 +21,7 @@ class fenced {
   }
   [[nodiscard]] T* data() { return copy_.data() + fence; }
 
-  /// What a kernel did to it that it must not; empty when nothing.
+  /// A forbidden change that a kernel made to it; empty if there is none.
   [[nodiscard]] std::string fault(bool is_input) {
     if (!is_intact(copy_.data())) return std::string("wrote before the start of ") + name_;
     if (!is_intact(data() + values_.size())) return std::string("wrote past the end of ") + name_;

@@ -44,7 +44,7 @@ class corrected_kernel final : public built_in {
   void answer(call<double>& c) override { contct_corrected(c); }
 };
 
-/// A call put to what answers in 4-byte numbers, behind a double-precision boundary.
+/// A call answered in 4-byte numbers, with doubles at the boundary.
 template <class Answer>
 void answer_narrow(call<double>& c, Answer answer) {
   as_float_call(c, [&](call<float>& narrow) {

@@ -10,7 +10,7 @@
 namespace contct {
 
 /// Make a kernel by name: one that is built in, "plugin:LIBRARY" or "pipe:COMMAND". Throws
-/// std::invalid_argument, naming what there is, when there is none of that name.
+/// std::invalid_argument, listing the valid names, if the name is unknown.
 [[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
 
 /// Makes kernels by their names; make_kernel, or one that knows more of them.

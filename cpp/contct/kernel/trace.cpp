@@ -12,8 +12,8 @@
 namespace contct {
 namespace {
 
-/// The lines "key value" of the header behind "about", in order; behind "kernel" stand "real" and "rule". One
-/// whose value is empty is left out.
+/// The lines "key value" of the header after "about", in order; "kernel" is followed by "real" and "rule". A
+/// line with an empty value is omitted.
 constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[] = {
     {"kernel", &trace_header::kernel},     {"listing", &trace_header::listing},
     {"compiler", &trace_header::compiler}, {"flags", &trace_header::flags},
@@ -50,7 +50,7 @@ std::optional<double> real_in(std::string_view word) {
   if (negative) word.remove_prefix(1);
   const bool hex = word.starts_with("0x");
   if (hex) word.remove_prefix(2);
-  // from_chars takes a sign of its own, and inf behind 0x.
+  // from_chars accepts a sign, and inf after 0x.
   if (word.starts_with('-') || (hex && word.find_first_of("0123456789abcdefABCDEF") != 0)) return {};
   const auto value = number_in<double>(word, hex ? std::chars_format::hex : std::chars_format::general);
   return value && negative ? -*value : value;
@@ -275,7 +275,7 @@ void trace_reader::read_layout(call_inputs<double>& in) {
   if (is_given_.size() < dofs) is_given_.resize(dofs, 0);
 }
 
-/// Only what the call before gave: clearing all dofs at every call would be quadratic.
+/// Clear only the dofs of the call before: clearing all dofs at every call would be quadratic.
 void trace_reader::forget_dofs(call_inputs<double>& in) {
   for (const std::size_t dof : given_) {
     if (dof < in.dd.size()) in.dd[dof] = in.dtest[dof] = unknown;

@@ -1,4 +1,4 @@
-// Calls of CONTCT as text: what a trace file holds, and what goes over a pipe.
+// Calls of CONTCT as text: the format of trace files and of the messages through a pipe.
 // reference/trace-format.md describes it for people.
 #pragma once
 
@@ -16,10 +16,10 @@ namespace contct {
 /// The first line of every trace: the format and the day on which it was fixed.
 inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
 
-/// What a trace says of itself. `real_bytes` and `rule` say who can answer it, and the kernel "f2c" how its
-/// text is compared; the rest is for people.
+/// The header of a trace. `real_bytes` and `rule` decide which kernels can answer it, and the kernel "f2c"
+/// how its text is compared; the rest is for the reader.
 struct trace_header {
-  std::vector<std::string> about;  ///< what the trace is there for, a line each
+  std::vector<std::string> about;  ///< the purpose of the trace, by lines
   std::string kernel;              ///< who answered
   int real_bytes = 8;              ///< 8, or 4 for the listing as printed
   contact_rule rule = contact_rule::listing;
@@ -27,13 +27,13 @@ struct trace_header {
   std::string compiler;        ///< of the kernel that answered
   std::string flags;           ///< and its floating-point flags
   std::string lapack;          ///< whose solves the inputs come from, or "none"
-  std::string floating_point;  ///< what the probe said
+  std::string floating_point;  ///< the result of the probe
 };
 
 /// One call, and the answer to it.
 struct recorded_call {
   std::int64_t number = 0;
-  std::string note;  ///< what the call is there for; may be empty
+  std::string note;  ///< the purpose of the call; may be empty
   call_inputs<double> in;
   call_outputs out;
 
@@ -55,8 +55,8 @@ struct recorded_call {
 /// Append the header of a trace.
 void append_header(const trace_header& h, std::string& text);
 
-/// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only what the pairs
-/// address is written: nothing else may be read by a kernel.
+/// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only the dofs of the
+/// pairs are written: a kernel may not read others.
 void append_inputs(const answered_call& answered, std::string_view note, std::string& text);
 void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
                    std::string& text);

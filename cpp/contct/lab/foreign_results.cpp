@@ -28,7 +28,7 @@ bool is_count_or_state(const expected_number& e) {
   return e.quantity == "state" || e.quantity == "contacts" || e.quantity == "events";
 }
 
-/// What an error of `e` is relative to.
+/// The size to which an error of `e` is relative.
 double size_of(const expected_number& e, const std::vector<expected_number>& all) {
   if (e.quantity == "event" || is_count_or_state(e)) return 1.0;
   const kind_of_number kind = kind_of(e);
@@ -39,7 +39,7 @@ double size_of(const expected_number& e, const std::vector<expected_number>& all
   return size == 0.0 ? 1.0 : size;
 }
 
-/// What the table has for a step, for a message.
+/// The table's entries for a step, for a message.
 std::string known_in_step(const std::vector<expected_number>& all, int step) {
   std::string words;
   for (const expected_number& e : all)

@@ -8,7 +8,7 @@
 
 namespace contct {
 
-/// A number of another program beside the exact one.
+/// A number of another program, with the exact one.
 struct foreign_number {
   expected_number expected;
   double given = 0.0;  ///< of a state as in `expected`
@@ -35,7 +35,7 @@ struct foreign_results {
 
 /// Read and judge the file at `path`. Counts and states must be equal, and shares of a step lie within the
 /// file's tolerance; the error of any other number is relative to the largest exact one of its kind that the
-/// table has for the problem. What the table does not have is refused, and what is there twice. Throws
+/// table has for the problem. Entries that the table does not have are refused, and so are duplicates. Throws
 /// input_error.
 [[nodiscard]] foreign_results judge_results(const std::string& path,
                                             const std::vector<verification_case>& table);

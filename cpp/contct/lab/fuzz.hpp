@@ -1,5 +1,4 @@
-// A fuzz run: random and adversarial calls and whole problems put to kernels, how equal these are, and
-// mismatches shrunk.
+// A fuzz run: kernels compared on random and adversarial calls and on whole problems, with mismatches shrunk.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ namespace contct {
 /// to call.
 using call_sequence = std::vector<call_inputs<double>>;
 
-/// Does the last call of a sequence still differ, in the same way, when the whole is put to fresh kernels?
+/// Does the last call of a sequence still differ in the same way when new kernels answer the whole sequence?
 using still_differs = std::function<bool(const call_sequence&)>;
 
 /// Make `calls` smaller while it still differs: first fewer calls, then fewer pairs, then nodes numbered
@@ -95,8 +94,8 @@ struct fuzz_result {
   [[nodiscard]] tally compared() const;
 };
 
-/// What a run must have compared before "no mismatch" means anything: empty when it has, else what is
-/// missing. Below 1000 calls only that anything was compared.
+/// Checks that a run compared enough for "no mismatch" to mean something: empty if it did, otherwise the
+/// missing counts. Below 1000 calls it is enough that something was compared.
 [[nodiscard]] std::string floors_missed(const fuzz_result& r);
 
 /// A result, and the cases that were found.

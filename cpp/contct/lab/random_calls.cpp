@@ -23,7 +23,7 @@ class drawn_call {
  public:
   using limits = std::numeric_limits<Real>;
 
-  /// What the call before left in dd and dtest is overwritten with NaN: no kernel may read there.
+  /// The values of the call before in dd and dtest are overwritten with NaN: no kernel may read them.
   drawn_call(std::uint64_t seed, std::uint64_t number, call_inputs<Real>& in)
       : random_(random_numbers(seed ^ (number * 0xd1342543de82ef95)).bits()), in_(in) {
     for (std::size_t i = 0; i < in_.pairs(); ++i) {
@@ -81,7 +81,7 @@ class drawn_call {
     const std::size_t dof = in_.dof_of_pair(i);
     in_.dd[dof] = number(0.3, 0.5);
     in_.dtest[dof] = number(0.1, 0.5);
-    // Some pairs stand at their face, some within EPSGAP of it.
+    // Some pairs are at their face, some within EPSGAP of it.
     in_.cc[i] =
         random_.chance(0.3)
             ? in_.dd[dof] + static_cast<Real>(random_.chance(0.5) ? 0.0 : 2e-10 * (random_.unit() - 0.5))
@@ -115,7 +115,7 @@ class drawn_call {
     return random_.chance(0.5) ? x : -x;
   }
 
-  /// c - D = `gap`, with D at zero, or with c at zero, or somewhere else as far as rounding allows.
+  /// c - D = `gap`, with D at zero, or with c at zero, or both elsewhere, up to rounding.
   void place_gap(std::size_t dof, std::size_t i, Real gap) {
     const int where = random_.whole(0, 3);
     in_.dd[dof] = where == 0 ? -gap : where == 1 ? static_cast<Real>(random_.unit()) : Real(0);

@@ -1,5 +1,5 @@
-// Random problems on one-sided supports, the same everywhere from a seed and a number, and what one kernel
-// makes of them.
+// Random problems on one-sided supports, the same everywhere from a seed and a number, and the path of one
+// kernel on them.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace contct {
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
 inline constexpr int face_layouts = 8;
 
-/// What to draw from: beams and plates on 1 to all of their nodes' pairs, springs over eight decades,
-/// one to five load steps with unloading and reversal.
+/// The range of random problems: beams and plates on 1 to all of their nodes' pairs, springs over eight
+/// decades, one to five load steps with unloading and reversal.
 struct random_problem_kind {
   double least_unit = 1e-12;  ///< the unit of length, log-uniform between these two
   double most_unit = 1e12;
@@ -42,7 +42,7 @@ enum class verdict {
   certified,        ///< every step's final state is certified
   no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
   wrong,            ///< the path went to its end, and some final state is not right
-  false_mechanism,  ///< the path ended in a mechanism where there is an equilibrium
+  false_mechanism,  ///< the path ended in a mechanism although there is an equilibrium
   no_end,           ///< cycle, increments without end, or no factor
 };
 

@@ -18,8 +18,8 @@ namespace {
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
 constexpr int any_number = 1'000'000'000;
 
-/// The double nearest to an exact number: a fraction "p/q" in lowest terms, or a decimal. Nothing where
-/// `words` are neither.
+/// The double nearest to an exact number: a fraction "p/q" in lowest terms, or a decimal. Nothing if `words`
+/// are neither.
 std::optional<double> nearest_to(std::string_view words) {
   const std::size_t slash = words.find('/');
   if (slash == std::string_view::npos) {
@@ -110,7 +110,7 @@ double of_pair(const structure_state& end, const step_results& s, const expected
   return s.pairs[pair].gap;
 }
 
-/// "max moment", "min w", or where that is: "x of max moment".
+/// "max moment", "min w", or the place of one: "x of max moment".
 double of_extreme(const step_results& s, std::string_view quantity) {
   constexpr std::string_view place = "x of ";
   const bool asks_place = quantity.starts_with(place);
@@ -123,7 +123,7 @@ double of_extreme(const step_results& s, std::string_view quantity) {
   return asks_place ? at.x : at.value;
 }
 
-/// How many events a step has, or the share of the step at which an event of a pair comes.
+/// The number of events of a step, or the share of the step at which an event of a pair comes.
 double of_events(const step_record& s, const expected_number& e) {
   std::size_t count = 0;
   for (const increment_record& i : s.increments) {
@@ -147,7 +147,7 @@ double zero_right_of(const model& m, const std::vector<double>& u, const expecte
   return not_there;
 }
 
-/// The place of `name` among `names`; none where it is not there.
+/// The place of `name` among `names`; nothing if it is missing.
 template <class Names>
 std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
   const auto at = std::find(names.begin(), names.end(), name);
@@ -287,7 +287,7 @@ struct verified_run {
     measured.emplace(p, path.result.record);
   }
 
-  /// The certificate of the step that is asked about; null where there is none.
+  /// The certificate of the step that is asked about; null if there is none.
   [[nodiscard]] const certificate* certified(const expected_number& e) const {
     const auto& steps = path.result.judged.steps();
     const std::size_t at = e.step - 1;

@@ -29,17 +29,17 @@ struct expected_number {
   double value = 0.0;  ///< of a state: -1 in contact, +1 separated
   std::string kind, because, source;
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
-  std::optional<double> faithful;  ///< what the 1989 rule gives instead
+  std::optional<double> faithful;  ///< the value under the 1989 rule, if it differs
   std::string reason;              ///< why it does
   std::string exact;  ///< the exact number, "p/q" or a decimal; of a state, its name; empty: not known
 };
 
-/// The keys that say which number of a problem is meant, and what they say in a table.
+/// The keys that identify a number of a problem, and their values in a table.
 inline constexpr std::array<std::string_view, 11> place_keys = {
     "step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along"};
 [[nodiscard]] expected_number read_place(const toml_value& t);
 
-/// What an error of a number is measured by.
+/// The kind of number that gives the size of an error.
 enum class kind_of_number { deflection, slope, force, moment, other };
 [[nodiscard]] kind_of_number kind_of(const expected_number& e);
 
@@ -55,17 +55,17 @@ struct verification_case {
 /// Read the table. Throws input_error.
 [[nodiscard]] std::vector<verification_case> read_verification(const std::string& path);
 
-/// What a number is, in a few words: "w, node 3", "pair 2 makes" (the share of the load at which it
-/// does), "moment, element 4.1" (at its first end or corner).
+/// The description of a number: "w, node 3", "pair 2 makes" (the share of the load at which it does),
+/// "moment, element 4.1" (at its first end or corner).
 [[nodiscard]] std::string quantity_words(const expected_number& e);
 
-/// What the table asks for, measured on a path that is over.
+/// The table's quantities, measured on a finished path.
 class measurement {
  public:
   /// `p` and `path` must outlive this object.
   measurement(const problem& p, const run_recorder& path);
 
-  /// The quantity as this path has it; NaN where it did not get there.
+  /// The quantity on this path; NaN if the path did not reach it.
   [[nodiscard]] double of(const expected_number& e) const;
 
   /// The largest of its kind on the path, which errors are relative to: of deflections and gaps, slopes,
@@ -82,9 +82,9 @@ class measurement {
 /// Is `measured` within the tolerance of `value`?
 [[nodiscard]] bool agrees(double measured, double value, double tolerance);
 
-/// What of one number does not agree with the exact one, in words; empty when all does, or when the exact
-/// number is not known. `computed` lies within `allowed` of it, or within the table's own tolerance where
-/// that is 0. The table's value is within its tolerance of it.
+/// The disagreement of one number with the exact one, in words; empty if they agree, or if the exact number
+/// is unknown. `computed` lies within `allowed` of it, or within the table's own tolerance if `allowed` is 0.
+/// The table's value is within its tolerance of it.
 [[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
 
 /// One number of the table, and the computed one.
@@ -97,7 +97,7 @@ struct verified_number {
   std::string apart;          ///< see exact_disagreement
   int exact_comparisons = 0;  ///< of `computed` and `corrected` with the exact number
 
-  /// Of `computed` from the expected value; absolute where that is 0.
+  /// The difference of `computed` from the expected value, relative to it; absolute if it is 0.
   [[nodiscard]] double difference() const {
     const double off = computed - expected.value;
     return expected.value == 0.0 ? off : off / std::abs(expected.value);

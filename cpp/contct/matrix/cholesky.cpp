@@ -8,7 +8,7 @@
 
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
-// gfortran passes the length of each CHARACTER argument behind the others.
+// gfortran passes the length of each CHARACTER argument after the others.
 extern "C" {
 void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
                                       const int* ldab, int* info, std::size_t uplo_length);
@@ -33,9 +33,9 @@ std::vector<double> unit_scale(std::span<const double> diagonal) {
   return d;
 }
 
-/// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. This
-/// is dpbcon, but for the guard against overflow inside its solves (dlatbs), which scans the rest of
-/// the vector at every row once the matrix is ill-conditioned: minutes on a beam of 100,000 nodes.
+/// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. This is
+/// dpbcon without the guard against overflow inside its solves (dlatbs), which scans the rest of the vector
+/// at every row once the matrix is ill-conditioned: minutes on a beam of 100,000 nodes.
 double norm_of_inverse(int n, const in_place_solver& solve) {
   std::vector<double> v(n);
   std::vector<double> x(n);
@@ -110,8 +110,8 @@ bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
   return done;
 }
 
-/// Its norm is that without the entries beside the diagonal of springs between two rows: at most twice as
-/// large with them.
+/// The norm leaves out the off-diagonal entries of springs between two rows: at most twice as large with
+/// them.
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
   const std::vector<double> diagonal = k_.diagonal_with(springs);
   if (!k_.is_band()) {

@@ -23,9 +23,9 @@ void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 /// Solves A x = b in place.
 using in_place_solver = std::function<void(std::span<double>)>;
 
-/// The LAPACK in use: its version as ILAVER has it, and the library that holds dpbtrf, as in
-/// "LAPACK 3.11.0, liblapack.so.3.11.0"; and the configuration of OpenBLAS where that is loaded. Results of
-/// solves differ between libraries, calls of CONTCT do not.
+/// The LAPACK in use: its version from ILAVER, and the library that holds dpbtrf, as in "LAPACK 3.11.0,
+/// liblapack.so.3.11.0"; and the configuration of OpenBLAS if that is loaded. Results of solves differ
+/// between libraries, calls of CONTCT do not.
 [[nodiscard]] std::string lapack_identity();
 
 /// Reciprocal condition number, in the 1-norm, of `k` with `diagonal` [rows] in place of its own, scaled to a
@@ -38,8 +38,8 @@ using in_place_solver = std::function<void(std::span<double>)>;
 /// never negative, at most 15.
 [[nodiscard]] int digits_left(double rcond);
 
-/// K with springs on its diagonal: factored by LAPACK where K is a band, by CHOLMOD where it is not.
-/// Memory: the factor, besides K; for a sparse K its entries once more.
+/// K with springs on its diagonal: factored by LAPACK if K is a band, otherwise by CHOLMOD. Memory: the
+/// factor, besides K; for a sparse K its entries once more.
 class stiffness_factor {
  public:
   /// `k` must outlive this object.

@@ -18,7 +18,7 @@ void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 namespace contct {
 namespace {
 
-/// The file that the loaded dpbtrf comes from, without its folder; empty where that cannot be found. Throws
+/// The file that the loaded dpbtrf comes from, without its folder; empty if that cannot be found. Throws
 /// bad_alloc.
 std::string library_of_dpbtrf() {
   Dl_info found{};
@@ -31,7 +31,7 @@ std::string library_of_dpbtrf() {
   return (wrong ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
-/// The configuration of OpenBLAS with the core type that it uses; empty where it is not loaded.
+/// The configuration of OpenBLAS with the core type that it uses; empty if it is not loaded.
 std::string openblas_identity() {
   using configuration = char*();
   // NOLINTNEXTLINE(*-reinterpret-cast)

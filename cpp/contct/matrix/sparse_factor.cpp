@@ -9,7 +9,7 @@
 #include <new>
 #include <utility>
 
-// Those of the OpenMP that CHOLMOD brings, if it brings one.
+// Functions of the OpenMP that CHOLMOD links, if it links one.
 extern "C" {
 __attribute__((weak)) int omp_get_max_active_levels();
 __attribute__((weak)) void omp_set_max_active_levels(int levels);
@@ -37,7 +37,7 @@ class no_openmp_threads {
   int before_ = -1;
 };
 
-/// What CHOLMOD has made; throws std::bad_alloc if it failed.
+/// An object allocated by CHOLMOD; throws std::bad_alloc if that failed.
 template <class T>
 T* made(T* by_cholmod) {
   if (by_cholmod == nullptr) throw std::bad_alloc();
@@ -68,8 +68,7 @@ class supernode {
         height_(static_cast<const int*>(l.pi)[number + 1] - static_cast<const int*>(l.pi)[number]),
         width_(static_cast<const int*>(l.super)[number + 1] - static_cast<const int*>(l.super)[number]) {}
 
-  /// L Y = B, as far as these columns go; nothing to do where their rows are still 0, as most are of unit
-  /// vectors.
+  /// Solves L Y = B for these columns; skipped if their rows are still 0, as most rows of unit vectors are.
   void go_forward(std::vector<row_of_block>& b) const {
     const auto is_zero = [](const row_of_block& r) { return r == row_of_block{}; };
     if (std::all_of(rows_, rows_ + width_, [&](int row) { return is_zero(b[row]); })) return;

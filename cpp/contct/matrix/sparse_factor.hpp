@@ -18,8 +18,8 @@ class sparse_factor {
   /// Is CHOLMOD built in?
   [[nodiscard]] static bool available();
 
-  /// Find the order, AMD's or, if there are many rows, METIS's where that is better, and keep A. Throws
-  /// std::bad_alloc, and std::logic_error where CHOLMOD is not built in.
+  /// Find the order, AMD's or, if there are many rows, METIS's if that is better, and keep A. Throws
+  /// std::bad_alloc, and std::logic_error if CHOLMOD is not built in.
   [[nodiscard]] static std::unique_ptr<sparse_factor> make(sparse_columns a);
 
   sparse_factor() = default;
@@ -33,8 +33,7 @@ class sparse_factor {
   /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
   [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
-  /// A, to change entries beside the diagonal of the next factor. Throws std::logic_error where others hold
-  /// it.
+  /// A, to change off-diagonal entries for the next factor. Throws std::logic_error if it is shared.
   [[nodiscard]] virtual sparse_columns& matrix() {
     throw std::logic_error("this factor's matrix cannot be changed");
   }

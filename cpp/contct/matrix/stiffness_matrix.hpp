@@ -74,8 +74,8 @@ struct matrix_entry {
 struct sparse_matrix {
   int order = 0;
   std::vector<matrix_entry> entries;
-  /// [entries] the last digit that the file has of each, as its power of ten; exact_entry where there is no
-  /// rounding behind it. Empty: all are exact.
+  /// [entries] the power of ten of each entry's last digit in the file; exact_entry if the entry was not
+  /// rounded. Empty: all are exact.
   std::vector<std::int16_t> last_digits = {};
   static constexpr std::int16_t exact_entry = -32768;
   /// Half a unit in the last digit of an entry.
@@ -84,8 +84,8 @@ struct sparse_matrix {
     return 0.5 * std::pow(10.0, last_digits[entry]);
   }
 
-  /// By how much x'A x is in doubt: half a unit in the last digits of the entries, and what rounds away where
-  /// a program adds up an entry in doubles, two units in the last place beside the diagonals.
+  /// The uncertainty of x'A x: half a unit in the last digits of the entries, and the rounding of a program
+  /// that sums an entry in doubles, two units in the last place of the diagonals.
   [[nodiscard]] double doubt(std::span<const double> x) const;
 
   /// y = A x in long double.
@@ -104,12 +104,12 @@ struct sparse_matrix {
 /// As a band in that order.
 [[nodiscard]] band_matrix band_of(const sparse_matrix& a, std::span<const int> rows);
 
-/// The order that makes it a narrow band, by reverse Cuthill and McKee: the row of each dof, from 0; empty
-/// where the order that `a` has is as good. Linear in the entries, but for sorting neighbours by their
-/// degree. Needs Boost.Graph, and has a source of its own.
+/// The order that makes it a narrow band, by reverse Cuthill and McKee: the row of each dof, from 0; empty if
+/// the order of `a` is as good. Linear in the entries, except for sorting neighbours by their degree. Needs
+/// Boost.Graph, and has a source of its own.
 [[nodiscard]] std::vector<int> rows_for_small_band(const sparse_matrix& a);
 
-/// The lower triangle by columns, from 0. Every column begins with its diagonal entry, also where that is 0.
+/// The lower triangle by columns, from 0. Every column begins with its diagonal entry, even if it is 0.
 /// Memory: 12 bytes an entry.
 struct sparse_columns {
   /// [order + 1] place of each column's diagonal; the last is the number of entries.
@@ -130,8 +130,8 @@ struct sparse_columns {
 /// The same of a band; zeros in it are left out.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
-/// A spring at one row: its stiffness is added to the diagonal. Or between two rows: then -stiffness is added
-/// beside it too, where the matrix must have a place.
+/// A spring at one row: its stiffness is added to the diagonal. Or between two rows: then -stiffness is also
+/// added off the diagonal, where the matrix must have an entry.
 struct spring_at {
   int row = 0;
   double stiffness = 0.0;

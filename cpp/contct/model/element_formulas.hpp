@@ -14,7 +14,7 @@
 
 namespace contct {
 
-/// How large a number is that rounding may put off; rational ones are never off.
+/// The magnitude of a number for rounding errors; 0 for rational numbers, which have none.
 template <class Number>
 [[nodiscard]] double size_of(const Number& /*x*/) {
   return 0.0;
@@ -70,7 +70,7 @@ struct bending_integrals {
   std::array<std::array<Number, 12>, 12> xx_xx{}, yy_yy{}, xx_yy{}, xy_xy{};
 };
 
-/// A place between -1 and 1, and what a value there counts in an integral: the weights add up to 2.
+/// An integration point between -1 and 1 and its weight: the weights add up to 2.
 template <class Number>
 struct weighted_place {
   Number at, weight;
@@ -147,10 +147,11 @@ std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::sp
   return {v, v, -m1, m2};
 }
 
-// An element that is released at its right end carries no moment there: its rotation is
-// -(3 / 2h (w1 - w2) + theta1 / 2), but for what loads on it turn it by, and is condensed from the equations.
+// An element that is released at its right end carries no moment there: its rotation is -(3 / 2h (w1 - w2) +
+// theta1 / 2), plus the rotation by loads on the element, and is condensed from the equations.
 
-/// What condensing the right rotation takes from a load on the other three dofs, for each unit on it.
+/// The change of a load on the other three dofs when the right rotation is condensed, for each unit on that
+/// rotation.
 template <class Number>
 std::array<Number, 3> released_shares(const Number& h) {
   const Number along = Number(3) / 2 / h;
@@ -250,7 +251,7 @@ std::array<Number, 12> plate_deformation(const Number& a, const Number& b, const
   return v;
 }
 
-/// What such an element's nodes need to be held at `u`.
+/// The nodal forces that hold such an element at `u`.
 template <class Number>
 std::array<Number, 12> plate_forces(const Number& a, const Number& b, const Number& D, const Number& nu,
                                     const std::array<Number, 12>& u) {

@@ -16,7 +16,7 @@
 
 namespace contct {
 
-/// What a load does on the shape functions of one element, and the magnitudes that this is summed from.
+/// The work of a load on the shape functions of one element, and the sum of the magnitudes of its terms.
 template <class Number, std::size_t Dofs>
 struct element_work {
   std::array<int, Dofs> dofs{};
@@ -91,7 +91,7 @@ class beam_elements {
     return all;
   }
 
-  /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
+  /// Add to `need` [dofs] the forces of the adjacent elements at each dof, minus the loads on them.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
     const auto forces = end_forces(l, u);
     for (std::size_t e = 0; e < forces.size(); ++e) {
@@ -103,7 +103,7 @@ class beam_elements {
     }
   }
 
-  /// The length that each node stands for.
+  /// The tributary length of each node.
   [[nodiscard]] std::vector<Number> shares() const { return tributary_lengths<Number>(h_); }
 
  private:
@@ -111,7 +111,7 @@ class beam_elements {
     return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], u)
                           : formulas::beam_end_forces<Number>(EI(e), h_[e], u);
   }
-  /// What a load on an element does where its right end may be released.
+  /// The work of a load on an element whose right end may be released.
   [[nodiscard]] element_work<Number, 4> condensed(int e, element_work<Number, 4> work) const {
     if (!is_released(e)) return work;
     const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e]);
@@ -190,12 +190,12 @@ class plate_elements {
     for (const int dof : dofs_of(e)) own[next++] = u[dof];
     return own;
   }
-  /// What bends an element: see plate_deformation.
+  /// The bending deformation of an element: see plate_deformation.
   [[nodiscard]] vector deformation(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     return formulas::plate_deformation(own.a, own.b, displacement(e, u));
   }
-  /// What its nodes need to be held at `u`.
+  /// The nodal forces that hold it at `u`.
   [[nodiscard]] vector forces(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     return formulas::plate_forces(own.a, own.b, D_, nu_, displacement(e, u));
@@ -223,7 +223,7 @@ class plate_elements {
     return all;
   }
 
-  /// Add to `need` [dofs] what the elements beside each dof need there, beyond the loads on them.
+  /// Add to `need` [dofs] the forces of the adjacent elements at each dof, minus the loads on them.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
     const std::vector<summed_pressure<Number>> pressure = pressures(l);
     for (int e = 0; e < count(); ++e) {
@@ -236,7 +236,7 @@ class plate_elements {
     }
   }
 
-  /// The area that each node stands for: a quarter of each element beside it.
+  /// The tributary area of each node: a quarter of each adjacent element.
   [[nodiscard]] std::vector<Number> shares() const {
     std::vector<Number> areas;
     areas.reserve(plate_.nodes());

@@ -1,5 +1,5 @@
-// The equations of a problem: K, supports, pairs and loads in numbers of one kind. In pairs of doubles they
-// are what the certificate proves errors with, in rational numbers what the exact path solves.
+// The equations of a problem: K, supports, pairs and loads in numbers of one kind. The certificate uses them
+// in pairs of doubles, the exact path in rational numbers.
 #pragma once
 
 #include <boost/container/flat_map.hpp>
@@ -21,14 +21,14 @@ struct pair_in {
   int surface = 0;  ///< n: face_above (+1) or face_below (-1)
   Number face{}, stiffness{};
   bool closed = false;  ///< in contact at the start
-  int other = -1;       ///< the dof with the face; -1: it stands still
+  int other = -1;       ///< the dof with the face; -1: the face is fixed
 
-  /// What the pair sees of displacements [dofs].
+  /// The relative displacement of the pair from displacements [dofs].
   template <class Vector>
   [[nodiscard]] Number seen_in(const Vector& u) const {
     return other < 0 ? u[dof] : Number(u[dof] - u[other]);
   }
-  /// Add what the pair does at its dof, and the opposite at the other one.
+  /// Add the pair's force at its dof, and the opposite force at the other one.
   template <class Vector, class Value>
   void add_to(Vector& f, const Value& force) const {
     f[dof] += force;
@@ -44,7 +44,7 @@ struct support_in {
   Number spring;
 };
 
-/// What acts at the end of a step.
+/// The loads at the end of a step.
 template <class Number>
 struct loads_in {
   std::vector<Number> force;       ///< [dofs] consistent loads

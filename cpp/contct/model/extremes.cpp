@@ -26,7 +26,7 @@ double zero_between(const poly& p, double a, double b) {
   return a;
 }
 
-/// Where p changes its sign between 0 and 1, in order: at most once between neighbouring zeros of its
+/// The sign changes of p between 0 and 1, in order: at most once between neighbouring zeros of its
 /// derivative.
 std::vector<double> zeros_of(const poly& p) {
   if (p.size() < 2) return {};
@@ -237,7 +237,7 @@ bool beam_lines::is_broken(int e) const {
 
 namespace {
 
-/// What is known at the left end of an element or a piece of one.
+/// The values at the left end of an element or of a piece of one.
 template <class Number>
 struct line_start {
   Number w, slope, moment, shear;

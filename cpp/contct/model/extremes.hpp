@@ -1,5 +1,5 @@
-// What an engineer reads off a whole structure: a beam's exact line between its nodes, and where each
-// quantity is largest and smallest.
+// Engineering results of a whole structure: a beam's exact line between its nodes, and the extremes of each
+// quantity with their places.
 #pragma once
 
 #include <map>
@@ -26,15 +26,15 @@ struct element_line {
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
 class beam_lines {
  public:
-  /// `b` and `u` must outlive this object. `element_values`: those of the ends of elements, as
-  /// element_results has them, where they are known better than from `u`.
+  /// `b` and `u` must outlive this object. `element_values`: values at the ends of elements, as in
+  /// element_results, if more accurate ones than from `u` are known.
   beam_lines(const beam& b, const load& l, std::span<const double> u,
              std::span<const double> element_values = {});
 
   /// Element `e`, from 0, from its left end as if no load began, ended or stood inside.
   [[nodiscard]] element_line at(int e) const;
-  /// The pieces of element `e` between the places where loads begin, end or stand: itself where there are
-  /// none. A load at a place makes the shear or the moment jump there.
+  /// The pieces of element `e` between the places where loads begin, end or stand: the element itself if
+  /// there are none. A load at a place makes the shear or the moment jump there.
   [[nodiscard]] std::vector<element_line> pieces(int e) const;
   /// Has element `e` more than one, or an imposed curvature?
   [[nodiscard]] bool is_broken(int e) const;
@@ -53,7 +53,7 @@ class beam_lines {
 /// largest of them.
 [[nodiscard]] std::vector<double> bernstein_of(std::span<const double> polynomial);
 
-/// Where w, the moment or the shear is extreme inside an element: t, rising.
+/// The t inside an element at which w, the moment or the shear is extreme, in ascending order.
 [[nodiscard]] std::vector<double> extreme_places(const element_line& line);
 
 /// A value, and where it is: its place along the structure, and its node (from 0) where it is at one.
@@ -87,8 +87,8 @@ struct value_range {
 /// Stresses at the extreme fibres: M / W at both ends of each element of a beam with a section modulus, as
 /// "stress"; of a plate with a thickness "sx", "sy", "txy", principal "s1" >= "s2" and "von_mises" at the
 /// corners of each element, sx = 6 m_x / t^2 and so on. Those of the lower fibre, or face, where sagging is
-/// tension; at the upper one they have the other sign. Nothing where W, or the thickness, is not known.
-/// `forces`: results_in_elements.
+/// tension; at the upper one they have the other sign. Nothing if W, or the thickness, is unknown. `forces`:
+/// results_in_elements.
 [[nodiscard]] element_results stresses_of(const model& m, const element_results& forces);
 
 /// What each of those stresses may be off by, and any along a beam, where no moment is off by more than

@@ -14,9 +14,9 @@
 
 namespace contct {
 
-// What a number of a file means: the shortest decimal that reads as it. In doubles it is the number itself.
-// What follows from several of them is computed exactly and rounded once, in pairs of doubles, too: line.cpp
-// has it.
+// The meaning of a number of a file: the shortest decimal that is read as the same double. In doubles it is
+// the number itself. Values derived from several such numbers are computed exactly and rounded once, also in
+// pairs of doubles: see line.cpp.
 
 template <class Number>
 [[nodiscard]] Number number_of(double x);
@@ -36,7 +36,7 @@ template <>
 [[nodiscard]] double sum_of(std::span<const point_load> all);
 
 /// The coefficients of a load, in rational numbers: of a distributed one the sums of its parts in the file,
-/// each times its factor, where it has any.
+/// each times its factor, if it has any.
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
 template <class Number>
@@ -89,7 +89,8 @@ class line {
     return number_of<Number>(p.start) + length * static_cast<int>(point - p.first) / p.run.elements;
   }
 
-  /// What a coordinate of the file means: the point itself where it is a point's, otherwise its decimal.
+  /// The meaning of a coordinate of the file: a point's own coordinate if it is equal to one, otherwise its
+  /// decimal.
   [[nodiscard]] Number place(double x) const {
     const auto at_or_above = std::lower_bound(x_.begin(), x_.end(), x);
     if (at_or_above == x_.end() || *at_or_above != x) return number_of<Number>(x);
@@ -128,7 +129,7 @@ class line {
   std::vector<even_part> parts_;
 };
 
-/// The length that each point of a line stands for: half of each interval beside it.
+/// The tributary length of each point of a line: half of each adjacent interval.
 template <class Number>
 [[nodiscard]] std::vector<Number> tributary_lengths(std::span<const Number> intervals) {
   std::vector<Number> lengths(intervals.size() + 1);

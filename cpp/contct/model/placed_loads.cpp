@@ -37,7 +37,7 @@ struct source {
   exact_poly values;
 };
 
-/// What a source does on one element, in t = (x - left) / h from 0 to 1.
+/// The action of a load on one element, in t = (x - left) / h from 0 to 1.
 struct acting {
   load_kind what;
   std::array<rational, 2> part;
@@ -128,7 +128,7 @@ void add_work(const acting& a, const rational& h, const rational& EI, std::array
   }
 }
 
-/// What acts between two places of an element, with the loads at the first of them.
+/// The loads between two places of an element, including those at the first place.
 element_piece piece_between(const std::vector<acting>& all, const rational& from, const rational& to,
                             const rational& h, const rational& EI) {
   exact_poly q(1);

@@ -23,7 +23,7 @@ void for_each_exact_work(const beam& b, const load& l,
 template <class Number>
 struct summed_pressure {
   Number value{};
-  /// Where some of it acts on a part of the element only: the work of all of it on the shape functions.
+  /// If some of the load acts only on a part of the element: the work of all of it on the shape functions.
   std::optional<std::array<Number, 12>> on_parts = {};
 };
 /// On every element, by all loads together, rounded once.
@@ -41,7 +41,7 @@ struct element_piece {
 
   [[nodiscard]] bool is_plain() const { return curvature == 0.0 && force == 0.0 && moment == 0.0; }
 };
-/// Those of an element, from its left end to its right one, and of all up to `last`, which are alike.
+/// The pieces of an element, from left to right, which are the same for all elements up to `last`.
 struct alike_pieces {
   int last;
   std::vector<element_piece> pieces;

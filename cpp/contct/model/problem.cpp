@@ -15,7 +15,7 @@ void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
   for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
 }
 
-/// What the elements beside each dof need there, beyond the loads on them.
+/// The forces of the adjacent elements at each dof, minus the loads on them.
 template <class Kind>
 std::vector<double> needs_of(const Kind& kind, const load& l, std::span<const double> u) {
   std::vector<double> need(u.size());
@@ -84,8 +84,8 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   s.supported_dofs.clear();
   for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
     if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];
-  // A matrix does not say which of its dofs are lengths. Those of pairs are; without pairs, all count as
-  // such.
+  // A matrix does not tell which of its dofs are lengths. Dofs of pairs are lengths; without pairs, all dofs
+  // count as lengths.
   s.lengths.assign(a.dofs(), s.pairs.empty() ? 1 : 0);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
     s.lengths[s.dof_of_pair(i)] = 1;

@@ -1,5 +1,5 @@
-// A problem as a person wrote it down. The kinds of structure are behind one set of functions: the rooms that
-// read, solve and write do not depend on the kind.
+// A problem as a person wrote it down. One set of functions hides the kind of structure, so that reading,
+// solving and writing do not depend on it.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct even_run {
   int elements;
 };
 
-/// What a beam's cross-section is, as far as a file says: 0 is not known.
+/// A beam's cross-section as given in the file; 0: unknown.
 struct beam_section {
   double E = 0.0, I = 0.0;  ///< EI is their product
   double W = 0.0;           ///< section modulus: M / W is the stress at the extreme fibres
@@ -36,7 +36,8 @@ struct beam_section {
 struct beam {
   std::vector<double> x;   ///< node coordinates, strictly increasing [nodes]
   std::vector<double> EI;  ///< bending stiffness of each element, positive [nodes - 1]
-  /// What x is made of from x[0] on, for exact arithmetic; empty: every x is a number of the file.
+  /// The runs of equal parts that x consists of from x[0] on, for exact arithmetic; empty: every x is a
+  /// number of the file.
   std::vector<even_run> runs = {};
   std::vector<beam_section> sections = {};  ///< [elements], EI their rounded products; empty: the file has EI
   /// Inner nodes, rising, where no moment is carried. A hinge releases the right end of the element on its
@@ -124,10 +125,10 @@ struct mesh_edge {
   int elements;  ///< how many have it: few at the outer edges of a solid, many inside; 1 for a coupling
 };
 
-/// Where a dof is.
+/// The position of a dof.
 struct placed_dof {
-  int node = -1;      ///< from 0; -1 where that is not known
-  int direction = 0;  ///< 1 to 3 along x, y and z, 4 to 6 about them; 0 where that is not known
+  int node = -1;      ///< from 0; -1 if unknown
+  int direction = 0;  ///< 1 to 3 along x, y and z, 4 to 6 about them; 0 if unknown
 
   [[nodiscard]] bool is_length() const { return direction >= 1 && direction <= 3; }
 };
@@ -137,7 +138,7 @@ struct placed_nodes {
   std::vector<placed_node> nodes;  ///< empty: nothing is known
   std::vector<mesh_edge> edges;    ///< from < to, each once
   std::vector<placed_dof> dofs;    ///< [dofs]; empty with `nodes`
-  std::vector<std::string> notes;  ///< what of the files is not drawn, a sentence each
+  std::vector<std::string> notes;  ///< the parts of the files that are not drawn, a sentence each
 
   [[nodiscard]] bool known() const { return !nodes.empty(); }
 };
@@ -151,7 +152,7 @@ struct assembled {
   std::string labels_from;          ///< the file that has them
   std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: its own number
   bool as_band = true;              ///< otherwise K is stored by columns, for CHOLMOD
-  std::optional<int> free_motions;  ///< how many motions it leaves free on its supports, where that is known
+  std::optional<int> free_motions;  ///< the number of motions that stay free on its supports, if known
   placed_nodes places;              ///< for pictures only
 
   static constexpr int dofs_per_node = 1;
@@ -225,13 +226,13 @@ struct model {
 /// distributed load on a plate that is not constant.
 void add_consistent_loads(const model& m, const load& l, std::span<double> f);
 
-/// The length or area of the structure that each node stands for [nodes]: of a plate, a quarter of each
-/// element beside it. Throws std::invalid_argument for a matrix, which has no lengths or areas.
+/// The tributary length or area of each node [nodes]: of a plate, a quarter of each adjacent element. Throws
+/// std::invalid_argument for a matrix, which has no lengths or areas.
 [[nodiscard]] std::vector<double> tributary_shares(const model& m);
 
 /// The force (or moment) on the structure by each support, in their order: minus spring times displacement
-/// for an elastic one; for a fixed one, what the elements beside it need, beyond their own loads, beyond the
-/// point loads at its dof. A dof fixed twice gives its reaction to the first.
+/// for an elastic one; for a fixed one, the forces of the adjacent elements, minus their loads and the point
+/// loads at its dof. A dof fixed twice gives its reaction to the first.
 [[nodiscard]] std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                                             std::span<const double> u);
 
@@ -281,7 +282,7 @@ struct bed {
   std::size_t first_pair;     ///< from 0; the others follow it
   /// If faces are a polynomial in x along a beam, its coefficients, constant first; otherwise empty.
   std::vector<double> face = {};
-  std::optional<bool> closed = {};  ///< in contact at the start or not, where the file says so
+  std::optional<bool> closed = {};  ///< in contact at the start or not, if the file has it
 };
 
 /// Labels for people; nothing is converted. Both are empty, or neither.
@@ -294,7 +295,7 @@ struct pair_keys {
   std::string face, stiffness;
 };
 
-/// What a problem file says. Nodes, elements and pairs count from 0 here, from 1 in the file.
+/// The contents of a problem file. Nodes, elements and pairs count from 0 here, from 1 in the file.
 struct problem {
   std::string title;
   model geometry;
@@ -305,13 +306,13 @@ struct problem {
   unit_labels units;
   std::vector<std::string> warnings;
   std::vector<std::string> files;  ///< paths of the files that the problem file names
-  /// Of the pairs of every [[contact]] [pairs]; those of beds have none.
+  /// The keys of the pairs of every [[contact]] [pairs]; pairs of beds have none.
   std::vector<pair_keys> keys;
 };
 
 /// The unit of a quantity, with a blank before it: of "w", "moment", "shear", "mx", "force", "pressure",
-/// "contact" (of a bed), ..; empty where the problem names no units. With a matrix that of "w" and "force" at
-/// `dof`, from 0, if it is known what the dof is: it has a pair, or its place is known.
+/// "contact" (of a bed), ..; empty if the problem names no units. With a matrix: the unit of "w" and "force"
+/// at `dof`, from 0, if the kind of the dof is known, because it has a pair or a known position.
 [[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity, int dof = -1);
 /// Are its steps combinations, each from the unloaded structure?
 [[nodiscard]] inline bool starts_from_zero(const problem& p) {

@@ -186,7 +186,8 @@ std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const fr
   return rows;
 }
 
-/// How many of the softest are free: no stiffer than rounding makes them, nor than is in doubt.
+/// The number of the softest motions that are free: those whose stiffness does not exceed rounding or its
+/// uncertainty.
 int count_in_doubt(const subspace& space, const numbers& d,
                    const std::function<double(std::span<const double>)>& doubt) {
   int count = count_free(space.values);
@@ -226,7 +227,7 @@ void rigid_rank::hold(int dof, int other) {
   if (rank_ == most_rigid_motions) return;
   // Only its direction counts; a slope's row, 1 over a length, may be of any size.
   rigid_row direction = rows_[dof];
-  double size = 0.0;  // of what the difference is rounded beside
+  double size = 0.0;  // of the numbers whose rounding the difference has
   if (other >= 0) {
     size = std::max(largest_of(direction), largest_of(rows_[other]));
     for (std::size_t i = 0; i < direction.size(); ++i) direction[i] -= rows_[other][i];

@@ -35,7 +35,7 @@ inline constexpr int most_rigid_motions = 6;
 /// every dof is a rigid-body motion.
 using rigid_row = std::array<double, most_rigid_motions>;
 
-/// What a motion q, one number for each rigid-body motion, does where `row` belongs.
+/// The displacement by a motion q, one number for each rigid-body motion, at the dof of `row`.
 [[nodiscard]] inline double along(const rigid_row& q, const rigid_row& row) {
   return std::inner_product(q.begin(), q.end(), row.begin(), 0.0);
 }
@@ -51,8 +51,9 @@ using rigid_row = std::array<double, most_rigid_motions>;
 /// The structure is a mechanism when this is less than the number of its rigid-body motions.
 class rigid_rank {
  public:
-  /// `rows` of all dofs, which are known from a matrix and rounded: one is independent whose part beside the
-  /// others is larger than this share of it. They must outlive this object, as `truth` must.
+  /// `rows` of all dofs, which are found from a matrix and rounded: a row is independent if its part
+  /// orthogonal to the others is larger than this share of it. They must outlive this object, as `truth`
+  /// must.
   rigid_rank(std::span<const rigid_row> rows, double independent) : rows_(rows), independent_(independent) {}
   /// By rows that `truth` knows exactly.
   explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
@@ -72,7 +73,7 @@ class rigid_rank {
   std::span<const rigid_row> rows_;
   double independent_ = 0.0;
   const rigid_truth* truth_ = nullptr;
-  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal, but for rounding; of rows of a matrix
+  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal up to rounding; of rows of a matrix
   std::vector<int> dofs_;                              // [rank_]
   int rank_ = 0;
 };
@@ -85,7 +86,7 @@ inline constexpr double negative_beyond = 1e-10;
 
 struct free_motions {
   int count = 0;
-  std::vector<rigid_row> rows;  ///< [rows of the matrix] what each motion does there
+  std::vector<rigid_row> rows;  ///< [rows of the matrix] the displacement by each motion there
   double rounding = 0.0;        ///< how far off these may be, relative
 };
 
@@ -101,12 +102,11 @@ struct free_motions {
     const stiffness_matrix& k, std::optional<int> known,
     const std::function<double(std::span<const double> u)>& doubt = nullptr);
 
-/// What the rigid-body motions of a beam or plate do at its dofs [dofs], in doubles.
+/// The displacements by the rigid-body motions of a beam or plate at its dofs [dofs], in doubles.
 template <class Kind>
 [[nodiscard]] std::vector<rigid_row> rigid_rows_of(const Kind& kind);
 
-/// The work of a load on each rigid-body motion of a beam or plate, exactly; or nothing, where that is not
-/// known.
+/// The work of a load on each rigid-body motion of a beam or plate, exactly; or nothing, if unknown.
 class rigid_work {
  public:
   struct numbers;
@@ -124,8 +124,8 @@ class rigid_work {
 
 /// A rigid-body motion, scaled so that the largest of its parts is 1.
 struct free_motion {
-  std::function<double(int dof)> at;  ///< what it does at a dof; 0 where the dof rests
-  double work;                        ///< what the load does on it, positive
+  std::function<double(int dof)> at;  ///< the displacement of a dof; 0 if the dof rests
+  double work;                        ///< the work of the load on it, positive
 };
 
 /// The rigid-body motions of a beam or plate: up by 1, and turns about its middle that lift an end by 1. A
@@ -136,21 +136,21 @@ class rigid_truth {
   explicit rigid_truth(const beam& b);
   explicit rigid_truth(const plate& p);
 
-  /// How many they are.
+  /// The number of motions.
   [[nodiscard]] int motions() const;
 
   /// Does dof `dof`, held, stop a motion that the dofs of `held` do not? These are independent of each other.
   [[nodiscard]] bool is_independent(std::span<const int> held, int dof) const;
 
-  /// The work of `l`; what it moves fixed dofs to does none.
+  /// The work of `l`; its settlements of fixed dofs do no work.
   [[nodiscard]] rigid_work work_of(const load& l) const;
 
   /// See resultant_of.
   [[nodiscard]] resultant resultant_of(const load& l) const;
 
-  /// The steepest of the motions that the dofs of `held`, independent of each other, leave free: none where
-  /// `work`, which is known, is 0 on all of these. `rows`: rigid_rows_of the structure, which the motion
-  /// uses.
+  /// The steepest of the motions that the dofs of `held`, independent of each other, leave free; nothing if
+  /// `work`, which must be known, is 0 on all of them. `rows`: rigid_rows_of the structure, which the motion
+  /// refers to.
   [[nodiscard]] std::optional<free_motion> driven_by(const rigid_work& work, std::span<const int> held,
                                                      std::span<const rigid_row> rows) const;
 

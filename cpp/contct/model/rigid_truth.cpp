@@ -69,7 +69,7 @@ struct rigid_shape {
   /// 0: a deflection; otherwise the slope along x (1) or y (2).
   [[nodiscard]] int kind_of(int dof) const { return dof % dofs_per_node(); }
 
-  /// What the motions do at x of a beam, in a straight part of it: they lift it, or turn it.
+  /// The row of the motions at x of a beam, in a straight part of it: they lift it, or turn it.
   [[nodiscard]] row along_beam(const Number& x, std::size_t part, bool turns) const {
     row all(motions());
     const Number one(1);
@@ -102,7 +102,7 @@ struct rigid_shape {
 
 namespace {
 
-/// What is left of `row` beside all of `orthogonal`.
+/// The part of `row` that is orthogonal to all of `orthogonal`.
 rational_vector rest_of(rational_vector row, std::span<const rational_vector> orthogonal) {
   for (const rational_vector& b : orthogonal) add(row, b, -dot(row, b) / dot(b, b));
   return row;
@@ -116,8 +116,8 @@ std::vector<rational_vector> orthogonal_of(std::span<const rational_vector> rows
   return all;
 }
 
-/// Is the point nearest to `sum` that `parts` span a sum of them with shares of which none is negative? No
-/// where they are not independent.
+/// Is the point nearest to `sum` in the span of `parts` a sum of them with nonnegative shares? False if they
+/// are not independent.
 bool has_positive_shares(const rational_vector& sum, std::span<const rational_vector> parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::vector<rational_vector> others(parts.begin(), parts.end());
@@ -128,7 +128,7 @@ bool has_positive_shares(const rational_vector& sum, std::span<const rational_ve
   return true;
 }
 
-/// Those of a few `parts` whose sum with shares of which none is negative comes nearest to `sum`.
+/// The subset of a few `parts` whose sum with nonnegative shares comes nearest to `sum`.
 std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<const rational_vector> parts) {
   std::vector<rational_vector> nearest;
   rational least = dot(sum, sum);
@@ -145,9 +145,9 @@ std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<co
   return nearest;
 }
 
-/// Is `sum` a sum of `parts` with shares of which none is negative? No more parts than motions carry the
-/// point of their cone that is nearest to it. A part that leads nearer takes the place of one of these, or
-/// joins them: every choice is nearer than the last, so this ends.
+/// Is `sum` a sum of `parts` with nonnegative shares? No more parts than motions span the point of their cone
+/// that is nearest to it. A part that leads nearer takes the place of one of these, or joins them: every
+/// choice is nearer than the last, so this ends.
 bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> parts) {
   std::vector<rational_vector> carrying;
   for (;;) {
@@ -184,7 +184,7 @@ void for_each_run(const std::vector<int>& elements, int all, const Visit& visit)
 struct rigid_truth::shape : rigid_shape<rational> {
   using rigid_shape<rational>::rigid_shape;
 
-  /// At right angles to each other, what the rows of these dofs span.
+  /// An orthogonal basis of the span of the rows of these dofs.
   [[nodiscard]] std::vector<rational_vector> orthogonal_rows(std::span<const int> dofs) const {
     std::vector<rational_vector> rows;
     for (const int dof : dofs) rows.push_back(row_of(dof));
@@ -344,7 +344,7 @@ bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> suppor
       stopped.push_back(std::move(rest));
     if (static_cast<int>(stopped.size()) == motions()) return true;
   }
-  // What supports leave. A pair with a face above takes loads that push it up.
+  // The motions that supports leave. A pair with a face above takes loads that push it up.
   std::vector<rational_vector> presses;
   for (const contact_pair& p : pairs) {
     rational_vector& part = presses.emplace_back(shape_->row_of(p.node * shape_->dofs_per_node()));

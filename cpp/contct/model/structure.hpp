@@ -16,16 +16,17 @@
 
 namespace contct {
 
-/// What a load says of one dof of one node.
+/// The value of a load at one dof of one node.
 struct nodal_value {
   int node = 0;         ///< from 0
   int dof = 0;          ///< within the node, from 0
   double value = 0.0;   ///< positive as the dof
   double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
 };
-using point_load = nodal_value;               ///< a force or moment, work-conjugate to the dof
-using prescribed_displacement = nodal_value;  ///< what a support, which fixes the dof, moves it to
-using face_move = nodal_value;                ///< how far the faces of all pairs there are moved
+using point_load = nodal_value;  ///< a force or moment, work-conjugate to the dof
+using prescribed_displacement =
+    nodal_value;                ///< the displacement that a support imposes on a dof that it fixes
+using face_move = nodal_value;  ///< how far the faces of all pairs there are moved
 
 /// A polynomial of a file, times factors: the product of the decimals.
 struct scaled_polynomial {
@@ -42,12 +43,12 @@ struct distributed_load {
   std::vector<scaled_polynomial> parts = {};
 };
 
-/// What a load that need not follow the mesh is: a force per length or area, a force or a moment at a place,
-/// or a curvature that a beam has without any moment, as of a temperature gradient.
+/// The kind of a load that need not follow the mesh: a force per length or area, a force or a moment at a
+/// place, or a curvature that a beam has without any moment, as of a temperature gradient.
 enum class load_kind { force, point, moment, curvature };
 
-/// Such a load. Its coordinates are those of nodes or grid lines where they are equal to them as decimals;
-/// elsewhere they are decimals.
+/// Such a load. Coordinates that equal those of nodes or grid lines as decimals are replaced by them; others
+/// are decimals.
 struct placed_load {
   load_kind what = load_kind::force;
   double from = 0.0, to = 0.0;     ///< along x, from < to; equal for a point between nodes
@@ -157,7 +158,7 @@ struct contact_pair {
   double face = 0.0;       ///< c: the position of the face
   double stiffness = 0.0;  ///< k of its spring, positive
   bool closed = false;     ///< in contact at the start
-  int other = -1;  ///< the node with the face, from 0; -1: the face stands still. No support fixes either
+  int other = -1;  ///< the node with the face, from 0; -1: the face is fixed. No support fixes either dof
 
   /// w of the node, less that of the other one. Of rows of numbers too.
   template <class Vector>
@@ -193,13 +194,13 @@ struct linear_structure {
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
   int rigid_motions = 0;  ///< 2 for a beam and 1 for each hinge, 3 for a plate, up to 6 for other bodies
-  std::vector<rigid_row> rigid_rows;  ///< [dofs] what the rigid-body motions do there
+  std::vector<rigid_row> rigid_rows;  ///< [dofs] the displacements by the rigid-body motions
   std::vector<int> supported_dofs;    ///< those whose supports stop such motions
   /// The rigid-body motions without rounding, of beams and plates; null for others.
   std::shared_ptr<const rigid_truth> truth;
   std::optional<rigid_rank> on_supports;  ///< held_by_supports, where `truth` has found it
-  /// How far off `rigid_rows` may be, relative to the largest: 0 where they are known by a formula, more
-  /// where they are found from the matrix.
+  /// The largest error of `rigid_rows`, relative to the largest row: 0 if they follow from a formula, more if
+  /// they are found from the matrix.
   double rigid_rounding = 0.0;
 
   /// [dofs] 1 where a displacement is a deflection; empty: `deflection` of a node.
@@ -209,9 +210,9 @@ struct linear_structure {
   /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
   /// side there, for the smaller bandwidth.
   [[nodiscard]] int row_of(std::size_t dof) const { return rows.empty() ? static_cast<int>(dof) : rows[dof]; }
-  /// What K u = f has for f in the row of a dof: its load; at a fixed one only what makes u the displacement
-  /// that `load` prescribes there, or 0. The pivot of a settling dof is a power of four near the stiffness
-  /// that it has lost: rows stay of one size, and u comes out to the bit.
+  /// The right-hand side of K u = f in the row of a dof: its load; at a fixed dof only the force that makes u
+  /// the displacement that `load` prescribes there, or 0. The pivot of a settling dof is a power of four near
+  /// the stiffness that it has lost: rows stay of one size, and u comes out to the bit.
   [[nodiscard]] double in_row(std::size_t dof, double load) const {
     if (fixed[dof] == 0) return load;
     return !settles.empty() && settles[dof] != 0 ? stiffness.diagonal(row_of(dof)) * load : 0.0;
@@ -219,7 +220,7 @@ struct linear_structure {
   [[nodiscard]] bool deflects(int dof) const {
     return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
-  /// What stops rigid-body motions while no dof is held.
+  /// The rank before any dof is held.
   [[nodiscard]] rigid_rank nothing_held() const {
     return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
   }
@@ -240,11 +241,11 @@ struct linear_structure {
   }
   /// Are these all of its rigid-body motions?
   [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
-  /// The steepest of the rigid-body motions that `held` leaves free and the load drives; none where it does
-  /// no work on any. `work` decides where it is known, otherwise the rounded `load` [dofs].
+  /// The steepest of the rigid-body motions that `held` leaves free and the load drives; nothing if the load
+  /// does no work on any. Decided by `work` if it is known, otherwise by the rounded `load` [dofs].
   [[nodiscard]] std::optional<free_motion> driven_motion(const rigid_rank& held, std::span<const double> load,
                                                          const rigid_work& work) const;
-  /// Is there an equilibrium under a load of this work? Nothing where only rounding would decide.
+  /// Is there an equilibrium under a load of this work? Nothing if only rounding would decide.
   [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
     constexpr int most_decided = 8;  // the search grows with the powers of 2
     if (!truth || !work.is_known() || rigid_motions - held_by_supports().rank() > most_decided)
@@ -255,11 +256,11 @@ struct linear_structure {
   [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
   /// The dof, from 0, at which pair `i` (from 0) acts.
   [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
-  /// The dof that has its face; -1 where that stands still.
+  /// The dof that has its face; -1 if the face is fixed.
   [[nodiscard]] int other_of_pair(std::size_t i) const {
     return pairs[i].other < 0 ? -1 : pairs[i].other * dofs_per_node + deflection;
   }
-  /// What pair `i` sees of displacements [dofs].
+  /// The relative displacement of pair `i` from displacements [dofs].
   template <class Vector>
   [[nodiscard]] auto seen_by_pair(std::size_t i, const Vector& u) const {
     return pairs[i].seen_in(u, dofs_per_node, deflection);
@@ -277,7 +278,7 @@ void put_on_supports(linear_structure& s, std::span<const support> supports, std
 /// built to settle.
 void add_settlements(const linear_structure& s, const load& l, std::span<double> f);
 
-/// How far `l` moves the faces at each dof: added to `moved` [dofs].
+/// Add the movement of the faces at each dof by `l` to `moved` [dofs].
 void add_moves(const load& l, int dofs_per_node, std::span<double> moved);
 
 /// A path counts displacements from moving faces: v = u - m, where m is how far the faces at a dof are moved.

@@ -33,8 +33,8 @@ template <class Real>
   return (b & sign) != 0 ? -static_cast<std::int64_t>(b & ~sign) - 1 : static_cast<std::int64_t>(b);
 }
 
-/// How many representable numbers lie between a and b (0 when equal to the bit). The largest
-/// count there is, when just one of them is NaN.
+/// The number of representable numbers between a and b (0 when equal to the bit). The largest possible count
+/// if just one of them is NaN.
 template <class Real>
 [[nodiscard]] inline std::uint64_t ulps_between(Real a, Real b) {
   if (same_bits(a, b)) return 0;

@@ -16,7 +16,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The digits at the front of `rest`, without the underscores between them, and `rest` what is behind.
+/// The digits at the front of `rest`, without the underscores between them, and `rest` becomes the text after
+/// them.
 std::string take_digits(std::string_view& rest) {
   std::string digits;
   while (!rest.empty() && (is_digit(rest.front()) || rest.front() == '_')) {
@@ -53,8 +54,8 @@ struct written_decimal {
   std::int64_t last;  // the power of ten of the last digit
 };
 
-/// What the whole of `literal` says: "-1_000.5e-3", "1.5D+02". Nothing if it is not a decimal: hexadecimal,
-/// infinite, empty.
+/// The value of the whole of `literal`: "-1_000.5e-3", "1.5D+02". Nothing if it is not a decimal:
+/// hexadecimal, infinite, empty.
 std::optional<written_decimal> written_in(std::string_view literal) {
   written_decimal w{take_minus(literal), false, take_digits(literal), 0};
   w.is_whole = literal.empty();

@@ -18,8 +18,8 @@ struct decimal {
   [[nodiscard]] bool operator==(const decimal&) const = default;
 };
 
-/// The power of ten of the last digit that is written: -3 of "1.250", 2 of "1.25e4". Nothing where `literal`
-/// is no decimal, and for whole numbers without point and exponent, which nothing has rounded.
+/// The power of ten of the last digit that is written: -3 of "1.250", 2 of "1.25e4". Nothing if `literal` is
+/// not a decimal, and for whole numbers without point and exponent, which are not rounded.
 [[nodiscard]] std::optional<int> last_written_digit(std::string_view literal);
 
 /// The shortest decimal that reads as `x`, which is finite.

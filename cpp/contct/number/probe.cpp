@@ -43,7 +43,7 @@ bool operands_are_flushed() {
   return subnormal * opaque(0x1p+60) == 0.0;
 }
 
-/// What the compiler may do cannot be measured, but its macros tell.
+/// The compiler's permissions cannot be measured, but its macros show them.
 constexpr bool may_rearrange() {
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
   return true;

@@ -5,8 +5,8 @@
 
 namespace contct {
 
-/// What the floating-point probe found. Equality between kernels is promised only where
-/// strict() holds; elsewhere a mismatch may be due to the environment.
+/// The results of the floating-point probe. Equality between kernels is promised only if strict() holds;
+/// otherwise a mismatch may be due to the environment.
 struct floating_point {
   bool contracts;          ///< a * b + c is fused into one rounding
   bool rounds_to_nearest;  ///< rounding mode, ties to even

@@ -30,7 +30,7 @@ int leading_exponent(const rational& x) {
   return e;
 }
 
-/// "123" with exponent -1 is 0.123: as a decimal where that is short, otherwise with an exponent.
+/// "123" with exponent -1 is 0.123: as a decimal if that is short, otherwise with an exponent.
 std::string decimal_words(std::string digits, int exponent) {
   const int count = static_cast<int>(digits.size());
   if (exponent < -5 || exponent > 20) {

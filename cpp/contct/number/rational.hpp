@@ -1,4 +1,4 @@
-// Exact numbers, by GMP where it is found; decimals in and out.
+// Exact numbers, by GMP if it is found; decimals in and out.
 #pragma once
 
 #ifdef CONTCT_HAS_GMP
@@ -67,9 +67,9 @@ void add(rational_vector& sum, const rational_vector& part, const rational& shar
 /// "p/q" in lowest terms, or "p".
 [[nodiscard]] std::string fraction_words(const rational& x);
 
-/// The fraction where its numerator and denominator have at most `digits` digits together; otherwise `digits`
-/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07". Zeros at the end are left out
-/// only where that is all of the number.
+/// The fraction if its numerator and denominator have at most `digits` digits together; otherwise `digits`
+/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07". Trailing zeros are omitted
+/// only if no other digits follow.
 [[nodiscard]] std::string short_words(const rational& x, int digits);
 
 /// Bits of the numerator or the denominator, whichever has more.

@@ -32,8 +32,8 @@ class path_record final : public observer {
   path_end end;                                   ///< for the caller to fill in
 };
 
-/// How a kernel's own path differs from the leader's. s itself is not compared: it is a small
-/// difference of nearby event loads and loses digits where the shares do not.
+/// How a kernel's own path differs from the leader's. s itself is not compared: it is a small difference of
+/// nearby event loads and loses digits even if the shares do not.
 struct free_run_difference {
   bool same_end = true;          ///< both ended in the same way, in the same step
   bool same_events = true;       ///< the same pairs made and broke in the same order

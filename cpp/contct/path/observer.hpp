@@ -1,4 +1,4 @@
-// What one may see of a path while it is followed.
+// The interface for observing a path while it is followed.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ struct increment {
   std::span<const event> events;   ///< in order of pairs
   bool snaps = false;              ///< a rigid-body motion to the next face, at constant load
   std::span<const double> d = {};  ///< D at each pair after it [pairs]
-  std::span<const int> isep = {};  ///< ISEP behind its events [pairs]
+  std::span<const int> isep = {};  ///< ISEP after its events [pairs]
   /// The force on the structure that each spring has gathered under the 1989 rule; 0 under any other [pairs].
   std::span<const double> pair_force = {};
 };
@@ -29,7 +29,7 @@ struct end_numbers {
   std::vector<double> element_values;  ///< as element_results has them
 };
 
-/// Where a step ended, or where the path stopped.
+/// The final state of a step, or of the path.
 struct step_state {
   int step;                              ///< from 1
   double fraction;                       ///< share of the step's load consumed

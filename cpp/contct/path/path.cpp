@@ -61,8 +61,8 @@ class path {
     return {status, now_.step, now_.fraction(), std::move(pairs)};
   }
 
-  /// Nothing stops the structure. The state reached is the one in which the pairs that separated last were
-  /// about to: without force, their springs still hold it.
+  /// A mechanism. The state reached is that just before the last separation, in which the springs of the
+  /// separating pairs still hold the structure, without force.
   path_end set_free() {
     for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
     now_.find_events();
@@ -75,8 +75,8 @@ class path {
     double rcond;
   };
 
-  /// The state under the load applied so far; of a structure that cannot be held, where rigid-body motions
-  /// led it. Nothing where it is out of the range of doubles.
+  /// The state under the load applied so far; of a structure that cannot be held, the position after its
+  /// rigid-body motions. Nothing if it is out of the range of doubles.
   [[nodiscard]] std::optional<reached_state> reached() {
     reached_state r{std::vector<double>(now_.total.size()), 0.0};
     const bool is_held = policy_->displace(r.u);
@@ -124,7 +124,7 @@ class path {
     return {path_status::solved, now_.step};
   }
 
-  /// A path that is lost ends in a mechanism only where there is certainly no equilibrium.
+  /// A path that is lost ends in a mechanism only if there is certainly no equilibrium.
   [[nodiscard]] path_end concluded(path_end end) const {
     const bool is_mechanism = end.has_equilibrium == false;
     if (end.status == path_status::mechanism) {

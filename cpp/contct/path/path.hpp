@@ -15,7 +15,7 @@
 
 namespace contct {
 
-/// How a path ended.
+/// The status in which a path ended.
 enum class path_status {
   solved,           ///< every step's load is applied
   mechanism,        ///< nothing holds the structure any more, and its load has certainly no equilibrium
@@ -31,14 +31,14 @@ struct path_end {
   double fraction = 1.0;        ///< share of that step's load reached
   std::vector<int> pairs = {};  ///< mechanism and path_ended: whose separation led to it; cycle and
                                 ///< limit: those whose events repeat; from 0, empty when none did
-  engine_counts work = {};      ///< what the engine did
-  /// Not solved: has the step's full load an equilibrium? Nothing where that is not decided.
+  engine_counts work = {};      ///< the engine's work
+  /// Not solved: has the step's full load an equilibrium? Nothing if that is undecided.
   std::optional<bool> has_equilibrium = {};
   bool by_1989_rule = false;  ///< the leader's
-  /// How steps behind this one ended that were not solved either: each starts from zero.
+  /// The ends of later steps that were not solved either: each starts from zero.
   std::vector<path_end> others = {};
 
-  /// Takes in how one more step ended: the first that is not solved stands for the path.
+  /// Records the end of one more step: the first that is not solved decides the status of the path.
   void take(path_end of_step) {
     if (status == path_status::solved)
       *this = std::move(of_step);
@@ -56,7 +56,7 @@ class load_history {
   using totals = std::function<void(int step, std::span<double> total)>;
   /// The work of that load on the rigid-body motions, without rounding.
   using works = std::function<rigid_work(int step)>;
-  /// Does a step start from the unloaded structure, whatever stands before it?
+  /// Does a step start from the unloaded structure, whatever comes before it?
   using restarts = std::function<bool(int step)>;
   /// Add how far the faces at each dof are moved at the end of `step` to `moved` [dofs].
   using moves = std::function<void(int step, std::span<double> moved)>;
@@ -72,7 +72,7 @@ class load_history {
         moves_(std::move(moved)) {}
 
   void operator()(int step, std::span<double> total) const { total_(step, total); }
-  /// Empty where no step moves a face, and in step 0; otherwise [dofs].
+  /// Empty if no step moves a face, and in step 0; otherwise [dofs].
   [[nodiscard]] std::vector<double> moved(int step, std::size_t dofs) const {
     if (!moves_ || step == 0) return {};
     std::vector<double> m(dofs);
@@ -102,14 +102,14 @@ struct full_load_state {
   bool from_reference = false, from_exact_path = false;
 };
 
-/// What is known of the equilibrium under the full load of a step.
+/// The equilibrium found under the full load of a step.
 struct found_end {
   std::optional<full_load_state> state = {};
   std::optional<bool> exists = {};  ///< nothing: it is not decided
 };
 
-/// Ends a step, from 1: refines and proves the state that a path has reached. Where that fails, or the path
-/// was lost and there is none (null), it finds the equilibrium by other means.
+/// Ends a step, from 1: refines and proves the state that a path has reached. If that fails, or the path was
+/// lost and there is no state (null), it finds the equilibrium by other means.
 using end_finder = std::function<found_end(int step, const full_load_state* reached)>;
 
 struct path_limits {

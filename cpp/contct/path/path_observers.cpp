@@ -43,7 +43,7 @@ explained_path::explained_path(const kernel_facts& leader, std::span<const std::
 void explained_path::called(const answered_call& c) {
   if (number_++ == 0) ++steps_;
   compared_.put(c);
-  // Calls that are not wanted are explained too: the largest deflection decides what is rounding in later
+  // Calls that were not requested are explained too: the largest deflection decides what is rounding in later
   // ones.
   call_ = explain(c, real_bytes_, largest_);
 }

@@ -74,13 +74,14 @@ struct explained_increment {
   const increment& what;
   double fraction_before = 0.0;  ///< share of the step's load consumed before it
   const explained_call& call;
-  const call_outputs* other = nullptr;  ///< the second kernel's; null where there is none, or no answer
-  std::optional<mismatch> apart;        ///< where the second kernel differs first
-  bool left_undone = false;  ///< the driver took the toggles back: the load that is left is rounding
+  const call_outputs* other =
+      nullptr;                    ///< the second kernel's; null if there is no second kernel, or no answer
+  std::optional<mismatch> apart;  ///< where the second kernel differs first
+  bool left_undone = false;       ///< the driver took the toggles back: the load that is left is rounding
 };
 
-/// Explains a path of a kernel that has the 1989 rule, and hands on the increments that are wanted, one
-/// at a time, with another kernel's answer beside them: nothing is kept of those before.
+/// Explains a path of a kernel that has the 1989 rule, and passes on the requested increments, one at a time,
+/// with another kernel's answer: earlier ones are not kept.
 class explained_path final : public observer {
  public:
   using sink = std::function<void(const explained_increment&)>;
@@ -96,7 +97,7 @@ class explained_path final : public observer {
   [[nodiscard]] std::int64_t calls() const { return compared_.calls(); }
   [[nodiscard]] tally compared() const { return compared_.compared(); }
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return compared_.first(); }
-  /// How many increments were handed on.
+  /// The number of increments passed on.
   [[nodiscard]] std::int64_t explained() const { return explained_; }
   /// Steps that were begun, and the increments of the longest among those that are wanted.
   [[nodiscard]] int steps() const { return steps_; }

@@ -1,4 +1,4 @@
-// Where a path is, in the paper's words, and whether it goes in cycles.
+// The state of a path, in the paper's symbols, and the detection of cycles.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +94,7 @@ struct path_state {
     int own_rows = 0;
     for (const contact_pair& p : structure.pairs) {
       c.push_back(p.face);
-      const bool has_own_row = !as_listed || p.other >= 0;  // behind those of the structure
+      const bool has_own_row = !as_listed || p.other >= 0;  // after those of the structure
       const int before = as_listed ? structure.dofs() : 0;
       id.push_back(has_own_row ? before + ++own_rows : p.node + 1);
       surface.push_back(p.surface);
@@ -161,7 +161,7 @@ struct path_state {
     put_at(shape, isep);
   }
 
-  /// The rigid-body motion that the residual load drives and that nothing stops now; none where it drives
+  /// The rigid-body motion that the residual load drives and that nothing stops now; nothing if it drives
   /// none.
   [[nodiscard]] std::optional<free_motion> driven_motion() const {
     const rigid_work work = loads_->work(step);
@@ -169,13 +169,13 @@ struct path_state {
                                    loads_->from_zero(step) ? work : work.less(loads_->work(step - 1)));
   }
 
-  /// Is there an equilibrium at the end of the step? There is one on the way then, too. Nothing where only
+  /// Is there an equilibrium at the end of the step? If so, there is one throughout the step. Nothing if only
   /// rounding would decide.
   [[nodiscard]] std::optional<bool> has_equilibrium() const {
     return structure.has_equilibrium(loads_->work(step));
   }
 
-  /// Does the step's total load drive what nothing stops now? Nothing where only rounding would decide.
+  /// Does the step's total load drive what nothing stops now? Nothing if only rounding would decide.
   [[nodiscard]] std::optional<bool> total_drives_a_motion() const {
     const rigid_work work = loads_->work(step);
     if (!work.is_known()) return std::nullopt;
@@ -236,7 +236,7 @@ struct path_state {
     sprung = status;
   }
 
-  /// How far the faces at a dof are moved when that share of the step's load is still to be applied.
+  /// The movement of the faces at a dof when that share of the step's load is still to be applied.
   [[nodiscard]] double moved(std::size_t dof, double share_left) const {
     if (moved_.empty()) return 0.0;
     const double before = moved_before_.empty() ? 0.0 : moved_before_[dof];

@@ -38,7 +38,7 @@ bool path_policy::reaches_full_load(double s_min) const {
 
 namespace {
 
-/// a - b, or 0 where that is their rounding: two dofs of one body move alike.
+/// a - b, or 0 if it is only rounding: two dofs of one body move alike.
 double difference(double a, double b, double rounding) {
   const double largest = std::max(std::abs(a), std::abs(b));
   return std::abs(a - b) <= std::max(1e-10, rounding) * largest ? 0.0 : a - b;
@@ -92,7 +92,7 @@ class holding_springs {
 /// The policy of the corrected rule: what no kernel can decide from one call (reference/corrected-rule.md).
 ///
 /// Rigid-body motions that the load drives are followed to the next face at constant load; those that it does
-/// not drive are held by springs without force. A pair that toggles twice running without progress stays in
+/// not drive are held by springs without force. A pair that toggles twice in a row without progress stays in
 /// contact until the load advances, and after many answers without progress the pair of least index toggles.
 class corrected_policy final : public path_policy {
  public:
@@ -158,8 +158,8 @@ class corrected_policy final : public path_policy {
     now_.find_events();
   }
 
-  /// Do the last pairs that hold the structure separate at full load, but for rounding? The load of the
-  /// step then does no work on the motions that they free.
+  /// Do the last pairs that hold the structure separate at full load, up to rounding? The load of the step
+  /// then does no work on the motions that they free.
   [[nodiscard]] bool opens_at_full_load(double s_min) const {
     constexpr double rounding_at_most = 1e-6;
     const std::optional<bool> driven = now_.total_drives_a_motion();
@@ -207,7 +207,7 @@ class corrected_policy final : public path_policy {
   }
 
   bool rigid_ = false;                // the last response
-  std::vector<double> motion_;        // that response, where it is rigid [dofs]
+  std::vector<double> motion_;        // that response, if it is a rigid-body motion [dofs]
   int answers_at_rest_ = 0;           // in a row, with SMIN = 0
   int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
   std::vector<int> kept_in_contact_;  // pairs that are not asked until the load advances

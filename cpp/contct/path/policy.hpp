@@ -39,8 +39,8 @@ class path_policy {
   /// Write d* [pairs] to the state. Throws no_factor.
   virtual response respond();
 
-  /// Put the call to the kernel, which toggles statuses, and replace its answer where the driver knows
-  /// better. Returns s_min; nothing where a rigid-body motion meets no face: a mechanism.
+  /// Make the call of the kernel, which toggles statuses, and override its answer where several calls must be
+  /// considered. Returns s_min; nothing if a rigid-body motion meets no face: a mechanism.
   virtual std::optional<double> decide();
 
   /// May the path go on after the events of this increment, or do they leave a mechanism?

@@ -66,8 +66,8 @@ inline path_end follow(const problem& p, const linear_structure& s, std::string_
 }
 
 /// The force (or moment) on the structure by each support of `p`, in their order, under displacement `u`
-/// [dofs] and load `l`, with the pairs in the statuses `isep` [pairs]: what a pair presses with on a fixed
-/// deflection, which a settlement may have moved, is no support's.
+/// [dofs] and load `l`, with the pairs in the statuses `isep` [pairs]: the force of a pair on a fixed
+/// deflection, which a settlement may have moved, is not a support's reaction.
 [[nodiscard]] inline std::vector<double> reactions(const problem& p, const load& l, std::span<const double> u,
                                                    std::span<const int> isep) {
   std::vector<double> all = reactions(p.geometry, l, p.supports, u);

@@ -125,7 +125,7 @@ class combination_reader {
     return all;
   }
 
-  /// How many there are from `from` on, the last one at or before `to`.
+  /// The number of positions from `from` on, the last one at or before `to`.
   [[nodiscard]] static int places_of(const toml_value& t, const rational& from, const rational& by) {
     constexpr int most = 10'000;
     const rational way = decimal_of(t["to"].real(any_real)) - from;
@@ -137,7 +137,7 @@ class combination_reader {
     return static_cast<int>(rounded(rational(numerator(steps) / denominator(steps)))) + 1;
   }
 
-  /// A force at x, `factor` times w; beyond the beam there is none.
+  /// A force at x, `factor` times w; no force beyond the beam.
   static void put_axle(const beam& b, double x, double w, double factor, load& l) {
     if (x < b.x.front() || x > b.x.back()) return;
     if (const std::optional<int> node = find_coordinate(b.x, x))
@@ -151,7 +151,7 @@ class combination_reader {
   std::set<std::string> names_;  // of combinations and trains
 };
 
-/// Refuse steps beside combinations, and cases that nothing uses.
+/// Refuse steps together with combinations, and unused cases.
 void refuse_mixed(const toml_value& top) {
   constexpr const char* allowed =
       "[[step]]s, each going on from the one before, or [[combination]]s and [[train]]s of [[case]]s, each "

@@ -1,4 +1,4 @@
-// JSON as the tree that TOML is read into, so that toml_value refuses what is wrong in either with its place.
+// JSON as the tree that TOML is read into, so that toml_value reports errors in either with their places.
 #pragma once
 
 #include "contct/read/toml_reader.hpp"

@@ -33,8 +33,7 @@ struct read_entry {
 /// Matrix Market's files have the lower triangle, CalculiX's the upper one.
 enum class entry_format { matrix_market, calculix };
 
-/// A line that was meant for a header may be quoted; any other may hold what the message's reader must not
-/// see.
+/// A line that resembles a header may be quoted; any other may hold text that the message must not reveal.
 bool is_like_header(std::string_view line) {
   return line.front() == '%' || lower_case(line).find("market") != std::string::npos;
 }
@@ -86,7 +85,7 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
   return array;
 }
 
-/// To the line behind the comments: the size.
+/// Go to the line after the comments: the size.
 void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed) {
   do {
     if (!lines.next()) lines.refuse("the end of the file", allowed);
@@ -148,8 +147,8 @@ int first_digit(const read_entry& e) {
   return static_cast<int>(std::floor(std::log10(std::abs(e.value))));
 }
 
-/// How a program rounded what it wrote: to as many places behind the point, or to as many digits, of which it
-/// may leave out zeros at the end. Whole numbers are exact.
+/// The rounding of a program's output: to a number of decimal places, or of digits, without trailing zeros.
+/// Whole numbers are exact.
 struct written_digits {
   int most_digits = 0;
   std::optional<int> lowest, highest;  // the last digits' places that there are; none: all are exact
@@ -167,7 +166,7 @@ struct written_digits {
   }
 };
 
-/// Of all entries that are not 0; nothing where all are exact.
+/// Of all entries that are not 0; nothing if all are exact.
 std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries) {
   written_digits written;
   for (const read_entry& e : entries) written.include(e);
@@ -178,7 +177,7 @@ std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries)
   return digits;
 }
 
-/// The matrix, without entries that are 0. Linear in the entries, but for sorting them.
+/// The matrix, without entries that are 0. Linear in the entries, except for sorting them.
 sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
   // The order is only declared by a line, so it is checked before memory of its size is allocated.
   if (order > static_cast<std::int64_t>(entries.size()))
@@ -193,8 +192,8 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   return matrix;
 }
 
-/// Call `read`, with the number of the line from 0, at each line behind that of the size, which says how many
-/// there are.
+/// Call `read`, with the number of the line from 0, at each line after that of the size, which gives their
+/// number.
 template <class Read>
 void read_lines(field_lines& lines, int said, std::string_view kind, const Read& read) {
   const std::int64_t size_line = lines.line();
@@ -209,7 +208,7 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
                  fmt::format("as many as line {} says", size_line));
 }
 
-/// Where each name stands.
+/// The line of each name.
 using line_numbers = std::unordered_map<std::string_view, std::int64_t>;
 
 /// Refuse a name that a line before has.
@@ -221,7 +220,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
                  fmt::format("each {} once", what));
 }
 
-/// How many fields stand before a comment.
+/// The number of fields before a comment.
 std::size_t fields_before_comment(const field_lines& lines) {
   std::size_t count = 0;
   while (count < lines.fields() && lines.field(count).front() != '#') ++count;

@@ -1,5 +1,5 @@
-// Files that hold a stiffness matrix or a load vector, Matrix Market's and what CalculiX writes; those that
-// hold the labels of its dofs; and, for pictures, those that say where these are.
+// Files that hold a stiffness matrix or a load vector, in the formats of Matrix Market and CalculiX; files
+// with the labels of its dofs; and, for pictures, files with their positions.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ namespace contct {
 inline constexpr std::size_t largest_matrix_file = 16384;
 
 /// "%%MatrixMarket matrix coordinate real symmetric": the lower triangle, from 1, each place once. The words
-/// of the header in any case; comments behind it, and blank lines. Linear in the text, but for sorting; the
+/// of the header in any case; comments after it, and blank lines. Linear in the text, except for sorting; the
 /// declared entry count is not used to allocate memory. The matrix has no entries that are 0. Throws
 /// input_error for anything else, a negative diagonal, and a row that has entries but no diagonal.
-/// `warnings`: one is appended where numbers are not the shortest decimals of their doubles.
+/// `warnings`: one is appended if numbers are not the shortest decimals of their doubles.
 [[nodiscard]] sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
                                             std::vector<std::string>* warnings = nullptr);
 
@@ -41,8 +41,8 @@ inline constexpr std::size_t largest_matrix_file = 16384;
 [[nodiscard]] std::vector<placed_node> parse_coordinates(std::string_view text, std::string_view file);
 
 /// Places by a file of coordinates (see parse_coordinates): each dof's node is found by its label,
-/// "NAME.DIRECTION", and nodes that the matrix couples have an edge where these are few, as in frames. No
-/// nodes where no label has one; `notes` say what is not drawn. Throws input_error.
+/// "NAME.DIRECTION", and nodes that the matrix couples have an edge if these are few, as in frames. No nodes
+/// if no label has one; `notes` name the parts that are not drawn. Throws input_error.
 [[nodiscard]] placed_nodes places_by_coordinates(std::string_view text, std::string_view file,
                                                  const assembled& a);
 

@@ -68,7 +68,7 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   return any;
 }
 
-/// `pairs` of nodes as edges, each once and with how many there are. Linear but for a sort.
+/// `pairs` of nodes as edges, each once and with how many there are. Linear, except for a sort.
 std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   std::sort(pairs.begin(), pairs.end());
   std::vector<mesh_edge> edges;
@@ -79,7 +79,7 @@ std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   return edges;
 }
 
-/// Edges for a structure of which only the matrix is known: between nodes that it couples. None where there
+/// Edges for a structure of which only the matrix is known: between nodes that it couples. No edges if there
 /// are more than this many for each node, as in a solid or a plate, whose couplings are not members. A space
 /// frame has 3 at most, a plane one 2.
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
@@ -166,7 +166,7 @@ constexpr solid known_solids[] = {{"C3D4", 4, false, tetrahedron}, {"C3D6", 6, f
                                   {"C3D8", 8, false, brick},       {"C3D10", 4, true, tetrahedron},
                                   {"C3D15", 6, true, wedge},       {"C3D20", 8, true, brick}};
 
-/// The solid that a type names, with any letters behind it; null where it is another.
+/// The solid that a type names, with any letters after it; null for other types.
 const solid* solid_of(std::string_view type) {
   for (const solid& s : known_solids) {
     if (type.substr(0, s.type.size()) != s.type) continue;
@@ -176,12 +176,12 @@ const solid* solid_of(std::string_view type) {
   return nullptr;
 }
 
-/// Reads an input file line by line. Nodes may stand behind the elements that name them.
+/// Reads an input file line by line. Nodes may come after the elements that name them.
 class inp_reader {
  public:
   inp_reader(std::string_view text, std::string_view file) : lines_(text, file) {}
 
-  /// The nodes and edges, and what is left out.
+  /// The nodes and edges, and the names of omitted parts.
   placed_nodes read() {
     while (next_line()) {
       if (line_.front() == '*') {
@@ -251,7 +251,7 @@ class inp_reader {
       lines_.refuse(fmt::format("node {} again, at another place", number), "each node at one place");
   }
 
-  /// An element's nodes may stand on several lines; its type says how many there are.
+  /// An element's nodes may be on several lines; its type gives their number.
   void read_solid() {
     const std::vector<std::string_view> fields = fields_of(line_);
     std::size_t i = 0;

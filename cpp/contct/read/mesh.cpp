@@ -9,7 +9,7 @@
 namespace contct {
 namespace {
 
-/// How far coordinates between these may be apart and still be the same decimal.
+/// The largest difference of two coordinates among these that count as the same decimal.
 double rounding_of(std::span<const double> among) {
   return 4 * std::numeric_limits<double>::epsilon() *
          std::max(std::abs(among.front()), std::abs(among.back()));
@@ -34,7 +34,7 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
   return named;
 }
 
-/// `named` and `ends`, rising, each once: those outside the ends are refused where they are read.
+/// `named` and `ends`, rising, each once: those outside the ends are refused when they are read.
 std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector<double> named) {
   std::erase_if(named, [&ends](double x) {
     return x < ends.front() || x > ends.back() || find_coordinate(ends, x).has_value();
@@ -48,8 +48,8 @@ std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector
   return named;
 }
 
-/// The decimal of 15 digits next to x where it is `same`: what a person would write for a node that the mesh
-/// has put there. 0.2 rather than 0.6 / 3.
+/// The decimal of 15 digits nearest to x if it is within `same`: the number that a user would write for this
+/// node. 0.2 rather than 0.6 / 3.
 double as_written(double x, double same) {
   const double decimal = number_in<double>(fmt::format("{:.15g}", x)).value_or(x);
   return std::abs(decimal - x) <= same ? decimal : x;

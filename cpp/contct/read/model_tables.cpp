@@ -34,7 +34,7 @@ std::vector<double> read_coordinates(const toml_value& t, const char* key, const
 }
 
 /// EI or section piece by piece, each from the end of the one before it to the node at its own. read(piece,
-/// elements) takes what a piece says beside `to`, by these keys.
+/// elements) reads the other keys of a piece, which are these.
 template <class Read>
 void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::string_view> keys,
                  const Read& read) {
@@ -58,8 +58,8 @@ struct section_key {
   const char* name;
   double beam_section::*value;
 };
-/// What a section may say beside E and I, which every piece says or none: stresses and self-weight are the
-/// whole beam's.
+/// The optional keys of a section besides E and I, which every piece has or none: stresses and self-weight
+/// are the whole beam's.
 constexpr section_key more_of_sections[] = {
     {"W", &beam_section::W}, {"A", &beam_section::A}, {"weight", &beam_section::weight}};
 
@@ -230,7 +230,7 @@ std::int64_t bytes_of_run(const assembled& a) {
   return (as_read + 3 * in_columns) * entries + 5 * sparse_factor::make(columns_of(a.stiffness))->bytes() / 2;
 }
 
-/// "band", "sparse", or nothing where the table does not say.
+/// "band", "sparse", or nothing if the table does not have it.
 std::string read_storage(const toml_value& t) {
   if (!t.has("storage")) return "";
   constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
@@ -293,7 +293,7 @@ void refuse_unknown_nodes(const toml_value& named, const std::string& path, cons
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
-/// The mesh that the table names, or else the one beside the job's matrix, where there is one.
+/// The mesh that the table names, or else the one beside the job's matrix, if there is one.
 void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
   const std::string path = t.has("mesh") ? files.path_of(t["mesh"]) : files.path_of(t["job"], ".inp");
   if (!t.has("mesh") && !std::filesystem::exists(path)) return;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* point_words = "[x, y], or a list of such points";
 
-/// What a key takes that names several nodes.
+/// The allowed values of a key that names several nodes.
 std::string_view list_words(std::string_view key) {
   if (key == "at") return point_words;
   return key == "x" ? "a number, or a list of numbers" : "a list of labels";

@@ -16,9 +16,9 @@ namespace contct {
 
 inline constexpr int most_elements = 2'000'000;
 
-/// Which of the rising coordinates `among`, from 0, is the nearest to x; nothing where it is not equal to x
-/// as a decimal. A mesh computes its coordinates, with two roundings: 3 * 0.7 / 7 is not the double nearest
-/// to 0.3. So coordinates are equal up to 4 roundings of the larger end of the structure.
+/// Which of the rising coordinates `among`, from 0, is the nearest to x; nothing if it is not equal to x as a
+/// decimal. A mesh computes its coordinates, with two roundings: 3 * 0.7 / 7 is not the double nearest to
+/// 0.3. So coordinates are equal up to 4 roundings of the larger end of the structure.
 [[nodiscard]] std::optional<int> find_coordinate(std::span<const double> among, double x);
 
 /// Coordinates that a value in a problem file may name.
@@ -29,8 +29,8 @@ struct coordinate_row {
 
   /// The number, from 0, of the coordinate that `named` is. Refuses any other number with the two nearest.
   [[nodiscard]] int index_of(const toml_value& named) const;
-  /// The coordinate that `named` is, or `named` itself where it is no coordinate, from the first to the last
-  /// of them.
+  /// The coordinate equal to `named`, or `named` itself if there is none; it must lie between the first and
+  /// the last.
   [[nodiscard]] double place_of(const toml_value& named) const;
 
  private:
@@ -45,7 +45,7 @@ struct coordinate_row {
 /// Is EI, or section, in the beam's table a list of pieces, each up to the x that it names?
 [[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
 
-/// Coordinates, and what they are made of.
+/// Coordinates, and the runs of equal parts that they consist of.
 struct mesh_line {
   std::vector<double> x;
   std::vector<even_run> runs;
@@ -84,7 +84,7 @@ class node_reader {
   /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 
-  /// Refuse `named`, which acts on dof `dof` of `node`, where that is one of the two slopes at a hinge.
+  /// Refuse `named`, which acts on dof `dof` of `node`, if that is one of the two slopes at a hinge.
   void refuse_hinge(const toml_value& named, int node, int dof) const;
 
   /// The names of a node's dofs.
@@ -98,7 +98,7 @@ class node_reader {
 
   const model& structure_;
   const assembled* matrix_;                         // null: the structure is a beam or a plate
-  std::unordered_map<std::string_view, int> dofs_;  // of a matrix, by label; empty where these are numbers
+  std::unordered_map<std::string_view, int> dofs_;  // of a matrix, by label; empty if labels are numbers
   std::vector<std::string_view> keys_;              // that for a single node first
   std::vector<std::string_view> dof_names_;         // of a node
 };

@@ -16,7 +16,7 @@
 namespace contct {
 namespace {
 
-/// What pairs of one table have in common.
+/// The keys that the pairs of one table share.
 struct facing {
   int surface;
   std::optional<bool> closed;  ///< as the file says; otherwise where the face is at 0
@@ -173,7 +173,7 @@ class problem_reader {
     return {node, f.surface, face, 0.0, f.closed.value_or(face == 0)};
   }
 
-  /// The dofs with the faces of a table's pairs; -1 where these stand still.
+  /// The dofs with the faces of a table's pairs; -1 for fixed faces.
   [[nodiscard]] std::vector<int> read_others(const toml_value& t, const std::vector<int>& at) const {
     std::vector<int> none(at.size(), -1);
     if (!t.has("other")) return none;
@@ -218,8 +218,8 @@ class problem_reader {
     }
   }
 
-  /// The faces of a bed: one for all of its nodes, or one for each, those included that are fixed in w. Where
-  /// they are a polynomial, its coefficients too.
+  /// The faces of a bed: one for all of its nodes, or one for each, including those fixed in w. For a
+  /// polynomial, its coefficients too.
   [[nodiscard]] std::vector<double> read_faces(const toml_value& t, const std::vector<int>& at,
                                                std::vector<double>& coefficients) const {
     const toml_value face = t["face"];

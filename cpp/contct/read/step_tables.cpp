@@ -66,7 +66,7 @@ class step_reader {
   [[nodiscard]] const beam* of_beam() const { return std::get_if<beam>(&nodes_.structure().kind); }
   [[nodiscard]] const plate* of_plate() const { return std::get_if<plate>(&nodes_.structure().kind); }
 
-  /// What bends other structures as a curvature would.
+  /// Refuse a curvature for other structures, and name the substitute.
   void refuse_curvature(const toml_value& t) const {
     if (!t.has("curvature") || of_beam() != nullptr) return;
     t["curvature"].refuse(
@@ -189,7 +189,7 @@ class step_reader {
       to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this begins", from));
   }
 
-  /// from and to along a beam; the ends of the beam where they are missing.
+  /// from and to along a beam; the ends of the beam if they are missing.
   static void read_ends(const toml_value& t, const beam& b, placed_load& p) {
     const coordinate_row x = nodes_along(b.x);
     p.from = t.has("from") ? x.place_of(t["from"]) : b.x.front();
@@ -257,7 +257,7 @@ class step_reader {
     }
   }
 
-  /// A spring's foot does not move: what its support would do is not a displacement of the structure.
+  /// Settlements apply to fixed dofs only; the base of an elastic support cannot be moved.
   void refuse_unfixed(const toml_value& t, int node, int dof) const {
     const std::string_view name = nodes_.dof_names()[dof];
     const hold here = held_[node * nodes_.dof_names().size() + dof];
@@ -286,7 +286,7 @@ class step_reader {
     }
   }
 
-  /// The deflection of a node is what its pairs see.
+  /// Faces move in the direction of the deflection, which is the dof of the pairs.
   void read_moves(const toml_value& t, load& l) const {
     const std::string_view name = nodes_.dof_names().front();
     std::set<int> moved;

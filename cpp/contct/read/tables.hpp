@@ -20,7 +20,7 @@ namespace contct {
 void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pairs, assembled& a);
 
 /// The coefficients under the key "polynomial", the constant first: a beam's load, or a face along it, in x
-/// as the nodes have it. Of other structures it is refused; allowed is what is said in `elsewhere`.
+/// of the nodes. Other structures refuse it, with `elsewhere` as the allowed alternative.
 [[nodiscard]] std::vector<double> read_polynomial(const toml_value& t, const model& m,
                                                   std::string_view elsewhere);
 

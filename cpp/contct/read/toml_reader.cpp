@@ -43,7 +43,7 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
 
 constexpr std::string_view point_not_comma = " (a number takes a decimal point, 4.0 for 4,0)";
 
-/// The words above where an array holds twice as many whole numbers as were `meant`: 4,0 is two of them.
+/// The words above if an array holds twice as many whole numbers as were `meant`: 4,0 is read as two.
 std::string_view comma_hint(const toml::node& node, std::size_t meant) {
   const toml::array* const array = node.as_array();
   const bool twice = array != nullptr && array->size() == 2 * meant && array->is_homogeneous<std::int64_t>();

@@ -33,7 +33,7 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// "key[3]", with the index from 1.
 [[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
 
-/// Where the nodes of a tree begin that toml++ did not parse.
+/// The positions of nodes in a tree that toml++ did not parse.
 using toml_places = std::map<const toml::node*, toml::source_position>;
 
 /// A value of a TOML file, which knows its name for people: "contact[2].face", or "" for the file itself. A
@@ -56,7 +56,7 @@ class toml_value {
   /// The entries of an array that has at least `least` of any type, and at most `most`.
   [[nodiscard]] std::vector<toml_value> entries(std::string_view allowed, std::size_t least,
                                                 std::size_t most = -1) const;
-  /// Of what is one value or a list: an array's entries, at least one, or the value itself.
+  /// The entries of a value that may be a list: an array's entries, at least one, or the value itself.
   [[nodiscard]] std::vector<toml_value> each(std::string_view allowed) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(const real_range& range, std::size_t least) const;
@@ -70,27 +70,27 @@ class toml_value {
   [[nodiscard]] toml_value table() const;
   /// The tables of an array, at least one.
   [[nodiscard]] std::vector<toml_value> tables() const;
-  /// The same, or none where the key is missing.
+  /// The same, or none if the key is missing.
   [[nodiscard]] std::vector<toml_value> optional_tables() const {
     return node_ == nullptr ? std::vector<toml_value>{} : tables();
   }
 
-  /// Of a table: has it the key, and what is there?
+  /// For a table: does it have the key, and which value?
   [[nodiscard]] bool has(std::string_view key) const { return node_->as_table()->contains(key); }
   [[nodiscard]] toml_value operator[](std::string_view key) const;
-  /// Refuse every key but these, and `others` beside the key or keys in `beside`.
+  /// Refuse every key but these, and `others` together with the key or keys in `beside`.
   void allow_only(const std::vector<std::string_view>& keys) const;
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;
 
-  /// The node, which is refused where it is missing.
+  /// The node; a missing one is refused.
   [[nodiscard]] const toml::node& required(std::string_view allowed) const;
   [[nodiscard]] bool is_table() const { return node_ != nullptr && node_->is_table(); }
   [[nodiscard]] bool is_array() const { return node_ != nullptr && node_->is_array(); }
 
-  /// The name of the i-th entry, from 0; or the value's own where it stands for all entries.
+  /// The name of the i-th entry, from 0; or the value's own if it applies to all entries.
   [[nodiscard]] std::string name_of(std::size_t i) const { return is_array() ? indexed(name_, i) : name_; }
-  /// Where this is, for messages: "pb.toml:12: contact[2]".
+  /// The position of this value, for messages: "pb.toml:12: contact[2]".
   [[nodiscard]] std::string where() const;
 
   /// The value in words: "-5", "\"abc\"", "a table", "an array of 3".
@@ -137,7 +137,7 @@ class named_files {
   /// `problem_file`: its path; without a folder in it, that is where the process runs.
   named_files(std::string_view problem_file, reach allowed);
 
-  /// The path of the file that is named, with `ending` behind it. Refuses one that is not below the folder,
+  /// The path of the file that is named, with `ending` appended. Refuses one that is not below the folder,
   /// symbolic links followed, unless all are allowed.
   [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
 
@@ -152,21 +152,21 @@ class named_files {
   std::shared_ptr<std::vector<std::string>> all_ = std::make_shared<std::vector<std::string>>();
 };
 
-/// A number in a file, and where it stands.
+/// A number in a file, and its position.
 struct written_number {
   std::string key;  ///< "step[1].point[2].w"
   double value = 0;
   bool is_whole = false;
   int line = 0, column = 0, length = 0;  ///< from 1, in code points
-  std::string_view literal = {};         ///< as it stands there
+  std::string_view literal = {};         ///< as written
   bool is_shortest = true;               ///< is the literal the shortest decimal of its double?
 };
 
-/// All finite numbers of a document, in the order in which they stand. `text` is the document's.
+/// All finite numbers of a document, in the order of the file. `text` is the document's.
 [[nodiscard]] std::vector<written_number> numbers_in(const toml::table& document, std::string_view text);
 
 /// A warning for each number of the document, `text` in the file `file`, that is not the shortest decimal of
-/// its double, in the order in which they stand; of many, for the first ten, and how many there are.
+/// its double, in the order of the file; for many, the first ten and their number.
 [[nodiscard]] std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
                                                          std::string_view file);
 

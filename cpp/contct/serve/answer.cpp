@@ -27,7 +27,7 @@ std::string as_json(const std::string& text) {
 /// The error, with the place that its message begins with, if any: "pb.toml:12:3: ..", or without the column.
 std::string error_json(std::string_view message) {
   json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
-  const auto number_at = [message](std::size_t from) {  // 0 where none stands there with a colon behind it
+  const auto number_at = [message](std::size_t from) {  // 0 if there is no number followed by a colon
     const std::size_t end = message.find_first_not_of("0123456789", from);
     if (end == std::string_view::npos || message[end] != ':') return 0;
     return number_in<int>(message.substr(from, end - from)).value_or(0);
@@ -59,7 +59,7 @@ std::string text_of(const served_answer& a, const std::optional<std::string>& er
   return text + "}";
 }
 
-/// What is refused is written by recursion, which values in values without end would overflow.
+/// A refused value is written by recursion, which unlimited nesting would overflow.
 void refuse_deep(int depth) {
   constexpr int deepest = 16;
   if (depth > deepest)

@@ -1,4 +1,4 @@
-// What the functions of serve.h take and return: options as a JSON object, an answer as another.
+// Arguments and results of the functions of serve.h: options as a JSON object, an answer as another.
 #pragma once
 
 #include <deque>
@@ -40,14 +40,14 @@ class request {
   [[nodiscard]] std::vector<std::string> texts(std::string_view name,
                                                std::vector<std::string> otherwise) const;
   [[nodiscard]] int whole(std::string_view name, int otherwise, int least, int most) const;
-  /// Lists of finite numbers; none where the option is not there.
+  /// Lists of finite numbers; none if the option is missing.
   [[nodiscard]] std::vector<std::vector<double>> lists(std::string_view name) const;
   [[nodiscard]] bool has(std::string_view name) const { return options_.contains(name); }
 
   /// The problem's name for messages: "file" in "folder".
   [[nodiscard]] std::string file() const;
 
-  /// The problem in a text, where the options say what it is called and which files it may name; its warnings
+  /// The problem in a text, with its name and the files that it may name from the options; its warnings
   /// become messages. Throws as parse_problem does.
   [[nodiscard]] problem problem_in(const char* text, served_answer& a) const;
 

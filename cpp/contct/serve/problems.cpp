@@ -36,7 +36,7 @@ void refuse_unknown_engine(const std::string& name) {
       fmt::format("options: engine: found \"{}\"; allowed: auto, {}", name, fmt::join(names, ", ")));
 }
 
-/// What is written beside the result where the option of this name asks for it.
+/// The outputs besides the result that an option of this name requests.
 constexpr std::pair<const char*, output_file * run_outputs::*> further_outputs[] = {
     {"page", &run_outputs::page},
     {"log", &run_outputs::log},
@@ -93,7 +93,7 @@ void run_path(const char* text, const char* options, served_answer& a) {
   a.tell(end_messages(run.result));
 }
 
-/// Every number of the file with its place, every node, and what the pairs' numbers are called there.
+/// Every number of the file with its place, every node, and the keys of the pairs' numbers.
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
   const toml::table document = parse_toml(text, file);
   json& numbers = out["numbers"] = json::array();

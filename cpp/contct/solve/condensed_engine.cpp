@@ -130,7 +130,7 @@ class condensed_engine final : public spring_engine {
   }
 
  private:
-  /// Eliminate the nodes between two kept ones; node -1 and node `nodes` stand for the beam's ends.
+  /// Eliminate the nodes between two kept ones; node -1 and node `nodes` mean the beam's ends.
   void eliminate_between(int left_node, int right_node, std::size_t left) {
     const band_matrix& k = structure_.stiffness.band();
     const bool has_left = left_node >= 0;
@@ -182,8 +182,8 @@ class condensed_engine final : public spring_engine {
     is_condensed_ = true;
   }
 
-  /// Those of the pairs now in contact; summed anew, since what a stiff spring rounds away does not come back
-  /// when it is subtracted.
+  /// Add the springs of the pairs now in contact; summed anew, since digits lost to a stiff spring do not
+  /// return when it is subtracted.
   void add_springs(std::size_t at) {
     d_[at].w.w = without_springs_[at];
     for (const int pair : pairs_at_[at])
@@ -206,9 +206,9 @@ class condensed_engine final : public spring_engine {
     return before != right_[i];
   }
 
-  /// After a change of D_at: the sweeps from there on, as far as they give something else than before.
-  /// Neither needs the other, and each is a chain of divisions that wait for each other: interleaved they
-  /// take little longer than one.
+  /// After a change of D_at: the sweeps from there on, until they no longer change anything. Neither needs
+  /// the other, and each is a chain of divisions that wait for each other: interleaved they take little
+  /// longer than one.
   void sweep_from(std::size_t at) {
     step_right(at);
     step_left(at);
@@ -226,7 +226,7 @@ class condensed_engine final : public spring_engine {
   }
 
   /// x -= factor c, where c is the column of the inverse at place `at`, whose own entry is `peak`, from there
-  /// to where it is below rounding; to both sides at once, as the sweeps.
+  /// until it is below rounding; to both sides at once, like the sweeps.
   void subtract_column(std::size_t at, const node_vector& peak, double factor) {
     const auto subtract = [this, factor](std::size_t i, const node_vector& c) {
       x_[i] = {x_[i].w - factor * c.w, x_[i].theta - factor * c.theta};
@@ -256,8 +256,8 @@ class condensed_engine final : public spring_engine {
     while (more_right) more_right = goes_right();
   }
 
-  /// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that
-  /// x' = x - sigma k x_p c. False where rounding leaves no such column.
+  /// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that x'
+  /// = x - sigma k x_p c. False if rounding leaves no such column.
   [[nodiscard]] bool update_response(int pair) {
     const std::size_t at = place_[pair];
     ++counts_.updates;
@@ -336,7 +336,7 @@ class condensed_engine final : public spring_engine {
   std::vector<node_matrix> go_left_, go_right_;  // -L_i^-1 E_i; -R_i^-1 E_{i-1}^T
   std::vector<double> reach_;                    // sqrt(D_tt / D_ww): a rotation's weight as a length
   std::vector<node_vector> x_, load_;
-  std::vector<node_vector> column_;  // the residual, and what it corrects
+  std::vector<node_vector> column_;  // the residual, and the correction from it
   std::uint64_t response_to_ = 0;
   drift_monitor drift_{32};
 };

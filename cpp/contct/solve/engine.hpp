@@ -1,4 +1,4 @@
-// What the path needs from linear algebra: switch a spring, respond, recover.
+// The linear algebra of a path: switch a spring, respond, recover.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct residual_load {
   std::span<const double> last_s = {};
 };
 
-/// What an engine has computed so far.
+/// Counts of an engine's work so far.
 struct engine_counts {
   std::int64_t factors = 0;  ///< factorisations
   std::int64_t solves = 0;   ///< with a factor, for one right-hand side
@@ -59,8 +59,8 @@ class stiffness_engine {
   [[nodiscard]] virtual double reciprocal_condition() = 0;
 };
 
-/// Make an engine by name: "refactor" and "updated" for anything, "condensed" for beams with pairs,
-/// "petsc", which is "updated" by a factor that ranks share, where this process has joined an MPI job
+/// Make an engine by name: "refactor" and "updated" for anything, "condensed" for beams with pairs, "petsc",
+/// which is "updated" by a factor that ranks share, if this process has joined an MPI job
 /// (contct/solve/mpi_job.hpp). `s` must outlive it. Throws std::invalid_argument when there is none of that
 /// name, or when it does not suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);

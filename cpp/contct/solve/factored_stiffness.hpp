@@ -12,7 +12,7 @@
 
 namespace contct {
 
-/// The springs of the pairs that are `closed` [pairs], by rows; none where the dof is fixed.
+/// The springs of the pairs that are `closed` [pairs], by rows; none if the dof is fixed.
 [[nodiscard]] inline std::vector<spring_at> springs_of(const linear_structure& s,
                                                        std::span<const char> closed) {
   std::vector<spring_at> list;
@@ -37,7 +37,7 @@ inline void to_dofs(const linear_structure& s, std::span<const double> x, std::s
   for (std::size_t dof = 0; dof < u.size(); ++dof) u[dof] = x[s.row_of(dof)];
 }
 
-/// What the pairs see of displacements [dofs], to `at_pairs` [pairs].
+/// Write the relative displacements of the pairs from displacements [dofs] to `at_pairs` [pairs].
 inline void gather_at_pairs(const linear_structure& s, std::span<const double> u,
                             std::span<double> at_pairs) {
   for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] = s.seen_by_pair(i, u);
@@ -75,8 +75,8 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
       "in double precision");
 }
 
-/// What factors K: LAPACK where it is stored as a band, and CHOLMOD where not; CHOLMOD in either case, in its
-/// own order; or the ranks of the MPI job that this process has joined.
+/// The library that factors K: LAPACK if it is stored as a band, otherwise CHOLMOD; CHOLMOD in either case,
+/// in its own order; or the ranks of the MPI job that this process has joined.
 enum class factored_by { storage, cholmod, ranks };
 
 /// Springs between two rows of a band have places in the band alone.
@@ -84,7 +84,7 @@ enum class factored_by { storage, cholmod, ranks };
   return std::any_of(s.pairs.begin(), s.pairs.end(), [](const contact_pair& p) { return p.other >= 0; });
 }
 
-/// What factors K of `s` in the least time: CHOLMOD a wide band, where it is built in.
+/// The fastest library for K of `s`: CHOLMOD for a wide band, if it is built in.
 [[nodiscard]] inline factored_by quickest_factor(const linear_structure& s) {
   constexpr int wide = 128;  // subdiagonals from which CHOLMOD's order is quicker than the band
   return sparse_factor::available() && !has_pairs_of_two(s) && s.stiffness.is_band() &&
@@ -93,8 +93,8 @@ enum class factored_by { storage, cholmod, ranks };
              : factored_by::storage;
 }
 
-/// K by columns, without its zeros, where it is stored as a band that something else than LAPACK factors, or
-/// of which most is zeros; nothing otherwise.
+/// K by columns, without its zeros, if it is stored as a band that LAPACK does not factor, or that is mostly
+/// zeros; otherwise nothing.
 [[nodiscard]] std::optional<stiffness_matrix> entries_for(const linear_structure& s, factored_by how);
 
 /// K with the springs of some pairs, and its Cholesky factor. Dofs and pairs are numbered from 0.
@@ -110,15 +110,15 @@ class factored_stiffness {
     if (!factor_.factor(springs_)) refuse_ill_conditioned();
   }
 
-  /// Solve K x = x in place for every dof by the factor (dpbtrs); as in_rows has it at fixed ones.
+  /// Solve K x = x in place for every dof by the factor (dpbtrs); at fixed ones as by in_rows.
   void solve(std::span<double> x) {
     std::vector<double> b = in_rows(structure_, x);
     factor_.solve(b);
     to_dofs(structure_, b, x);
   }
 
-  /// Columns of the inverse at the pairs: K x = e for the dofs of some pairs, less e for those of their
-  /// faces, solved for together [those asked for][pairs]. Zeros where the dof is fixed.
+  /// Columns of the inverse at the pairs: K x = e for the dofs of some pairs, minus e for the dofs of their
+  /// faces, solved together [requested pairs][pairs]. Zeros if the dof is fixed.
   [[nodiscard]] std::vector<std::vector<double>> columns_at_pairs(std::span<const int> pairs);
 
   /// Solve K u = load, corrected with the residual in long double until that no longer helps: u has the

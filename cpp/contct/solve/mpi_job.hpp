@@ -22,20 +22,20 @@ class mpi_job {
   /// Other ranks than 0: do what rank 0 asks for, until it leaves.
   virtual void serve() = 0;
 
-  /// Rank 0: find the order in which all ranks factor `a` together. What comes back must be destroyed before
+  /// Rank 0: find the order in which all ranks factor `a` together. The result must be destroyed before
   /// `leave`. Its functions throw std::bad_alloc, and std::runtime_error for any other failure of MUMPS.
   [[nodiscard]] virtual std::unique_ptr<sparse_factor> share(const sparse_columns& a) = 0;
 
-  /// Rank 0: let the others go, and end MPI. Nothing else may be called after it.
+  /// Rank 0: end the other ranks and MPI. Nothing else may be called after it.
   virtual void leave() noexcept = 0;
 };
 
-/// What the module exports, with C linkage: join MPI, once a process. Null where `version`, that of the
-/// program, is not the module's own: the two share C++ classes.
+/// The function that the module exports, with C linkage: join MPI, once a process. Null if `version`, the
+/// program's, differs from the module's: the two share C++ classes.
 using join_function = mpi_job*(const char* version);
 inline constexpr const char* join_symbol = "contct_petsc_join";
 
-/// The job that this process has joined; null where it has joined none.
+/// The job that this process has joined; null if it has joined none.
 [[nodiscard]] mpi_job* joined_job();
 
 /// `job` must live until the process ends, or until null takes its place.

@@ -1,5 +1,5 @@
-// What all engines have: a factor, the springs that are wanted and those that are applied, counts, and a
-// monitor of drift.
+// The common part of all engines: a factor, the requested and the applied springs, counts, and a monitor of
+// drift.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace contct {
 
-/// What a check finds at the pairs: the largest response, and the largest correction to one.
+/// The result of a check at the pairs: the largest response, and the largest correction to one.
 struct drift {
   double size = 0.0;
   double correction = 0.0;

@@ -1,5 +1,4 @@
-// Input files: a whole file as text, its lines and fields, and the refusal of what is wrong in it, with file
-// and line.
+// Input files: a whole file as text, its lines and fields, and error messages with file and line.
 #pragma once
 
 #include <charconv>
@@ -15,7 +14,7 @@
 
 namespace contct {
 
-/// What is wrong with a file, where, what was found, what is allowed. what() is the whole message:
+/// An error in a file: its position, the text found, and the allowed values. what() is the whole message:
 /// "pb.toml:12:3: contact[2].stiffness: found -5; allowed: a number greater than 0".
 class input_error : public std::runtime_error {
  public:
@@ -26,17 +25,17 @@ class input_error : public std::runtime_error {
 [[noreturn]] void refuse_line(std::string_view file, std::int64_t line, std::string_view found,
                               std::string_view allowed);
 
-/// Read the file at `path`, or standard input for "-". `kind` says for messages what it should be: "problem
+/// Read the file at `path`, or standard input for "-". `kind` names the expected file in messages: "problem
 /// file". Throws input_error when there is no such file, when it is a directory, cannot be read, or is as
 /// large as `most_mib`: a beam of 100,000 nodes with every coordinate written out takes 2.
 [[nodiscard]] std::string read_input(const std::string& path, const std::string& kind = "problem file",
                                      std::size_t most_mib = 32);
 
-/// What separates the fields of a line and is trimmed from its ends.
+/// The characters that separate the fields of a line and are trimmed from its ends.
 inline constexpr std::string_view blanks = " \t\r\v\f";
 
-/// The number that the whole of `text` is, as std::from_chars reads it: no blanks, no plus sign. Nothing
-/// where it is anything else or out of range. `format`: a std::chars_format, for reals.
+/// The number that the whole of `text` is, as std::from_chars reads it: no blanks, no plus sign. Nothing if
+/// it is anything else or out of range. `format`: a std::chars_format, for reals.
 template <class Number, class... Format>
 [[nodiscard]] std::optional<Number> number_in(std::string_view text, Format... format) {
   Number value{};
@@ -51,16 +50,16 @@ class text_lines {
   /// `text` must outlive this object; `file` is its name in messages.
   text_lines(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
 
-  /// Go to the next line; false where there is none.
+  /// Go to the next line; false if there is none.
   bool next();
 
   [[nodiscard]] std::string_view here() const { return here_; }  ///< the line without its end
-  [[nodiscard]] std::string_view rest() const { return rest_; }  ///< the text behind the line
+  [[nodiscard]] std::string_view rest() const { return rest_; }  ///< the text after the line
   [[nodiscard]] std::int64_t line() const { return line_; }      ///< counted from 1; 0 before the first
   [[nodiscard]] const std::string& file() const { return file_; }
 
-  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what` it is, for messages. With
-  /// `fortran`, D may stand for E in a real.
+  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what`: its description in
+  /// messages. With `fortran`, D may stand for E in a real.
   [[nodiscard]] int whole(std::string_view field, std::int64_t least, std::int64_t most,
                           std::string_view what) const;
   [[nodiscard]] double real(std::string_view field, std::string_view what, bool fortran = false) const;
@@ -82,7 +81,7 @@ class field_lines : public text_lines {
  public:
   using text_lines::text_lines;
 
-  /// Go to the next line that is not blank; false where there is none.
+  /// Go to the next line that is not blank; false if there is none.
   bool next();
 
   [[nodiscard]] std::size_t fields() const { return fields_.size(); }

@@ -6,7 +6,7 @@
 
 namespace contct {
 
-/// How many bytes a structure may take: three quarters of what the machine has.
+/// The bytes that a structure may take: three quarters of the machine's memory.
 [[nodiscard]] std::int64_t memory_limit();
 
 /// "1.5 GiB", "12 MiB".

@@ -162,7 +162,7 @@ bool same_file(const std::string& a, const std::string& b) {
   if (kind == fs::file_type::regular) return fs::equivalent(a, b, error);
   if (kind != fs::file_type::not_found || fs::exists(b, error)) return false;
   const auto is_link = [&error](const fs::path& p) { return fs::is_symlink(fs::symlink_status(p, error)); };
-  // What follows costs more: a run with --vtu asks it of thousands of names.
+  // The checks below cost more: a run with --vtu compares thousands of names.
   if (fs::path(a).filename() != fs::path(b).filename() && !is_link(a) && !is_link(b)) return false;
   return followed(a) == followed(b);
 }

@@ -9,7 +9,7 @@
 
 namespace contct {
 
-/// Blocks every signal to this thread but SIGKILL while this object lives, so that a file with a temporary
+/// Blocks every signal to this thread except SIGKILL while this object lives, so that a file with a temporary
 /// name is not left behind.
 class signals_wait {
  public:
@@ -38,7 +38,7 @@ class output_error : public std::runtime_error {
 class output_file {
  public:
   explicit output_file(std::string path);
-  /// No file: what is written is appended to `kept`, which must outlive this object.
+  /// No file: output is appended to `kept`, which must outlive this object.
   explicit output_file(std::string* kept) : path_("a text"), kept_(kept) {}
   ~output_file();
   output_file(const output_file&) = delete;
@@ -63,12 +63,12 @@ struct reader_gone : output_error {
   using output_error::output_error;
 };
 
-/// Print to standard output, as `terminal_text` has it; on a terminal colours stay. A failure is reported by
+/// Print to standard output, escaped by `terminal_text`; on a terminal colours stay. A failure is reported by
 /// flush_standard_output, after the files are written.
 void print_text(std::string_view raw);
 
 /// Flush standard output. Throws output_error when anything printed, now or before, could not be written;
-/// reader_gone where it is a pipe without a reader.
+/// reader_gone if it is a pipe without a reader.
 void flush_standard_output();
 
 /// Would writing to one of these paths change what the other names? True for two names of one file, whether

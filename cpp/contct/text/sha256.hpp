@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4): what a report names its files by.
+// SHA-256 (FIPS 180-4): identifies the files of a report.
 #pragma once
 
 #include <string>

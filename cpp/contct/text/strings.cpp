@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-/// The character of UTF-8 that a text begins with, and how many bytes it takes; 0 bytes where there is none.
+/// The character of UTF-8 that a text begins with, and how many bytes it takes; 0 bytes if there is none.
 struct decoded {
   char32_t character = 0;
   std::size_t bytes = 0;
@@ -36,8 +36,8 @@ bool is_obeyed(char32_t c) {
   return control || (c >= 0x202a && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
 }
 
-/// `text` with `replacement(bytes)` for every character that is obeyed, but for those in `kept`, and for
-/// every byte that is not UTF-8.
+/// `text` with `replacement(bytes)` for every control character, except those in `kept`, and for every byte
+/// that is not UTF-8.
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
   std::string out;
@@ -130,7 +130,7 @@ std::string terminal_text(std::string_view text) {
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::size_t end = std::min(text.size(), longest);
-  constexpr std::size_t most_back = 3;  // a character has no more bytes behind its first
+  constexpr std::size_t most_back = 3;  // a character has no more bytes after its first
   for (std::size_t i = 0; i < most_back && end > 0 && end < text.size() && continues_character(text[end]);
        ++i)
     --end;

@@ -19,27 +19,27 @@ namespace contct {
 /// Without capitals, of ASCII.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-/// A character, and what is written for it.
+/// A character and its replacement.
 struct escape {
   char character;
   std::string_view text;
 };
 [[nodiscard]] std::string escaped(std::string_view text, std::span<const escape> escapes);
 
-/// Text for between the tags and in the quoted attributes of HTML and XML. What `terminal_text` escapes, of
-/// which XML 1.0 does not allow all, becomes U+FFFD; tabs and line ends stay.
+/// Text for between the tags and in the quoted attributes of HTML and XML. Characters that `terminal_text`
+/// escapes become U+FFFD, since XML 1.0 does not allow all of them; tabs and line ends stay.
 [[nodiscard]] std::string markup_text(std::string_view text);
 
-/// Text that a terminal shows and does not obey: as \xNN stands every byte of a control character (C0, DEL,
-/// C1), of a mark that reorders what is written (U+202A to U+202E, U+2066 to U+2069), and of bytes that are
-/// not UTF-8. Line ends stay.
+/// Text without effect on a terminal: \xNN replaces every byte of a control character (C0, DEL, C1), of a
+/// mark that reorders what is written (U+202A to U+202E, U+2066 to U+2069), and of bytes that are not UTF-8.
+/// Line ends stay.
 [[nodiscard]] std::string terminal_text(std::string_view text);
 
 /// The same for one line: line ends too are escaped, and at most the first `longest` bytes are shown, cut
-/// between characters, with "..." behind them.
+/// between characters, followed by "...".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest = 60);
 
-/// The same for all of a title or a name: blanks stand for line ends and tabs.
+/// The same for all of a title or a name: blanks replace line ends and tabs.
 [[nodiscard]] std::string on_one_line(std::string_view text);
 
 /// A share in per cent: "3 %", "0.0001 %".
@@ -50,10 +50,10 @@ struct escape {
 
 /// A field or a line of a file for a message: the beginning, in quotation marks, of what looks like numbers
 /// or has at most 3 bytes; otherwise only how long it is, "a word of 5 bytes". A file that a problem names
-/// may hold what the message's reader must not see.
+/// may hold text that the message must not reveal.
 [[nodiscard]] std::string field_words(std::string_view text, std::string_view kind = "a word");
 
-/// JSON in which characters that `terminal_text` escapes stand as \uNNNN: they can only be in its texts.
+/// JSON in which \uNNNN replaces characters that `terminal_text` escapes: they occur only in its strings.
 [[nodiscard]] std::string json_escaped(std::string_view json);
 
 /// A JSON value as text, indented by so many blanks or on one line. Bytes that are not UTF-8 become U+FFFD.

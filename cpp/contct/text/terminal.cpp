@@ -19,10 +19,10 @@ std::string_view environment(const char* name) {
   return value == nullptr ? std::string_view() : value;
 }
 
-/// Of each `paint`, and behind it.
+/// The code of each `paint`, and the one that ends it.
 constexpr std::array<std::string_view, 5> codes = {"\033[32m", "\033[1;31m", "\033[2m", "\033[1m", "\033[0m"};
 
-/// The code of colour that a text begins with; empty where it begins with something else.
+/// The colour code at the start of a text; empty if there is none.
 std::string_view leading_code(std::string_view text) {
   const auto* const found =
       std::ranges::find_if(codes, [text](std::string_view c) { return text.starts_with(c); });

@@ -1,4 +1,4 @@
-// What the terminal can show, and text wrapped to its width.
+// The properties of the terminal, and text wrapped to its width.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct terminal {
 
 enum class paint { good, bad, quiet, strong };
 
-/// `text`, as `terminal_text` has it, in colour where `t` has that.
+/// `text`, escaped by `terminal_text`, in colour if `t` has colours.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
 
 /// As `terminal_text`, but the codes of `painted` stay.

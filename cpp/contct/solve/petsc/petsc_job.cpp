@@ -42,7 +42,7 @@ void succeed(PetscErrorCode code) {
   throw std::runtime_error("PETSc failed: " + std::string(words != nullptr ? words : "it does not say why"));
 }
 
-/// How a factorisation came out; the same on every rank.
+/// The result of a factorisation; the same on every rank.
 enum class outcome : int { factored, not_definite, no_memory, failed };
 
 /// A matrix and its factor, as each rank has them. All ranks call every function together; data count on
@@ -196,7 +196,7 @@ class petsc_job final : public mpi_job {
     return outcome::factored;
   }
 
-  /// What all ranks do. The others would wait for ever for one that fails alone: the job ends.
+  /// Work of all ranks. If one rank fails alone, the job ends, since the others would wait for it for ever.
   template <class Work>
   void together(Work work) {
     std::string why = "out of memory";
