@@ -26,7 +26,7 @@ std::string refusal(const scratch_folder& dir, const std::string& file, const pr
 
 }  // namespace
 
-TEST_CASE("a bad problem file: exit 2, one message with its place, nothing written") {
+TEST_CASE("a bad problem file gives exit status 2, one message with its place, and no output files") {
   const scratch_folder dir;
   dir.write("bad.toml", with("stiffness", "stifness"));
   CHECK_THAT(refusal(dir, "bad.toml"), StartsWith("contct: bad.toml:11:1: contact[1].stifness: found an"));
@@ -46,7 +46,7 @@ TEST_CASE("standard input is named in the message") {
   CHECK_THAT(refusal(dir, "-", {"[beam]\nEI = 0\n", {}, false}), StartsWith("contct: standard input:"));
 }
 
-TEST_CASE("a place that cannot be written is refused before anything is solved") {
+TEST_CASE("an output file that cannot be written is refused before anything is solved") {
   const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "good.toml", "--json", "no/such/place.json"});

@@ -23,8 +23,7 @@ const std::string by_coordinates =
 
 }  // namespace
 
-TEST_CASE(
-    "a problem is described without being solved: structure, mesh, supports, pairs, beds, steps, units") {
+TEST_CASE("the description of a problem has structure, mesh, supports, pairs, beds, steps and units") {
   const scratch_folder dir;
   dir.write("p.toml", by_coordinates);
   const finished f = contct_program(dir.path(), {"check", "p.toml"});

@@ -41,7 +41,8 @@ double decay(double modulus, double EI) {
 
 }  // namespace
 
-TEST_CASE("contct new without a kind lists the kinds, which are the files of the cookbook, and ends with 2") {
+TEST_CASE(
+    "contct new without a kind lists the kinds, which are the files of the cookbook, with exit status 2") {
   const finished f = contct_program(".", {"new"});
   CHECK(f.exit == 2);
   int kinds = 0;

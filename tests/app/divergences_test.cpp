@@ -102,7 +102,7 @@ TEST_CASE(
   says(text, "4.5e-11", -0.004 - w(truth, 1, 3));
 }
 
-TEST_CASE("way 3: in single precision a pressed contact is taken for a touching one") {
+TEST_CASE("way 3: a pressed contact counts as only touching in single precision") {
   const std::string text = section("3. ");
   const json wrong = run("single-precision.toml", "fortran-r4", uncertified);
   const json in_8_bytes = run("single-precision.toml", "fortran", right);

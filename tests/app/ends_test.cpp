@@ -108,7 +108,7 @@ TEST_CASE("a matrix with a spring softer than rounding is not said to have no eq
   CHECK(solved == 2);
 }
 
-TEST_CASE("the contact force of a stiff stop is one number: in the result and in the table") {
+TEST_CASE("the contact force of a stiff stop is the same number in the result and in the table") {
   const scratch_folder dir;
   const finished f =
       run_of(stiff_stop, {"--kernels", "corrected", "--json", "out.json", "--csv", "out.csv"}, dir);
@@ -122,7 +122,7 @@ TEST_CASE("the contact force of a stiff stop is one number: in the result and in
   CHECK(std::strtod(last.c_str() + at, nullptr) == force);
 }
 
-TEST_CASE("the digits of the corrected rule are those of the numbers that a run hands out") {
+TEST_CASE("the digits of the corrected rule are those of the numbers in a run's result") {
   const scratch_folder dir;
   dir.write(
       "p.toml",

@@ -37,7 +37,7 @@ TEST_CASE("the tie of the three gap supports is printed as the fraction that it 
     CHECK_THAT(f.out, Contains(kernel));
 }
 
-TEST_CASE("a mechanism is exit 4, with its proof") {
+TEST_CASE("a mechanism gives exit status 4 and its proof") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[step]]\npoint = [ { node = 2, w = -2 } ]\n"
       "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 1\nstiffness = 1\n");
@@ -47,7 +47,7 @@ TEST_CASE("a mechanism is exit 4, with its proof") {
   CHECK_THAT(f.err, Contains("p.toml: step 1, at share 0 of its load: no equilibrium"));
 }
 
-TEST_CASE("the 1989 rule is followed where --rule asks for it") {
+TEST_CASE("the 1989 rule is followed if --rule names it") {
   const std::string close = cantilever +
                             "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1\nstiffness = 3\n"
                             "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1.001\nstiffness = 6\n"
@@ -57,7 +57,7 @@ TEST_CASE("the 1989 rule is followed where --rule asks for it") {
              Contains("share 1/3, load -3: pair 1 (node 2, below) makes, pair 2 (node 2, below) makes\n"));
 }
 
-TEST_CASE("the option --digits says how long a fraction may be") {
+TEST_CASE("the option --digits limits the length of a fraction") {
   const std::string third = cantilever + "[[step]]\npoint = [ { node = 2, w = -1 } ]\n";
   CHECK_THAT(exactly(third).out, Contains("largest w -1/3 at node 2"));
   CHECK_THAT(exactly(third, {"--digits", "1"}).out, Contains("largest w -0.3 at node 2"));

@@ -104,7 +104,8 @@ TEST_CASE("the lines of an explanation fit their terminal, from 40 columns to 16
   }
 }
 
-TEST_CASE("step, increment and pair narrow the explanation, and STEP.INCREMENT is as the table has it") {
+TEST_CASE(
+    "step, increment and pair narrow the explanation, and STEP.INCREMENT has the numbers of the table") {
   const auto count = [](const std::string& text, const char* piece) {
     std::size_t n = 0;
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;
@@ -172,7 +173,7 @@ TEST_CASE(
   CHECK(all["lockstep"]["mismatches"] > 0);
 }
 
-TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 4") {
+TEST_CASE("a path that ends in a mechanism is explained up to its end, with exit status 4") {
   const scratch_folder dir;
   dir.write("freed.toml",
             "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
@@ -186,7 +187,7 @@ TEST_CASE("a path that ends in a mechanism is explained as far as it goes: exit 
   CHECK(beyond.exit == 2);
 }
 
-TEST_CASE("a long run is explained as it goes: memory does not grow with it") {
+TEST_CASE("a long run is explained while it is followed, so that memory does not grow") {
   const std::string plate = "reference/problems/pp05c-free-plate-on-bed-n16.toml";
   const finished narrow = explained({plate, "--pair", "1", "--quiet", "--json", "/dev/null"});
   const finished all = explained({plate, "--quiet", "--json", "/dev/null"});
@@ -233,7 +234,8 @@ TEST_CASE(
   CHECK(undone >= 1);
 }
 
-TEST_CASE("no s of PB1 to PB11 is off by more than 2 ULP for its call's numbers, in either precision") {
+TEST_CASE(
+    "every s of PB1 to PB11 has an error of at most 2 ULP for its call's numbers, in either precision") {
   int compared = 0;
   for (const char* name :
        {"pb01-cantilever-tip-stop", "pb03c-point-load-on-bed-l6-fine", "pb05-cantilever-over-flat-obstacle",

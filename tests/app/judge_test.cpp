@@ -49,7 +49,7 @@ TEST_CASE("a number outside the tolerance is named with the exact value, and the
   CHECK_THAT(f.out, Contains("step 2, force, pair 1: found 41.8614651; exactly 1800/43: an error of"));
 }
 
-TEST_CASE("fewer numbers than --least are exit 2, and the files are written") {
+TEST_CASE("fewer numbers than --least give exit status 2, and the files are written") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "6");
   CHECK(f.exit == 2);
@@ -57,7 +57,7 @@ TEST_CASE("fewer numbers than --least are exit 2, and the files are written") {
   CHECK(nlohmann::json::parse(dir.read("out.json"))["failed"] == 0);
 }
 
-TEST_CASE("results are not replaced by an output") {
+TEST_CASE("the file of results is not replaced by an output") {
   const scratch_folder dir;
   dir.write("theirs.json", answers("0"));
   const finished f =

@@ -123,7 +123,7 @@ TEST_CASE("a meaningless command line is refused with a suggestion") {
   CHECK_THAT(refusal({"run"}), Contains("FILE is required") && Contains("Run with --help"));
 }
 
-TEST_CASE("contct-replay takes what contct replay takes") {
+TEST_CASE("contct-replay has the same options as contct replay") {
   const words after = {"--kernel", "fortran,cpp", "a.trace", "b.trace", "--junit", "j"};
   const auto of_contct = [&] {
     words line = {"replay"};

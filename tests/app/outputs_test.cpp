@@ -70,7 +70,7 @@ TEST_CASE("no output of any command replaces a file that the problem names, unde
   CHECK(dir.read("frame.mtx") == before);
 }
 
-TEST_CASE("the table of pairs beside --csv does not replace a file that the problem names") {
+TEST_CASE("the table of pairs next to that of --csv does not replace a file that the problem names") {
   const scratch_folder dir;
   dir.write("K.pairs.csv", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
   dir.write("p.toml",
@@ -201,7 +201,7 @@ TEST_CASE("a pipe that cuts off the table does not prevent the page: contct run 
   CHECK(fs::exists(dir.path() / "table.csv"));
 }
 
-TEST_CASE("an answer without numbers leaves no files: exit 2") {
+TEST_CASE("an answer without numbers gives exit status 2 and no files") {
   // PB9, so stiff that the springs vanish in the rounding of the beam's own stiffness.
   const scratch_folder dir;
   dir.write("stiff.toml",

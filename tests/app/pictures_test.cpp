@@ -53,7 +53,7 @@ std::size_t states_in(const nlohmann::json& result) {
 
 }  // namespace
 
-TEST_CASE("a run writes its page, tables and grids, and nothing beside them") {
+TEST_CASE("a run writes its page, tables and grids, and no other files") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), run_of(all_of_them));
@@ -66,8 +66,7 @@ TEST_CASE("a run writes its page, tables and grids, and nothing beside them") {
 }
 
 TEST_CASE(
-    "the page has the result that --json writes, with the structure, states within steps and calls beside "
-    "it") {
+    "the page has the result that --json writes, and also the structure, states within steps and calls") {
   for (const char* file :
        {"pb01-cantilever-tip-stop", "pb07-three-gap-supports", "pp03d-corners-and-settled-stop-n4"}) {
     INFO(file);
@@ -116,7 +115,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("with - for standard output nothing else is printed") {
+TEST_CASE("the output - for standard output suppresses all other text") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);

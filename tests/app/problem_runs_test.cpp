@@ -80,7 +80,7 @@ TEST_CASE("the message for a structure that nothing holds names the missing supp
              Contains("a rigid-body motion") && Contains("Add a support") && !Contains("--kernels"));
 }
 
-TEST_CASE("the exit status tells a mechanism from a limit and from bad numbers") {
+TEST_CASE("the exit status distinguishes a mechanism, a limit and numbers out of range") {
   CHECK(status_of(path_status::solved) == exit_status::solved);
   CHECK(status_of(path_status::mechanism) == exit_status::mechanism);
   CHECK(status_of(path_status::path_ended) == exit_status::iteration_limit);
@@ -89,7 +89,7 @@ TEST_CASE("the exit status tells a mechanism from a limit and from bad numbers")
   CHECK(status_of(path_status::not_factored) == exit_status::bad_input);
 }
 
-TEST_CASE("the step with the fewest digits is warned of, once they are fewer than five") {
+TEST_CASE("the step with the fewest digits gives a warning if they are fewer than five") {
   run_recorder seen;
   seen.step_ended(state_with(1e-3, 1));
   CHECK(digit_warning(seen.steps).empty());

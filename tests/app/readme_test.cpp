@@ -31,7 +31,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 
 }  // namespace
 
-TEST_CASE("the README's run is a real run") {
+TEST_CASE("the run in the README equals the program's output") {
   const std::string problem = "reference/problems/pb07-three-gap-supports.toml";
   const std::string shown = between(readme(), "$ build/release/contct run " + problem + "\n", "```");
   const finished f = contct_program(root, {"run", problem});

@@ -89,7 +89,7 @@ TEST_CASE("run.sh alone runs the README's problem, from anywhere") {
           "all 4 final states are certified for this mesh\nproved: 10 digits or more of every number\n"));
 }
 
-TEST_CASE("run.sh hands the program's exit status on, and shows why nothing can be built") {
+TEST_CASE("run.sh returns the program's exit status, and shows why a build fails") {
   const built_project project;
   const scratch_folder elsewhere;
   CHECK(WEXITSTATUS(project.run(elsewhere.path(), "run missing.toml").first) == 2);

@@ -77,7 +77,7 @@ TEST_CASE("without --kernels the answer is the corrected rule's, and each row sa
   CHECK(unloaded["right"] == 0.0);
 }
 
-TEST_CASE("errors of the 1989 rule are not red beside a certified answer") {
+TEST_CASE("errors of the 1989 rule are not red if the answer is certified") {
   const scratch_folder dir;
   const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
   const process_options at_terminal{"", {{"TERM", "xterm"}}, true};
@@ -230,7 +230,9 @@ TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the sa
   CHECK(dir.read("cpp.log") == dir.read("fortran.log"));
 }
 
-TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose separation led to it") {
+TEST_CASE(
+    "a mechanism gives exit status 4, with step, share of the step, and the pair whose separation led to "
+    "it") {
   const scratch_folder dir;
   dir.write("freed.toml", freed);
   const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
@@ -243,7 +245,7 @@ TEST_CASE("a mechanism: exit 4, with step, share of the step, and the pair whose
   CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
 }
 
-TEST_CASE("the limit of increments: exit 5, with a result that says so") {
+TEST_CASE("the limit of increments gives exit status 5, and the result names it") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp",
@@ -263,7 +265,7 @@ TEST_CASE("a single kernel is not compared with any other, and the output says s
   CHECK(nlohmann::json::parse(dir.read("out.json"))["lockstep"].is_null());
 }
 
-TEST_CASE("free run: every kernel follows its own path, r4 against r8 within a stated bound") {
+TEST_CASE("free run: every kernel follows its own path, and r4 differs from r8 within a stated bound") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",
@@ -330,8 +332,7 @@ TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that wa
   CHECK(contct_program(dir.path(), {"run", pb5, "--strict", "--kernels", "corrected"}).exit == 0);
 }
 
-TEST_CASE(
-    "the 1989 rule keeps the 1989 way of solving unless asked, and the corrected rule takes the quickest") {
+TEST_CASE("the 1989 rule uses refactor by default, and the corrected rule the fastest engine") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto engine_of = [&dir](std::vector<std::string> more) {

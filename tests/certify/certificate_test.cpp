@@ -147,7 +147,7 @@ TEST_CASE("a wrong deflection that hardly disturbs equilibrium is detected only 
   CHECK(c.displacement_error == Approx(1e-5).epsilon(1e-3));
 }
 
-TEST_CASE("a missing force on a stiff support violates equilibrium alone, not the displacements") {
+TEST_CASE("a missing force on a stiff support violates only equilibrium, not the displacements") {
   // The changed load acts on a nearly rigid support.
   beam_problem p = span_with_pairs();
   p.pairs[0] = {4, face_below, -0.1, stiff, false};
@@ -162,14 +162,14 @@ TEST_CASE("a missing force on a stiff support violates equilibrium alone, not th
   CHECK(wrong_in(judged(changed, t)) == "DSE");
 }
 
-TEST_CASE("a fixed dof has no balance of its own, and a load on it goes to the support") {
+TEST_CASE("the equilibrium of a fixed dof is not checked, since its load goes to the support") {
   beam_problem p = span_with_pairs();
   const told_state t = right_state(p, p.steps[0]);
   p.steps[0].points = {{0, 0, -1e6}};
   CHECK(judged(p, t).certified);
 }
 
-TEST_CASE("either status is right for a pair that stands exactly at its face") {
+TEST_CASE("a pair exactly at its face may have either status") {
   beam_problem p = span_with_pairs();
   p.supports.push_back({0, 1, true});
   told_state t = right_state(p, {});

@@ -83,7 +83,7 @@ TEST_CASE("Supports that settle alike move the beam without bending it") {
   for (const double r : reactions_at_end(p, path, 1)) CHECK(std::abs(r) < 1e-9);
 }
 
-TEST_CASE("Forces that are nothing but rounding have no size, and are not certified") {
+TEST_CASE("Forces that are only rounding have no size, and are not certified") {
   problem p = two_spans();
   p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
   const linear_structure s = structure_of(p);

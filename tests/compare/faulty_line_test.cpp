@@ -106,7 +106,7 @@ TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong
   CHECK(all.found()->explained == 2);
 }
 
-TEST_CASE("a value that the named line cannot have made wrong is counted as not explained") {
+TEST_CASE("a wrong value that the named line cannot cause is counted as not explained") {
   fault_finder all;
   for (int times = 0; times < 4; ++times) {
     note(all, four_pairs(0.3), [](call_outputs& o) {

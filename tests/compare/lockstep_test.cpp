@@ -63,7 +63,8 @@ TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("how far each follower was off in the last call is counted in ULPs, for SMIN and for the worst s") {
+TEST_CASE(
+    "the difference of each follower in the last call is counted in ULPs, for SMIN and for the worst s") {
   const lockstep_on_path good = in_lockstep_with(make_kernel("cpp"));
   REQUIRE(good.last_answers().size() == 1);
   CHECK(good.last_answers()[0].values == 4);

@@ -75,7 +75,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the residual at the exact end of a step is only the rounding of u, and at a fixed dof the reaction") {
+    "the residual at the exact end of a step is the rounding of u, and equals the reaction at a fixed dof") {
   const problem p = referee_problem("graded-mesh");
   const exact_path path = follow_corrected_path(exact_problem_of(p));
   const auto exactly = exact_means_of(p);

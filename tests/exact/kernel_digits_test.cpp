@@ -41,7 +41,7 @@ struct stop_run {
 
 }  // namespace
 
-TEST_CASE("a path that is right to the last bit has 16 digits") {
+TEST_CASE("a path that is correct to the last bit has 16 digits") {
   const kernel_digits r = stop_run().with(0.0, 0.0);
   CHECK(r.same_events);
   CHECK(r.first_difference.empty());
@@ -91,7 +91,8 @@ TEST_CASE("events that only one path has are reported") {
 }
 
 TEST_CASE(
-    "toggling to and fro at one share is not counted as an event, nor is a touch at the end of a step") {
+    "a pair that toggles twice at one share has no event, nor has one that only touches at the end of a "
+    "step") {
   const stop_run run;
   digit_counter counter(run.what, run.exactly);
   const std::vector<event> makes = {{0, change::make}};

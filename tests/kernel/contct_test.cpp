@@ -71,7 +71,7 @@ TEMPLATE_TEST_CASE(
   CHECK(c.events == std::vector<event>{{0, change::break_}, {2, change::make}});
 }
 
-TEST_CASE("a stationary pair beats every advancing one, and leaves D where it is") {
+TEST_CASE("a stationary pair has its event before every advancing one, and D does not change") {
   small_call<double> c({{0.0, -1.0, -1e-9, apart, below}, {0.25, 1e-3, 0.25, touching, below}});
   c.ask();
   CHECK(c.events == std::vector<event>{{1, change::break_}});

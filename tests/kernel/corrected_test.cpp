@@ -153,7 +153,7 @@ TEST_CASE("corrected: where the pairs stand among the dofs does not matter") {
   CHECK(happened >= 500);
 }
 
-TEST_CASE("corrected: a face overshot counts as reached, by rounding or by more") {
+TEST_CASE("corrected: a face that is overshot by any amount counts as reached") {
   for (const double beyond : {0.0, eps, 1e-9, 0.1}) {
     const answered makes_at_once({{-1.0 - beyond, -1.0, -1.0, apart, below}});
     CHECK(makes_at_once.smin == 0.0);

@@ -23,7 +23,7 @@ small_call<double> one_that_closes() {
 
 }  // namespace
 
-TEST_CASE("the 1989 code answers, as printed and with 8-byte REAL") {
+TEST_CASE("the 1989 code gives an answer as printed and with 8-byte REAL") {
   small_call<float> r4({{0.0F, 3.0F, 1.0F, separated, face_above}});
   call<float> c4 = r4.arguments();
   fortran::contct(c4);

@@ -33,7 +33,7 @@ std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
 
 }  // namespace
 
-TEST_CASE("the text of an event, letter for letter") {
+TEST_CASE("the text of an event equals gfortran's, letter for letter") {
   const auto [f, cpp] = texts(0.25, 1.0, 7);
   CHECK(f ==
         "  ******* MAKING CONTACT ********\n"
@@ -41,7 +41,7 @@ TEST_CASE("the text of an event, letter for letter") {
   CHECK(cpp == f);
 }
 
-TEST_CASE("the text of no event") {
+TEST_CASE("the text of a call without events equals gfortran's") {
   const auto [f, cpp] = texts(3.0, 1.0, 1);
   CHECK(f == "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n");
   CHECK(cpp == f);
@@ -60,7 +60,8 @@ TEST_CASE("an exponent of three digits drops the E") {
   CHECK(cpp == f);
 }
 
-TEMPLATE_TEST_CASE("digits round as gfortran rounds, from the smallest subnormal to one", "", float, double) {
+TEMPLATE_TEST_CASE("digits are rounded as by gfortran, from the smallest subnormal to one", "", float,
+                   double) {
   using Real = TestType;
   std::vector<Real> factors = {std::numeric_limits<Real>::denorm_min(),
                                std::numeric_limits<Real>::min(),

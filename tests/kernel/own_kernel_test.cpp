@@ -28,7 +28,7 @@ void changes_its_input(const double dd[], const double dtest[], const double cc[
 
 }  // namespace
 
-TEST_CASE("a function is a kernel of the 1989 rule, without text") {
+TEST_CASE("a function can be a kernel of the 1989 rule, without text") {
   const auto k = make_function_kernel("halves", halves);
   CHECK(k->facts().name == "halves");
   CHECK(k->facts().language == "a function");

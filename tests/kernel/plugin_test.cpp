@@ -203,7 +203,7 @@ TEST_CASE("a plug-in's crash is reported as a crash, whatever signal handler thi
   CHECK_THAT(words, Contains("it was ended by signal 11"));
 }
 
-TEST_CASE("what a plug-in prints goes to standard error") {
+TEST_CASE("the printed output of a plug-in goes to standard error") {
   const caught_stream out(STDOUT_FILENO);
   const caught_stream err(STDERR_FILENO);
   std::string words;

@@ -79,7 +79,7 @@ TEST_CASE("the largest sum of a column is that of the whole matrix, not of its l
   CHECK(stiffness_matrix(columns_of(k)).one_norm(std::vector<double>{4, 5.5, 6}, ones) == 8.5);
 }
 
-TEST_CASE("springs at one row add up on the diagonal, and K keeps its own") {
+TEST_CASE("springs at one row add up on the diagonal, and K itself does not change") {
   band_matrix k(3, 1);
   for (int row = 0; row < 3; ++row) k.at(row, row) = row + 1.0;
   const std::vector<spring_at> springs = {{1, 10.0}, {1, 0.5}, {2, 4.0}};
@@ -107,7 +107,7 @@ const sparse_matrix small = {3, {{2, 0, 1.0}, {0, 0, 4.0}, {2, 2, 6.0}, {1, 1, 5
 
 }  // namespace
 
-TEST_CASE("a product uses both triangles") {
+TEST_CASE("a product with a band uses both triangles of the matrix") {
   CHECK(small.times(std::vector<double>{1, 2, 3}) == std::vector<long double>{7, 10, 19});
 }
 

@@ -53,8 +53,8 @@ int rank_of(const linear_structure& s) {
 }  // namespace
 
 TEST_CASE(
-    "the matrix of a free beam has two rigid-body motions, that of a free plate three, of a body in space "
-    "six") {
+    "the matrices of a free beam, a free plate and a body in space have two, three and six rigid-body "
+    "motions") {
   for (const int elements : {1, 2, 7, 40, 200}) {
     INFO(elements << " elements");
     CHECK(by_matrix(build(beam_of(elements), {}, {}), {}, {}).rigid_motions == 2);

@@ -74,7 +74,7 @@ TEST_CASE("a polynomial load has its exact resultant and moment, on any mesh") {
   CHECK(moment == Approx(20.0 / 3).epsilon(1e-14));
 }
 
-TEST_CASE("a polynomial of degree 0 is a uniform load, and parts add up") {
+TEST_CASE("a polynomial of degree 0 is a uniform load, and several parts add up") {
   const beam b = even_beam(3.0, 3, 1.0);
   std::vector<double> whole(8, 0.0);
   std::vector<double> parts(8, 0.0);

@@ -382,7 +382,7 @@ TEST_CASE("a pressure's consistent vector has its resultant and moments, on the 
                                  -4.0 / 3});
 }
 
-TEST_CASE("a pressure that is not constant is refused: plates have none") {
+TEST_CASE("a pressure on a plate that is not constant is refused") {
   const plate p = uneven_plate();
   std::vector<double> f(p.dofs(), 0.0);
   CHECK_THROWS_AS(add_consistent_loads(p, {{}, {{{1.0, 2.0}, {}}}}, f), std::invalid_argument);

@@ -36,7 +36,7 @@ TEST_CASE("a model knows its sizes and the names of its dofs, whichever kind it 
   CHECK(tributary_shares(p) == std::vector<double>{0.25, 0.75, 0.5, 0.25, 0.75, 0.5});
 }
 
-TEST_CASE("the resultant of a load: its force, and a moment for each slope") {
+TEST_CASE("the resultant of a load has its force, and a moment for each slope") {
   const resultant b = resultant_of(model{two_spans}, {{{1, 0, -4.0}, {2, 1, 0.5}}, {{{-2.0}, {1}}}});
   CHECK(b.force == Approx(-8.0));
   REQUIRE(b.moments.size() == 1);

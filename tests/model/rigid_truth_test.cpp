@@ -68,14 +68,14 @@ bool by_every_choice(const numbers& sum, const std::vector<numbers>& parts) {
 
 }  // namespace
 
-TEST_CASE("Loads drive a beam with hinges the same way by decimals as by its condensed loads") {
+TEST_CASE("The work of loads on a beam with hinges is the same from decimals as from condensed loads") {
   beam b = beam_at({0, 1, 2, 2.5, 4, 5.5, 6});
   b.hinges = {2, 5};
   agree(b, {{{1, 0, -1.0}, {3, 1, 0.75}}, {{{-2.0}, {1, 2, 3}}, {{0.5, -1.0, 0.25}, {}}}});
   agree(b, {{}, {{{-2.0, 1.0}, {5}}, {{3.0}, {0, 1}}}});
 }
 
-TEST_CASE("0.1 + 0.2 - 0.3 is no load, and 1e-300 beside 1e12 is one") {
+TEST_CASE("loads of 0.1 + 0.2 - 0.3 count as 0, and a load of 1e-300 beside 1e12 does not") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));
   CHECK(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}, {1, 0, 1e-300}})));
@@ -96,7 +96,7 @@ TEST_CASE("a load over a support turns the beam about it only with a moment, how
   CHECK(turn->at(1) < 0.0);  // the slope goes as the moment
 }
 
-TEST_CASE("the motion is the steepest one, and its parts are those of the rounded loads") {
+TEST_CASE("the driven motion is the steepest one, with the same parts as from the rounded loads") {
   load l = points({{0, 0, 3.0}, {2, 1, -0.5}});
   l.distributed = {{{1.0, -0.25, 0.125}, {}}, {{2.0}, {0, 2}}, {{-1.0, 1.0}, {1, 2}}};
   agree(beam_at({0, 1, 3, 4}), l);

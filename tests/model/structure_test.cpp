@@ -68,7 +68,7 @@ TEST_CASE("a load between two loads is their proportional mixture, with equal pl
   CHECK(at.distributed[1].polynomial[0] == Approx(0.1));
 }
 
-TEST_CASE("at the end of a step the load is the step's own, to the bit") {
+TEST_CASE("the load at the end of a step equals the load of the file, to the bit") {
   const load after{{{0, 0, 0.1}}, {}};
   CHECK(mix({{{0, 0, 0.7}}, {}}, after, 1.0).points[0].value == 0.1);
 }

@@ -10,7 +10,7 @@
 
 using namespace contct;
 
-TEST_CASE("this build computes strictly") {
+TEST_CASE("this build has strict floating point") {
   const floating_point found = probe_floating_point();
   INFO(describe(found));
   CHECK(found.strict());

@@ -63,7 +63,7 @@ TEST_CASE("a step from zero has the same path to the bit, whatever steps come be
   }
 }
 
-TEST_CASE("engines that keep factors start anew with a step from zero, too") {
+TEST_CASE("engines that keep factors restart at a step from zero, too") {
   for (const char* engine : {"updated", "condensed"}) {
     beam_problem p = between_stops();
     const recorder both = seen(p, engine, "cpp");

@@ -72,7 +72,7 @@ TEST_CASE("a Matrix Market file is read: comments, blank lines, any case, any or
             "K.mtx")) == expected);
 }
 
-TEST_CASE("a load vector is read as an array and as coordinates") {
+TEST_CASE("a load vector is read in the formats array and coordinate") {
   CHECK(parse_vector(good_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
   CHECK(parse_vector(sparse_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
   CHECK(parse_vector("%%MatrixMarket matrix coordinate real general\n3 1 0\n", "f.mtx", 3) ==

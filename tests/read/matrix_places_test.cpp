@@ -70,7 +70,7 @@ TEST_CASE(
   CHECK(of_coordinates(good_places) == "accepted");
 }
 
-TEST_CASE("a label's last part, behind its last dot, says its direction, and what precedes it its node") {
+TEST_CASE("a label consists of its node, a dot and its direction, and the last dot separates them") {
   const std::vector<std::pair<std::string, int>> directions = {
       {"x", 1},  {"y", 2}, {"z", 3}, {"1", 1}, {"3", 3}, {"r", 6}, {"rx", 4}, {"ry", 5},
       {"rz", 6}, {"4", 4}, {"6", 6}, {"7", 0}, {"", 0},  {"X", 0}, {"xy", 0}, {"01", 0}};
@@ -163,7 +163,7 @@ TEST_CASE(
   CHECK(m.notes.empty());
 }
 
-TEST_CASE("nodes without dof and edge are left out, and edges and dofs number the others") {
+TEST_CASE("nodes without dof and edge are omitted, and the numbers in edges and dofs skip them") {
   const placed_nodes m =
       by_mesh(nodes_text(7) + "*ELEMENT,TYPE=C3D4\n1,3,4,5,7\n", {"7.1", "x", "6.2", "7.2"});
   REQUIRE(m.nodes.size() == 5);

@@ -31,7 +31,8 @@ TEST_CASE("a named file is relative to the folder of the problem file") {
   CHECK(path_of("standard input", "-", reach::own_folder) == "./-");
 }
 
-TEST_CASE("a file outside that folder is refused, however it is named, with the way to allow it") {
+TEST_CASE(
+    "a file outside the problem's folder is refused under any name, and the message tells how to allow it") {
   const scratch_folder here;
   fs::create_directories(here.path() / "own/below");
   fs::create_directories(here.path() / "own-beside");

@@ -243,7 +243,9 @@ TEST_CASE("a bed keeps its modulus, its pairs and the share of each") {
   CHECK(p.pairs[2].stiffness == 4);
 }
 
-TEST_CASE("a mesh too coarse for its bed is warned of, once a bed, with an element_size that will do") {
+TEST_CASE(
+    "a mesh too coarse for its bed gives one warning for each bed, with an element_size that is fine "
+    "enough") {
   const auto warnings_of = [](const std::string& mesh, const std::string& beds) {
     return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
         .warnings;

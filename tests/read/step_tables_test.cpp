@@ -15,7 +15,7 @@ load step_of(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("a step may have a name, and is nameless otherwise") {
+TEST_CASE("a step may have a name, which is empty by default") {
   CHECK(step_of("name = \"dead load\"\nuniform = -1\n").name == "dead load");
   CHECK(step_of("uniform = -1\n").name.empty());
 }

@@ -62,7 +62,7 @@ TEST_CASE("lists of numbers: written out, as a range, or all of them") {
   CHECK(value("n = \"all\"", numbers_to_5) == std::vector<int>{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("lists of numbers that are refused, and where") {
+TEST_CASE("lists with errors are refused with their places") {
   for (const char* text :
        {"0..2", "4..6", "3..2", "..3", "2..", "2...3", "2.3", "1 ..2", "+1..2", "", "ALL"}) {
     INFO(text);

@@ -204,7 +204,7 @@ TEST_CASE("the calls check, exact, explain and about answer like the program's c
   CHECK(about.at("result").at("kernels").size() >= 5);
 }
 
-TEST_CASE("one call of a kernel answers with its unit-26 text, and refuses a dof that is not there") {
+TEST_CASE("a single call of a kernel returns its text of unit 26, and refuses a dof that does not exist") {
   const double dd[] = {0.0, 0.0}, dtest[] = {-2.0, 0.0}, cc[] = {-1.0};
   const int id[] = {1}, isurf[] = {-1};
   for (const char* name : {"fortran", "cpp", "fortran-r4", "corrected"}) {

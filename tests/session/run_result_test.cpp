@@ -53,7 +53,7 @@ TEST_CASE("a call has the increment it led to, or none") {
   CHECK(r.calls[2].step == 2);
 }
 
-TEST_CASE("calls are kept only on request") {
+TEST_CASE("calls are recorded only on request") {
   run_recorder r;
   tell_call(r, {1.0}, "text");
   CHECK(r.calls.empty());
@@ -79,7 +79,7 @@ TEST_CASE("a step has its increments with their events, and its end as the path 
   CHECK(r.steps[1].from_fallback);
 }
 
-TEST_CASE("a run without a title has its file's name") {
+TEST_CASE("a run without a title has the file's name as its title") {
   const auto title = [](const std::string& text, const std::string& file) {
     return title_of(parse_problem(text, "pb.toml"), file);
   };

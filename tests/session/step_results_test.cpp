@@ -185,7 +185,8 @@ TEST_CASE("Places and units are in words: nodes with coordinates, places between
   CHECK(ranges_are_at(plate.geometry) == "nodes and corners of elements");
 }
 
-TEST_CASE("the warning of a beam that sags through a face names both pairs, from 1, and the step") {
+TEST_CASE(
+    "the warning about a beam that sags through a face names both pairs, counted from 1, and the step") {
   const a_run run(beam_over_stops(0.0, -500.0));
   CHECK_THAT(passage_warning(run.what, run.result.record.steps),
              Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));

@@ -18,7 +18,8 @@ TEST_CASE("beams with pairs can be condensed, and beams without pairs and plates
   CHECK_THROWS_AS(make_engine("condensed", p), std::invalid_argument);
 }
 
-TEST_CASE("nodes without pairs are eliminated wherever they are, and the response is that of a factor") {
+TEST_CASE(
+    "nodes without pairs are eliminated at any position, and the response equals that of a factorisation") {
   const linear_structure all = cantilever_over_stops(12);
   for (const std::vector<int>& kept :
        std::vector<std::vector<int>>{{0, 5, 11}, {3}, {10, 11}, {0, 1, 2, 8}}) {
@@ -48,7 +49,7 @@ TEST_CASE("nodes without pairs are eliminated wherever they are, and the respons
   }
 }
 
-TEST_CASE("a pair at a fixed dof moves nothing") {
+TEST_CASE("a pair at a fixed dof causes no displacement") {
   linear_structure s = cantilever_over_stops(4);
   s.pairs.push_back({0, -1, 0.0, 1e6, false});
   const auto engine = make_engine("condensed", s);

@@ -199,8 +199,7 @@ TEST_CASE("recovery gives every dof from the load and the pairs' forces") {
   CHECK(u[1] == 0.0);
 }
 
-TEST_CASE(
-    "whichever way a plate is numbered inside, dofs, supports, pairs and forces keep their own numbers") {
+TEST_CASE("dofs, supports, pairs and forces keep their numbers for any internal numbering of a plate") {
   // The same plate lying and standing: 5 by 2 elements numbered along y, 2 by 5 in its own order.
   const plate lying{{0, 1, 2, 3, 4, 5}, {0, 0.5, 1.5}, 2.0, 0.3};
   const plate standing{lying.y, lying.x, lying.D, lying.nu};

@@ -57,7 +57,7 @@ TEST_CASE("springs are added before others are removed, each once") {
   CHECK(e.order.empty());
 }
 
-TEST_CASE("a spring switched there and back is not applied at all") {
+TEST_CASE("a spring that is switched twice is not applied at all") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(3, true);

@@ -48,7 +48,7 @@ TEST_CASE("a file that is not there, a folder, and a file that is too large are 
                     Contains("large: found 1 MiB or more; allowed: a mesh below that size"));
 }
 
-TEST_CASE("a refusal names the file and the line, or the file alone") {
+TEST_CASE("an error message names the file and the line, or the file alone") {
   CHECK_THROWS_WITH(refuse_line("K.mtx", 12, "x", "y"), "K.mtx:12: found x; allowed: y");
   CHECK_THROWS_WITH(refuse_line("K.mtx", 0, "x", "y"), "K.mtx: found x; allowed: y");
   CHECK_THROWS_AS(refuse_line("K.mtx", 1, "", ""), input_error);
@@ -65,7 +65,7 @@ TEST_CASE("text is split at line feeds, and every line is counted") {
   CHECK_FALSE(text_lines("", "f").next());
 }
 
-TEST_CASE("only a last line without an end is refused as cut") {
+TEST_CASE("only a last line without a line end is refused as cut") {
   text_lines lines("one\n2", "f");
   REQUIRE(lines.next());
   CHECK_NOTHROW(lines.refuse_unended());

@@ -14,7 +14,7 @@
 using namespace contct;
 namespace fs = std::filesystem;
 
-TEST_CASE("a file appears when it is finished, and not before, not even under another name") {
+TEST_CASE("a file appears only when it is finished, and not earlier under a temporary name") {
   const scratch_folder dir;
   output_file out(dir.at("out.json"));
   out.write("half");
@@ -25,7 +25,7 @@ TEST_CASE("a file appears when it is finished, and not before, not even under an
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("a new file has the rights that the umask leaves") {
+TEST_CASE("a new file has the permissions that the umask allows") {
   const scratch_folder dir;
   const mode_t before = umask(0027);
   for (int time = 0; time < 2; ++time) {  // made, then replaced
@@ -49,7 +49,7 @@ TEST_CASE("an existing file is replaced at once, so that its name always has a c
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("an unfinished file leaves nothing, and an older file stays as it was") {
+TEST_CASE("an unfinished file is removed, and an older file stays unchanged") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   {
@@ -117,7 +117,7 @@ TEST_CASE("one file under two names is recognised as one") {
   CHECK_FALSE(same_file("/dev/null", "/dev/null"));  // two may well write there
 }
 
-TEST_CASE("a place that cannot be written is refused at once, by name") {
+TEST_CASE("an output file that cannot be written is refused at once, by name") {
   CHECK_THROWS_WITH(output_file("/no/such/place/out.json"),
                     Catch::Matchers::Contains("/no/such/place/out.json"));
   const scratch_folder dir;

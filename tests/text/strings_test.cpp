@@ -36,16 +36,15 @@ TEST_CASE("characters with a meaning in XML are escaped, and forbidden ones beco
   CHECK(markup_text("\xc3\xa9") == "\xc3\xa9");
 }
 
-TEST_CASE("control characters are written out in messages, and UTF-8 stays") {
+TEST_CASE("control characters are escaped in messages, and UTF-8 stays") {
   CHECK(printable(std::string("a\0\t\n\x1f\x7f b", 8)) == "a\\x00\\x09\\x0a\\x1f\\x7f b");
   CHECK(printable("\xc3\xa9") == "\xc3\xa9");
   CHECK(printable("").empty());
 }
 
 TEST_CASE(
-    "no control character of a terminal is shown as it is: C0, DEL, C1, marks of direction, and bytes that "
-    "are not "
-    "UTF-8") {
+    "every control character of a terminal is escaped: C0, DEL, C1, marks of direction, and bytes that are "
+    "not UTF-8") {
   CHECK(terminal_text("a\x1b[31m\x07\x7f\n") == "a\\x1b[31m\\x07\\x7f\n");
   // NOLINTNEXTLINE(misc-misleading-bidirectional): these marks are what is escaped
   CHECK(terminal_text("\u009b31m\u202e\u2067x") == "\\xc2\\x9b31m\\xe2\\x80\\xae\\xe2\\x81\\xa7x");
@@ -90,7 +89,7 @@ TEST_CASE("long text is cut between characters") {
   CHECK(in_quotes(std::string(60, 'x')) == "\"" + std::string(60, 'x') + "\"");
 }
 
-TEST_CASE("a share in per cent has two digits, and no power of ten from 0.01 % to a million") {
+TEST_CASE("a share in per cent has two digits, without an exponent from 0.01 % to a million") {
   CHECK(percent_words(1e-6) == "0.0001 %");
   CHECK(percent_words(0.03) == "3 %");
   CHECK(percent_words(0.0251) == "2.5 %");

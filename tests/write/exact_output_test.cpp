@@ -44,7 +44,7 @@ const std::string falling =
 
 }  // namespace
 
-TEST_CASE("the text has every event with its exact share and load") {
+TEST_CASE("the printed text has every event with its exact share and load") {
   const std::string text =
       exact_text(followed_exactly(reference("pb07-three-gap-supports")).result(), 20, {});
   CHECK_THAT(text, Contains("\nstep 2\n  share 3/38, load -2400/19: pair 1 (node 5, below) makes, "
@@ -84,7 +84,7 @@ TEST_CASE("a kernel has a line with its digits and the first event that differs"
   CHECK(kernels[2]["force_digits"].is_null());
 }
 
-TEST_CASE("the document has every number as a fraction") {
+TEST_CASE("the JSON document has every number as a fraction") {
   const exact_json d = followed_exactly(reference("pb01-cantilever-tip-stop")).document();
   CHECK(d["format"] == "contct-exact-1");
   CHECK(d["status"] == "solved");

@@ -113,7 +113,8 @@ TEST_CASE("more than twenty increments take one line each, unless all are reques
              Contains("Step 20, increment 1\n") && !Contains("--all"));
 }
 
-TEST_CASE("a summary has the title once, names what is toggled too early, and counts events beyond twelve") {
+TEST_CASE(
+    "a summary has the title once, names the pairs toggled too early, and counts events beyond twelve") {
   std::string toml = "title = \"Stops\"\n" + two_pairs_and(20);
   const std::string stop = "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n";
   for (int i = 0; i < 13; ++i) toml += stop;

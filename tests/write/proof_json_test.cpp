@@ -69,7 +69,7 @@ TEST_CASE("a matrix that doubles cannot factor has L as a sum of two") {
   CHECK(step["L_low"][11].size() == step["L"][11].size());
 }
 
-TEST_CASE("a proof without bounds says why") {
+TEST_CASE("a proof without bounds gives the reason") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 1e6\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n");  // nothing holds node 1 down
@@ -79,7 +79,7 @@ TEST_CASE("a proof without bounds says why") {
   CHECK_FALSE(step.contains("L"));
 }
 
-TEST_CASE("the proof of a free beam without load has forces, and no displacements or statuses") {
+TEST_CASE("the proof of a free beam without load has forces, but no displacements and no statuses") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 3]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 1e6\n[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n");

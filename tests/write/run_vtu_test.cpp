@@ -44,7 +44,7 @@ TEST_CASE("grids of structures given by matrices have points at nodes, edges, an
   CHECK_THAT(bricks, Contains("NumberOfPoints=\"54\" NumberOfCells=\"114\"") && !Contains("rotation"));
 }
 
-TEST_CASE("points have the reactions of supports and a bed's pressure") {
+TEST_CASE("points of grids have the reactions of supports and a bed's pressure") {
   problem p = parse_problem(good_problem, "pb.toml");
   p.beds = {{4.0, {0.5}, 0}};
   const a_run r(p);

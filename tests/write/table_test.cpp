@@ -150,7 +150,7 @@ TEST_CASE("the table of pairs has a row for each pair in each increment, with th
   CHECK(pressed);
 }
 
-TEST_CASE("a step that never moves has a row all the same") {
+TEST_CASE("a step without movement still has a row") {
   const tables t = tables_of(a_run(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]")));
   REQUIRE(t.increments.size() == 2);
   CHECK(t.increments[1][2] == "end");

@@ -10,8 +10,7 @@ using namespace contct;
 
 int main() {
   // Two free ends that rise towards faces above them: the first touches after a quarter of the load.
-  const std::vector<double> d = {0, 0},
-                            d_star = {2, 1};  // D; the displacement that the remaining load would add
+  const std::vector<double> d = {0, 0}, d_star = {2, 1};  // D; its change by the remaining load
   const std::vector<double> faces = {0.5, 0.75};
   const std::vector<int> nodes = {1, 2}, above = {1, 1};
   std::vector<int> status(2, separated);
