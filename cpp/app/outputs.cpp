@@ -14,13 +14,14 @@
 namespace contct {
 namespace {
 
-/// An attribute with a blank before it. XML takes a line's end in it for a blank unless it is a reference.
+/// An attribute with a blank before it. XML reads a line end in it as a blank unless it is written as a
+/// character reference.
 std::string attribute(std::string_view name, std::string_view value) {
   constexpr escape line_end[] = {{'\n', "&#10;"}};
   return fmt::format(" {}=\"{}\"", name, escaped(markup_text(value), line_end));
 }
 
-/// Text of one line in Markdown, also in a cell of a table: none of it is markup.
+/// Text of one line in Markdown, also for a cell of a table, with all markup escaped.
 std::string markdown_text(std::string_view text) {
   constexpr std::string_view marks = "\\`*_{}[]<>#|!~&";
   std::string out;

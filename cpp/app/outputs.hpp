@@ -35,7 +35,7 @@ void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) 
   (void)std::fputs(line.c_str(), stderr);
 }
 
-/// A text whose line ends are escaped too: no name of a file begins a line of its own.
+/// A text whose line ends are escaped too: no file name can begin a new line.
 [[nodiscard]] inline std::string whole_line(std::string_view text) {
   return printable(text, std::string_view::npos);
 }
@@ -84,7 +84,7 @@ struct check_report {
 /// number.
 [[nodiscard]] std::string utc_now();
 
-/// A file as it was asked for; an empty path is one that was not.
+/// A requested file; an empty path: not requested.
 struct output_option {
   const char* name;  ///< "--json"
   std::string path;

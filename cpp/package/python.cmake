@@ -10,7 +10,7 @@ else()
 endif()
 install(FILES contct.py DESTINATION ${python_folder} COMPONENT python)
 
-# The prover, a package of its own beside the module.
+# The prover, a separate package next to the module.
 file(GLOB prover RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS prove/*.py)
 foreach(file IN LISTS prover)
   cmake_path(GET file FILENAME name)

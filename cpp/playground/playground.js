@@ -7,7 +7,7 @@ const patient = 40000; // dofs times steps beyond which a run waits for the butt
 const editor = byId("text");
 let textsBefore = null; // what undo goes back to
 
-let model = null;   // what contct_check says of the last text that it accepts
+let model = null;   // contct_check's answer for the last accepted text
 let chosen = 0;     // pair that is explained, from 0
 let dragging = null; // { to, x, y } while something is dragged
 let busy = false;   // while a result is drawn for the first time

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The result of a kind's file, as it is written.
+/// The result of a kind's unchanged file.
 json solved(const std::string& kind) {
   const scratch_folder dir;
   REQUIRE(contct_program(dir.path(), {"new", kind}).exit == 0);

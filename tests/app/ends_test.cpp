@@ -32,7 +32,7 @@ const char* const stiff_stop =
 
 const std::string mtx = "%%MatrixMarket matrix coordinate real symmetric\n3 3 6\n";
 
-/// A matrix with a rigid-body motion, held by a spring that doubles cannot tell from none.
+/// A matrix with a rigid-body motion, held by a spring that is lost to rounding.
 void write_soft_matrix(const scratch_folder& dir) {
   dir.write("K.mtx", mtx + "1 1 13\n2 1 2\n2 2 1\n3 1 4\n3 2 -1\n3 3 5\n");
   dir.write(

@@ -18,7 +18,7 @@ namespace {
 
 using words = std::vector<std::string>;
 
-/// A run that must be refused, and leave every file as it was.
+/// A run that must be refused, and leave every file unchanged.
 std::string refusal(const scratch_folder& dir, const words& arguments, const process_options& options = {}) {
   const auto before = dir.files();
   const finished f = contct_program(dir.path(), arguments, options);

@@ -56,7 +56,7 @@ bench::run_of_engine measured(const options& o, const contct::problem& p, const 
   std::vector<bench::run_of_engine> runs;
   for (int round = 0; round < o.rounds; ++round) {
     runs.push_back(bench::run_engine(p, s, engine, events, round == 0));
-    constexpr double long_enough = 20.0;  // seconds: one run says it
+    constexpr double long_enough = 20.0;  // seconds: then one run is enough
     if (runs.back().seconds > long_enough) break;
   }
   const bench::run_of_engine first = runs.front();

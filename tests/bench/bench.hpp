@@ -76,7 +76,7 @@ struct difference {
   bool same_events = true;  ///< ties within rounding may come in any order
   double load = 0.0;        ///< the largest of an event's load
   double displacement =
-      0.0;  ///< the largest of D, relative to the largest D; nothing unless both went as far
+      0.0;  ///< the largest of D, relative to the largest D; not set unless both reached the same end
 };
 [[nodiscard]] difference difference_of(const run_of_engine& reference, const run_of_engine& other);
 

@@ -76,7 +76,7 @@ class newton {
     (void)cholmod_free_dense(&x, &common_);
   }
 
-  /// False where the springs that press under `u` are those that are in.
+  /// False if the springs pressed under `u` are those already in the matrix.
   bool take_pressed() {
     std::array<std::vector<std::size_t>, 2> changed;  // out, in
     for (std::size_t i = 0; i < closed_.size(); ++i) {

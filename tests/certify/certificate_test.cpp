@@ -73,8 +73,8 @@ bool says(const certificate& c, const std::string& words) {
 constexpr double weak = 1e-12;  // a spring that no equilibrium notices
 constexpr double stiff = 1e12;
 
-/// A span with a pair of every kind: pressed and separated ones on a spring that counts and on one that is
-/// too weak to count. Node 4 sinks below -0.1, node 1 stays above -0.2.
+/// A span with a pair of every kind: pressed and separated ones on a spring of noticeable stiffness and on
+/// one that is too weak. Node 4 sinks below -0.1, node 1 stays above -0.2.
 beam_problem span_with_pairs() {
   return {even_beam(8.0, 8, 1e3),
           {{0, 0, true}, {8, 0, true}},

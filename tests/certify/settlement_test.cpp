@@ -113,7 +113,7 @@ TEST_CASE("A settlement reaches a face in proportion, as a load does, and is tak
     CAPTURE(engine);
     const solved_path path = follow_certified(p, engine);
     REQUIRE(path.seen.increments.size() == 5);
-    CHECK(path.seen.increments[0].fraction == Approx(0.25).epsilon(1e-12));  // the middle goes half as far
+    CHECK(path.seen.increments[0].fraction == Approx(0.25).epsilon(1e-12));  // the middle moves half as far
     CHECK(path.seen.increments[0].events.size() == 1);
     // The spring k and the beam, of 48 EI / L^3 at midspan, share the rest.
     const double beam_k = 48 * 1e4 / 216.0;

@@ -15,7 +15,7 @@ struct decided {
   exact_problem exactly;
   definiteness what;
 
-  /// Is negative work shown, as a sum of its own finds it?
+  /// Is negative work reported, and confirmed by an independent sum?
   [[nodiscard]] bool shows() const {
     if (!what.shown || what.semidefinite) return false;
     rational sum;
@@ -26,7 +26,7 @@ struct decided {
   }
 };
 
-/// Of a matrix by its lower triangle.
+/// The definiteness of a matrix given by its lower triangle.
 decided of(int n, const entries& lower, int fixed = -1) {
   assembled a;
   a.stiffness = {n, lower, {}};

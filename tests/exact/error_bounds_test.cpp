@@ -103,7 +103,7 @@ int check_bounds(const by_quantity& errors, const by_quantity& bounds) {
   return compared;
 }
 
-/// Of a beam of length 2.
+/// Do these bounds certify a state of a beam of length 2?
 bool certified(const error_bounds& b) {
   return b.not_proved.empty() && worst_bound(b.error, allowed_errors().of(b, 2.0)).empty();
 }

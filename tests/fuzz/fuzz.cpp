@@ -38,7 +38,7 @@ std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) 
   for (std::size_t end = 0; parts.size() + 1 < most; text.remove_prefix(end + marker.size())) {
     end = text.find(marker);
     if (end == std::string_view::npos) break;
-    parts.push_back(text.substr(0, end + 1));  // the line end before the marker is the part's
+    parts.push_back(text.substr(0, end + 1));  // the line end before the marker belongs to the part
   }
   parts.push_back(text);
   return parts;

@@ -24,7 +24,7 @@ void require(bool holds, std::string_view words, std::string_view found = {});
 bool is_read(const std::function<void()>& read);
 
 /// The parts of an input that the marker, on a line of its own, separates: at most `most`, the last one with
-/// all that is left. For readers of several files.
+/// the rest. For readers of several files.
 [[nodiscard]] std::vector<std::string_view> parts_of(std::string_view text, std::size_t most);
 
 }  // namespace contct::fuzz

@@ -1,4 +1,4 @@
-// Commands that crash, hang or answer nonsense: the failure is reported, and the run goes on.
+// Commands that crash, hang or answer nonsense: the failure is reported, and the run continues.
 #include <sys/stat.h>
 
 #include <fstream>

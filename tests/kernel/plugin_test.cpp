@@ -1,5 +1,5 @@
-// Plug-ins that crash, hang, write where they must not or cannot be loaded: the failure is reported, and the
-// run goes on.
+// Plug-ins that crash, hang, write outside their outputs or cannot be loaded: the failure is reported, and
+// the run continues.
 #include <fcntl.h>
 
 #include <csignal>

@@ -343,7 +343,7 @@ TEST_CASE("a trace cut off anywhere is refused, unless the rest is a complete tr
     const read_result r = read_all(good.substr(0, length));
     if (r.refused.empty()) {
       ++whole;
-      // Between calls, or in the header, where no call is left to be replayed.
+      // Between calls, or in the header, where no call remains to be replayed.
       const bool behind_call_1 = length >= good.find("\n\ncall 2") && length <= good.find("call 2");
       const bool behind_call_2 = length >= good.size() - 1;
       CHECK(r.calls == (behind_call_2 ? 2 : behind_call_1 ? 1 : 0));

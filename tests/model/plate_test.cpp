@@ -71,7 +71,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   return worst;
 }
 
-/// Moments along the edges that bend the plate to M_x and M_y everywhere, and nothing else.
+/// Moments along the edges that bend the plate to M_x and M_y everywhere, without other loads.
 load edge_moments(const plate& p, double m_x, double m_y) {
   load l;
   const int right = p.columns() - 1;
@@ -147,7 +147,7 @@ std::vector<support> simply_supported_quarter(const plate& p) {
 
 const load unit_pressure_down{{}, {{{-1.0}, {}}}};
 
-/// The stiffness matrix with every entry's sign taken off: what rounding in K u is measured by.
+/// The stiffness matrix with the absolute value of every entry: the measure of rounding in K u.
 linear_structure magnitudes(linear_structure s) {
   const std::size_t entries =
       static_cast<std::size_t>(s.dofs()) * static_cast<std::size_t>(s.stiffness.band().subdiagonals() + 1);

@@ -111,7 +111,7 @@ TEST_CASE(
   load l = points({{5, 0, 0.25}, {2, 1, 0.5}, {7, 2, -0.125}});
   l.distributed = {{{0.3}, {}}, {{-0.2}, {1, 2, 3, 5}}};
   agree(p, l);
-  // Of a uniform pressure on it all, less the same as a force at the middle: nothing.
+  // A uniform pressure on the whole plate, minus the same force at the middle, does no work.
   p.x = {0, 0.3, 0.6};
   p.y = {0, 0.7, 1.4};
   const linear_structure even = build(p, {}, {});

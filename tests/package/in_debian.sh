@@ -4,7 +4,7 @@ set -eu
 cd /given
 export CMAKE=cmake GENERATOR=Ninja
 fail() { echo "$1" >&2; exit 1; }
-# files FILE: writes the names of all files but those that apt and the libraries' loader keep for themselves.
+# files FILE: writes the names of all files except the own files of apt and of the dynamic loader.
 files() {
   find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /tmp -o -path /given -o -path /var/cache -o \
     -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort >"$1"

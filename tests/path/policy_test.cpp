@@ -364,8 +364,8 @@ TEST_CASE("a path under the 1989 rule has no fallback, nor has a path without an
 }
 
 TEST_CASE("a lost path continues from the reference solution") {
-  // The first step is endless, and then all goes by the corrected rule. Both pairs press after the first
-  // step, and let go in the second.
+  // The first step never ends, and later steps follow the corrected rule. Both pairs press after the first
+  // step, and separate in the second.
   bool is_found = false;
   made_kernel never = endless();
   made_kernel k([&](call<double>& c) { is_found ? contct_corrected(c) : never.answer(c); });

@@ -51,7 +51,7 @@ random_problem other_way_round(random_problem p) {
   return p;
 }
 
-/// Is every deflection of `a`, at its end, the one that `expected` gives, to what both are certified to?
+/// Is every deflection of `a`, at its end, equal to that of `expected`, within the certified errors of both?
 void check_deflections(const followed& a, const std::function<double(std::size_t)>& expected) {
   double off = 0.0;
   for (std::size_t node = 0; node < a.nodes(); ++node)

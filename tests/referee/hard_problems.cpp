@@ -144,7 +144,7 @@ class hard_drawing {
   }
 
   /// The large load presses two pairs, at no gaps; the small one acts beyond them, and turns the beam onto a
-  /// third: the first one comes off at the very end of the step.
+  /// third: the first one separates at the very end of the step.
   void large_between_two_pairs() {
     const int small = random_.whole(-4, 0);
     const int k = random_.whole(-1, 3);

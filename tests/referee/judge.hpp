@@ -58,8 +58,7 @@ struct exact_answer {
 /// One thing that is wrong.
 struct finding {
   fault what;
-  double
-      amount;  ///< error over tolerance; of `beyond` the relative error; of `digits` those that are not there
+  double amount;  ///< error over tolerance; of `beyond` the relative error; of `digits` the missing ones
   std::string words;
 };
 

@@ -75,7 +75,7 @@ TEST_CASE("springs of pairs in contact at the start are in the first factor") {
   e.switch_spring(3, true);
   respond(e);
   CHECK_FALSE(e.accepted);
-  CHECK(e.order == std::vector<int>{1});  // none after the one that was refused
+  CHECK(e.order == std::vector<int>{1});  // none after the refused one
   CHECK(e.applied() == std::vector<char>{1, 1, 1, 1});
 }
 

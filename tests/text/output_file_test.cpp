@@ -1,4 +1,4 @@
-// Output files appear whole or not at all, whatever ends the process.
+// Output files appear complete or not at all, however the process ends.
 #include "contct/text/output_file.hpp"
 
 #include <sys/stat.h>

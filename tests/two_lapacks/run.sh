@@ -17,7 +17,7 @@ skip() {
   exit 0
 }
 command -v apt-get >/dev/null 2>&1 && command -v dpkg-deb >/dev/null 2>&1 || skip "not a Debian system"
-# As root, apt-get fetches as a user of its own, who may not write here: hence the warning, which is left out.
+# As root, apt-get downloads as a separate user, who may not write here; the resulting warning is suppressed.
 (cd "$work" && apt-get download libopenblas0-pthread >log 2>&1) || skip "libopenblas0-pthread cannot be fetched: $(tail -n 1 "$work/log")"
 dpkg-deb -x "$work"/libopenblas0-pthread_*.deb "$work/unpacked" || skip "the package cannot be unpacked"
 lapack=$(find "$work/unpacked" -name liblapack.so.3)

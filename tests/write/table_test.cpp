@@ -17,7 +17,7 @@ namespace {
 
 using row = std::vector<std::string>;
 
-/// The rows of a table by RFC 4180, quotes taken off.
+/// The rows of a table by RFC 4180, without quotes.
 std::vector<row> rows_of(const std::string& text) {
   std::vector<row> rows(1, row(1));
   bool quoted = false;

@@ -49,7 +49,7 @@ std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   double_double work;
   double slack = 0.0;
   double rest = 0.0;
-  bool any = false;  // residual, or one that underflows
+  bool any = false;  // a residual, or a residual that underflows
   for (std::size_t dof = 0; dof < n; ++dof) {
     if (system_.fixed[dof] != 0) continue;
     any = any || r.force[dof].hi != 0.0 || r.slack[dof] > 0.0;

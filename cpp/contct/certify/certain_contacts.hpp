@@ -27,8 +27,8 @@ class certain_contacts {
   /// All must outlive this object.
   certain_contacts(const problem& p, const linear_structure& s, const long_system& system);
 
-  /// A and rho of `b`, for a state with a residual: A has at first all pairs beyond their faces; those that
-  /// are not so for certain leave it again. False, with the reason, where nothing is proved.
+  /// A and rho of `b`, for a state with a residual: A begins with all pairs beyond their faces; those that
+  /// are not certainly beyond are removed. False, with the reason, if nothing is proved.
   bool find(std::span<const double_double> u, const long_residual& r, contact_set& b);
   /// If the pairs of A leave rigid-body motions on which the load does no work: add springs without force,
   /// which hold the structure at its position and change nothing else.

@@ -348,7 +348,9 @@ found_end certifier::end_of(int step, const full_load_state* reached) {
     if (is_certified(step, *refined) || !prover_) return {std::move(refined), true};
   }
   const auto kept = [&] {
-    (void)is_certified(step, *refined);  // the digits that doubles leave over are its own again
+    (void)is_certified(
+        step,
+        *refined);  // restores the remainders below double precision, which belong to the state proved last
     return found_end{std::move(refined), true};
   };
   if (found_end exactly = exactly_ ? exactly_->end_of(step) : found_end(); exactly.exists) {

@@ -28,11 +28,11 @@ namespace contct {
 /// rounding.
 struct certificate {
   bool certified = false;  ///< proved within certified_share in every respect
-  // Of a certified state as proved, of others against the reference solution:
+  // Proved errors of a certified state; for others, differences from the reference solution:
   double displacement_error = 0.0;  ///< of any deflection
   double shape_error = 0.0;  ///< of any number, against the size of its kind; or of any dof, scaled by the
                              ///< root of its stiffness, against the largest
-  double equilibrium = 0.0;  ///< load left over by K D and the pairs' forces, scaled likewise
+  double equilibrium = 0.0;  ///< residual load of K D and the pairs' forces, scaled likewise
   double penetration = 0.0;  ///< of separated pairs
   double tension = 0.0;      ///< how far the springs of pairs in contact are stretched
   double rcond = 0.0;        ///< of the equilibrated stiffness

@@ -360,7 +360,7 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
   } else {
     found = contacts_.find(state_.u, state_.left, b);
   }
-  if (!state_.refined && has_exact_residual(l)) {  // that doubles do not factor K_A is known only now
+  if (!state_.refined && has_exact_residual(l)) {  // only now is it known that K_A has no factor in doubles
     state_.left = residual_of(state_.u, l);
     found = contacts_.find(state_.u, state_.left, b);
   }

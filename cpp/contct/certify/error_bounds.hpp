@@ -68,7 +68,7 @@ struct error_bounds : contact_set {
 class exact_means {
  public:
   virtual ~exact_means() = default;
-  /// Of the exact path; steps are counted from 1.
+  /// The end of a step of the exact path; steps are counted from 1.
   [[nodiscard]] virtual found_end end_of(int step) = 0;
   /// K u less the loads at the end of a step and what pairs beyond their faces press with, at every dof, each
   /// number rounded once. At fixed dofs u is the prescribed displacement.

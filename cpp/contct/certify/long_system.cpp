@@ -152,7 +152,7 @@ void long_system::put_forces(long_residual& r) const {
 
 long_residual long_system::residual_of_rounded(long_vector needed) const {
   long_residual r{long_vector(dofs()), std::vector<double>(dofs()), std::move(needed)};
-  for (std::size_t dof = 0; dof < dofs(); ++dof)  // one that underflows is not none
+  for (std::size_t dof = 0; dof < dofs(); ++dof)  // a residual that underflows does not count as 0
     r.slack[dof] = std::max(std::abs(r.needed[dof].hi), std::numeric_limits<double>::min());
   put_forces(r);
   return r;

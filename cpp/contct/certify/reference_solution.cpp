@@ -148,7 +148,7 @@ class reference_solver::search {
       if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // the remainder is rounding
   }
 
-  /// Springs without force at the present displacement, at as many dofs as it takes to hold the structure.
+  /// Springs without force at the present displacement, at as many dofs as are needed to hold the structure.
   void add_holding_springs(rigid_rank& rank) {
     for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
       const int before = rank.rank();
@@ -255,8 +255,8 @@ class reference_solver::search {
     return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
   }
 
-  /// E falls for ever along p: there is no equilibrium, unless supports hold the structure or numbers went
-  /// out of range.
+  /// E decreases without limit along p: there is no equilibrium, unless supports hold the structure or
+  /// numbers went out of range.
   [[nodiscard]] outcome why_endless(const numbers& p) const {
     if (exists_ == true || structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
@@ -306,7 +306,7 @@ class reference_solver::search {
   const stiffness_matrix& stiffness_;
   std::vector<spring_at> pair_rows_;     // [pairs]
   numbers load_;                         // [rows]
-  std::vector<double> given_;            // the same, as it was given [dofs]
+  std::vector<double> given_;            // the same load as passed by the caller [dofs]
   rigid_work work_;                      // of the load on each rigid-body motion
   std::optional<bool> exists_;           // an equilibrium; none: only rounding decides
   std::vector<holding_spring> holding_;  // of this iteration only

@@ -218,7 +218,7 @@ double scaled_stiffness::proved_below_estimate() {
                                                       : error_of_band<double>(shift);
     if (!error) continue;
     const double mu = (shift - *error) * (1 - 0x1p-50);
-    if (mu > 0.0) return mu;  // and a number
+    if (mu > 0.0) return mu;  // false for NaN
     proof_.reset();
   }
   return 0.0;

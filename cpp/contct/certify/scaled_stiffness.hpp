@@ -59,7 +59,7 @@ class scaled_stiffness {
     keeps_proof_ = true;
     by_columns_ = !subdiagonals_;
   }
-  /// Of the last factor; none before least_eigenvalue.
+  /// The proof for the last factor; empty before least_eigenvalue.
   [[nodiscard]] const std::optional<stiffness_proof>& proof() const { return proof_; }
 
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }

@@ -126,8 +126,8 @@ struct decision {
 /// The margin of IF (ISEP(I).EQ.1), which compares whole numbers: larger than any other.
 inline constexpr std::uint64_t whole_numbers = std::numeric_limits<std::uint64_t>::max() - 1;
 
-/// Keep a decision in `least` that was taken by less than the one there. IF (ISEP(I).EQ.1) compares whole
-/// numbers and has no margin: it is left out.
+/// Replace the decision in `least` by one with a smaller margin. IF (ISEP(I).EQ.1) compares whole numbers and
+/// has no margin, so it does not count.
 inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t pair, bool outcome,
                           std::uint64_t ulps) {
   if (b == branch::was_separated || (least && least->ulps <= ulps)) return;

@@ -18,7 +18,7 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Cut the first word off `line`, with a number's zero before the point left out: -0.25 becomes -.25.
+/// Cut the first word off `line`, without a number's zero before the point: -0.25 becomes -.25.
 std::string take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
   std::string word(line.substr(0, line.find(' ')));

@@ -95,7 +95,7 @@ enum class why_toggled {
   winner,       ///< its s is SMIN
   same_moment,  ///< it is at its face at SMIN too, up to rounding
   too_early,    ///< within EPSMUL, and not yet at its face
-  by_mark,      ///< it has no event at all: its mark, s = 1, lies within EPSMUL of SMIN
+  by_mark,      ///< it has no event: its mark, s = 1, lies within EPSMUL of SMIN
 };
 
 /// The outcome of one IF for one pair.

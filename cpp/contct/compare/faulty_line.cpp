@@ -14,7 +14,7 @@ namespace {
 
 namespace l = listing;
 
-/// Faults of a line besides the one that comes to mind first.
+/// Less obvious faults of a line.
 enum another { none, last_pair, wrong_sign, wrong_product, any_number, loop_left };
 
 /// The place of a suspect. Of two that cost the same the first is named.

@@ -52,7 +52,7 @@ class fault_finder {
   void note(const answered_call& c, int real_bytes, const call_outputs& other, bool equal);
   /// Nothing if there is no difference, or none that a line explains.
   [[nodiscard]] std::optional<faulty_line> found() const;
-  /// Of all answers noted, as reference/course/port/hint.py computes it.
+  /// The checksum of all noted answers, computed as in reference/course/port/hint.py.
   [[nodiscard]] std::uint32_t digest() const { return digest_; }
 
  private:

@@ -1,5 +1,5 @@
 // Solves sparse symmetric equations exactly: one factorisation modulo a prime, then digit by digit in that
-// prime (Dixon 1982). No number is longer than it has to be.
+// prime (Dixon 1982). Numbers are no longer than the solution needs.
 #pragma once
 
 #include <cstdint>
@@ -64,7 +64,7 @@ class lifted_solver {
       return r >= p_ ? r - p_ : r;
     }
     [[nodiscard]] std::uint64_t inverse(std::uint64_t a) const;
-    /// Of any number; false where its denominator is a multiple of the prime.
+    /// The residue of any number; false if its denominator is a multiple of the prime.
     bool take(const rational& x, std::uint64_t& residue) const;
 
    private:

@@ -1,4 +1,4 @@
-// A problem in rational numbers and its path: the true one, and the one that the 1989 rule takes.
+// A problem in rational numbers, its true path, and its path under the 1989 rule.
 #pragma once
 
 #include <functional>

@@ -87,7 +87,8 @@ std::vector<event> position::events_since(const std::vector<char>& before) const
   return events;
 }
 
-/// Of a fixed dof: K u less the load and the forces of pairs there. A dof fixed twice gives it to the first.
+/// The reaction of a fixed dof: K u minus the load and the forces of pairs there. At a dof fixed twice the
+/// first support has it.
 rational_vector position::reactions(const rational_vector& displacement,
                                     const rational_vector& forces) const {
   const exact_step& after = problem.steps[step];

@@ -45,7 +45,8 @@ class position {
   /// The events that lead from `before` to the statuses now, in order of pairs.
   [[nodiscard]] std::vector<event> events_since(const std::vector<char>& before) const;
 
-  /// All of this position. `pairs_react`: a pair in contact at a fixed dof takes its part of the reaction.
+  /// The end of a step at this position. `pairs_react`: a pair in contact at a fixed dof takes its part of
+  /// the reaction.
   [[nodiscard]] exact_step_end end(path_status status, std::vector<exact_increment> increments,
                                    bool pairs_react) const;
 

@@ -244,7 +244,8 @@ class kernel_in_child final : public kernel {
     const std::string words = child_->end();
     if (how == sent::late)
       fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
-    if (words == child_process::was_stopped) fail("closed its end of the pipe", true);  // and went on running
+    if (words == child_process::was_stopped)
+      fail("closed its end of the pipe", true);  // and continued to run
     fail(words);
   }
 

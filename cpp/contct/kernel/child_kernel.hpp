@@ -35,7 +35,7 @@ using kernel_procedure = decltype(contct_kernel);
 void refuse_name_of_function(const std::string& name);
 
 /// Make a call of `procedure`, which gets copies of all arrays, between guard bytes. Throws kernel_failure,
-/// "changed its input DD", if it wrote outside its outputs; `c` is then as it was.
+/// "changed its input DD", if it wrote outside its outputs; `c` is then unchanged.
 void put_guarded(call<double>& c, kernel_procedure* procedure);
 
 /// A kernel that makes each call by put_guarded.

@@ -35,8 +35,8 @@ template <class Number, class Take>
   return start;
 }
 
-/// Rules 1 and 2: s of each pair, or 1 if it has no event ahead; `dof(i)`: the dof of pair i, from 0. A
-/// division in vain costs less than a wrongly guessed branch, and a loop of its own lets the compiler divide
+/// Rules 1 and 2: s of each pair, or 1 if it has no event ahead; `dof(i)`: the dof of pair i, from 0. An
+/// unneeded division costs less than a mispredicted branch, and a loop of its own lets the compiler divide
 /// for two pairs at a time.
 template <class Dof>
 [[gnu::always_inline]] inline void find_scale_factors(call<double>& c, Dof dof) {

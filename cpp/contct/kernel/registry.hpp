@@ -9,11 +9,11 @@
 
 namespace contct {
 
-/// Make a kernel by name: one that is built in, "plugin:LIBRARY" or "pipe:COMMAND". Throws
-/// std::invalid_argument, listing the valid names, if the name is unknown.
+/// Make a kernel by name: a built-in one, "plugin:LIBRARY" or "pipe:COMMAND". Throws std::invalid_argument,
+/// listing the valid names, if the name is unknown.
 [[nodiscard]] std::unique_ptr<kernel> make_kernel(std::string_view name);
 
-/// Makes kernels by their names; make_kernel, or one that knows more of them.
+/// Makes kernels by their names; make_kernel, or a function that knows more kernels.
 using kernel_maker = std::function<std::unique_ptr<kernel>(std::string_view name)>;
 
 /// What the kernel of that name is, without making it. Throws as make_kernel does.

@@ -48,7 +48,7 @@ struct recorded_call {
 };
 
 /// The header of a trace that a kernel with these facts answers, in this process: `listing` is the checksum;
-/// the inputs come from no solve unless `lapack` says from whose.
+/// `lapack` names the library whose solves gave the inputs; empty if none did.
 [[nodiscard]] trace_header header_for(const kernel_facts& k, const std::string& listing,
                                       const std::string& lapack = "none");
 

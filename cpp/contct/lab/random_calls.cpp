@@ -169,7 +169,7 @@ class drawn_call {
 
   random_numbers random_;
   call_inputs<Real>& in_;
-  Real s_ = 0;  // the scale factor that an adversarial call's ties are about
+  Real s_ = 0;  // the scale factor near which an adversarial call has its ties
 };
 
 }  // namespace

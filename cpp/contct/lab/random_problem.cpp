@@ -11,7 +11,7 @@
 namespace contct {
 namespace {
 
-/// Draws one problem, in units of its own: length and force are scaled at the places they enter.
+/// Draws one problem, in random units: length and force are scaled at the places they enter.
 class drawing {
  public:
   drawing(std::uint64_t seed, std::uint64_t number, const random_problem_kind& kind)
@@ -36,7 +36,7 @@ class drawing {
   [[nodiscard]] int node_count() const { return nodes(problem_.geometry); }
   [[nodiscard]] bool is_plate() const { return std::holds_alternative<plate>(problem_.geometry.kind); }
 
-  /// The node across the middle, along x.
+  /// The mirror image of a node about the middle in x.
   [[nodiscard]] int mirror_of(int node) const {
     if (const auto* p = std::get_if<plate>(&problem_.geometry.kind))
       return p->node_at(p->columns() - 1 - node % p->columns(), node / p->columns());

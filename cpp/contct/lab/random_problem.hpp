@@ -41,7 +41,7 @@ struct random_problem : problem {
 enum class verdict {
   certified,        ///< every step's final state is certified
   no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
-  wrong,            ///< the path went to its end, and some final state is not right
+  wrong,            ///< the path reached its end, and some final state is wrong
   false_mechanism,  ///< the path ended in a mechanism although there is an equilibrium
   no_end,           ///< cycle, increments without end, or no factor
 };

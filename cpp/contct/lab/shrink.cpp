@@ -87,7 +87,7 @@ class shrinker {
     return accept(std::move(candidate));
   }
 
-  /// The last call alone, the last two, four, ...; then each of the others left out.
+  /// The last call alone, the last two, four, ...; then all without each of the others.
   void fewer_calls() {
     const int all = static_cast<int>(calls_.size());
     for (int kept = 1; kept < all; kept *= 2) {
@@ -100,7 +100,7 @@ class shrinker {
     }
   }
 
-  /// Halves, then quarters, ... then single pairs left out.
+  /// The call without each half, then each quarter, ... then each pair.
   void fewer_pairs(std::size_t c) {
     const auto pairs = [this, c] { return static_cast<int>(calls_[c].pairs()); };
     for (int chunk = (pairs() + 1) / 2; chunk > 0; chunk = chunk == 1 ? 0 : (chunk + 1) / 2) {

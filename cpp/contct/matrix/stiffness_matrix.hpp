@@ -127,7 +127,7 @@ struct sparse_columns {
 /// Throws std::length_error when there are more entries than an int counts.
 [[nodiscard]] sparse_columns columns_of(const sparse_matrix& a);
 
-/// The same of a band; zeros in it are left out.
+/// The same for a band, without its zeros.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
 /// A spring at one row: its stiffness is added to the diagonal. Or between two rows: then -stiffness is also

@@ -1,5 +1,5 @@
 // The matrices of single elements in numbers of any kind that knows + - * /: doubles, pairs of doubles or
-// rational ones. tests/lab/write_exact.py has formulas of its own, against which these are judged.
+// rational ones. tests/lab/write_exact.py has independent formulas, with which these are compared.
 #pragma once
 
 #include <array>

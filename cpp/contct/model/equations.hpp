@@ -49,7 +49,7 @@ template <class Number>
 struct loads_in {
   std::vector<Number> force;       ///< [dofs] consistent loads
   std::vector<double> size;        ///< [dofs] the sum of their parts' magnitudes; 0 of rational numbers
-  std::vector<Number> settlement;  ///< [dofs] what fixed dofs are moved to; 0 at all others
+  std::vector<Number> settlement;  ///< [dofs] the displacements of fixed dofs; 0 at all others
   std::vector<Number> moved;       ///< [dofs] how far the faces of pairs are moved there
   bool from_zero = false;          ///< see load
 };

@@ -41,7 +41,7 @@ std::vector<double> zeros_of(const poly& p) {
 }
 
 /// Values of one quantity. Values that differ by less than rounding may (mirror images, say) are equal: the
-/// first of them has the place.
+/// place is that of the first.
 class extremes {
  public:
   extremes(std::string_view name, const placed_value& first)

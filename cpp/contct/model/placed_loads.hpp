@@ -46,7 +46,7 @@ struct alike_pieces {
   int last;
   std::vector<element_piece> pieces;
 };
-/// Of every element that something acts on, by the first of those that are alike.
+/// The pieces of every loaded element, by the first of the elements that are alike.
 [[nodiscard]] std::map<int, alike_pieces> pieces_of(const beam& b, const load& l);
 /// Null where nothing acts.
 [[nodiscard]] const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all,

@@ -105,7 +105,7 @@ resultant sum_of_loads(const assembled& /*a*/, const load& l) {
   return {contct::rounded(sum), {}};
 }
 
-/// Of a matrix.
+/// The unit of a quantity of a structure given by a matrix.
 std::string unit_at(const assembled& a, const problem& p, std::string_view quantity, int dof) {
   const placed_dof at = dof >= 0 && a.places.known() ? a.places.dofs[dof] : placed_dof{};
   const bool has_pair = std::any_of(p.pairs.begin(), p.pairs.end(), [dof](const contact_pair& c) {

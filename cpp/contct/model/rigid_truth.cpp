@@ -146,8 +146,8 @@ std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<co
 }
 
 /// Is `sum` a sum of `parts` with nonnegative shares? No more parts than motions span the point of their cone
-/// that is nearest to it. A part that leads nearer takes the place of one of these, or joins them: every
-/// choice is nearer than the last, so this ends.
+/// that is nearest to it. A part that leads nearer replaces one of these, or is added: every choice is nearer
+/// than the last, so the search ends.
 bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> parts) {
   std::vector<rational_vector> carrying;
   for (;;) {

@@ -108,7 +108,7 @@ template <class Number>
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * Number(static_cast<int>(i)));
   return d;
 }
-/// Of the product of two polynomials.
+/// The coefficients of the product of two polynomials.
 template <class Number>
 [[nodiscard]] Number integral_of(const std::vector<Number>& p, const std::vector<Number>& q,
                                  const Number& from, const Number& to) {
@@ -184,7 +184,7 @@ struct contact_pair {
 struct linear_structure {
   int dofs_per_node = 0;
   int deflection = 0;          ///< which dof of a node deflects, from 0 (INDOF - 1)
-  stiffness_matrix stiffness;  ///< with elastic supports; a fixed dof has a row of its own: see in_row
+  stiffness_matrix stiffness;  ///< with elastic supports; the row of a fixed dof is decoupled: see in_row
   std::vector<char> fixed;     ///< [dofs] 1 where a support fixes the dof
   std::vector<char> settles;   ///< [dofs] 1 where that prescribes a displacement; empty: nowhere
   std::vector<matrix_entry>

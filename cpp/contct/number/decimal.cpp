@@ -27,7 +27,7 @@ std::string take_digits(std::string_view& rest) {
   return digits;
 }
 
-/// Is there a sign at the front, which is taken off, and is it a minus?
+/// Remove a sign at the front; true if it is a minus.
 bool take_minus(std::string_view& rest) {
   const bool minus = !rest.empty() && rest.front() == '-';
   if (minus || (!rest.empty() && rest.front() == '+')) rest.remove_prefix(1);
@@ -47,7 +47,7 @@ std::optional<std::int64_t> exponent_in(std::string_view rest) {
   return minus ? -exponent : exponent;
 }
 
-/// A literal as it is written.
+/// The parts of a literal.
 struct written_decimal {
   bool negative, is_whole;
   std::string digits;

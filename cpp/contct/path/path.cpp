@@ -107,7 +107,7 @@ class path {
     return concluded(std::move(end));
   }
 
-  /// The path goes on from there, with its own digits if it has reached that state itself.
+  /// The path continues from there, with its own digits if it reached that state itself.
   path_end arrive_at(const full_load_state& found, const std::optional<reached_state>& reached) {
     const bool is_own = reached && !found.from_reference && !found.from_exact_path;
     const bool has_rcond = is_own && found.isep == now_.status;

@@ -69,7 +69,7 @@ struct increments_wanted {
   }
 };
 
-/// One increment, as it is handed on.
+/// One increment, as passed to the observer.
 struct explained_increment {
   const increment& what;
   double fraction_before = 0.0;  ///< share of the step's load consumed before it
@@ -99,7 +99,7 @@ class explained_path final : public observer {
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return compared_.first(); }
   /// The number of increments passed on.
   [[nodiscard]] std::int64_t explained() const { return explained_; }
-  /// Steps that were begun, and the increments of the longest among those that are wanted.
+  /// The number of steps begun, and the increments of the longest requested one.
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] int most_increments() const { return most_increments_; }
 

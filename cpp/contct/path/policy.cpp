@@ -142,14 +142,14 @@ class corrected_policy final : public path_policy {
     const auto springs = hold();
     try {
       return now_.engine.reciprocal_condition();
-    } catch (const no_factor&) {  // the state is known all the same: it was found without the path
+    } catch (const no_factor&) {  // the state is still known: it was found without the path
       return 0.0;
     }
   }
 
  private:
-  /// Of the pairs at their faces the kernel toggles that with the largest response. That may go round in a
-  /// circle, which the least index never does (Murty 1974).
+  /// Of the pairs at their faces the kernel toggles that with the largest response. That may cycle; choosing
+  /// the least index never does (Murty 1974).
   void toggle_first_at_rest() {
     const auto first = std::ranges::find(now_.s, 0.0);
     if (first == now_.s.end()) return;

@@ -54,9 +54,9 @@ class path_policy {
   [[nodiscard]] virtual double reciprocal_condition() { return now_.engine.reciprocal_condition(); }
 
  protected:
-  /// Is what would be left of the step's load after s_min no more than the error of an event's load: 1e-9 of
-  /// it, or eps / rcond up to 1e-6? Unloading to zero separates the last pairs exactly at full load;
-  /// computed, that may come a rounding too early.
+  /// Is the rest of the step's load after s_min at most the error of an event's load: 1e-9 of it, or eps /
+  /// rcond up to 1e-6? Unloading to zero separates the last pairs exactly at full load; by rounding, the
+  /// computed event may come too early.
   [[nodiscard]] bool reaches_full_load(double s_min) const;
 
   /// Undo the kernel's toggles and apply all of R*: as the listing does with an event exactly at s = 1.

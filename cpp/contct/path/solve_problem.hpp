@@ -49,9 +49,8 @@ namespace contct {
           any ? load_history::moves(moved) : nullptr};
 }
 
-/// The engine of a path that a kernel leads: the one that was asked for, by name or as "auto", the quickest;
-/// where none was, one factorisation an increment, as in 1989, for the 1989 rule, and the quickest for
-/// others.
+/// The engine of a path that a kernel leads: the requested one, by name, or the fastest for "auto"; by
+/// default one factorisation an increment, as in 1989, for the 1989 rule, and the fastest for others.
 [[nodiscard]] inline std::string engine_for(const kernel_facts& leader, const std::string& asked,
                                             const linear_structure& s) {
   if (asked.empty() && leader.rule == contact_rule::listing) return "refactor";

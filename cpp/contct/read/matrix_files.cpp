@@ -166,7 +166,7 @@ struct written_digits {
   }
 };
 
-/// Of all entries that are not 0; nothing if all are exact.
+/// The last digits of all entries that are not 0; nothing if all are exact.
 std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries) {
   written_digits written;
   for (const read_entry& e : entries) written.include(e);

@@ -286,7 +286,7 @@ void finish(const toml_value& t, assembled& a) {
   choose_storage(t, a);
 }
 
-/// Refuse a file that has none of the nodes: it belongs to another structure.
+/// Refuse a file without any of the nodes: it belongs to another structure.
 void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
   if (a.places.known()) return;
   named.refuse(fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),

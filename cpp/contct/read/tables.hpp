@@ -10,8 +10,9 @@
 
 namespace contct {
 
-/// Read the one table of the document `top` that describes a structure; refuses a document with none
-/// of them, or with several. `files` finds others that it names; `warnings` gets those about their numbers.
+/// Read the one table of the document `top` that describes a structure; refuses a document with none of them,
+/// or with several. `files` finds the files that it names; `warnings` receives warnings about numbers in
+/// them.
 [[nodiscard]] model read_model(const toml_value& top, const named_files& files,
                                std::vector<std::string>& warnings);
 

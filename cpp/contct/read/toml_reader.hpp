@@ -1,5 +1,5 @@
-// Strict reading of TOML: every key is known, every value in range, or the file is refused; the files that it
-// names, and its numbers as they are written.
+// Strict reading of TOML: every key is known, every value in range, or the file is refused; also the files
+// that it names, and its numbers as written.
 #pragma once
 
 #include <toml++/toml.h>

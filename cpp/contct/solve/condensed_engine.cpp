@@ -9,7 +9,7 @@ namespace contct {
 namespace {
 
 constexpr double below_rounding = 1e-18;
-// k c_p of a spring that goes out, from which the response is checked at once: the rounding of x_p is
+// The least k c_p of a removed spring at which the response is checked at once: the rounding of x_p is
 // multiplied by it.
 constexpr double stiff = 100.0;
 
@@ -190,7 +190,7 @@ class condensed_engine final : public spring_engine {
       if (applied_[pair] != 0) d_[at].w.w += spring_[pair];
   }
 
-  /// L_i, and how a column goes on from i + 1 to i. True where L_i is another than before.
+  /// L_i, and the continuation of a column from i + 1 to i. True if L_i has changed.
   bool step_right(std::size_t i) {
     const node_matrix before = left_[i];
     left_[i] = i == 0 ? d_[0] : d_[i] + transposed(e_[i - 1]) * go_left_[i - 1];
@@ -198,7 +198,7 @@ class condensed_engine final : public spring_engine {
     return before != left_[i];
   }
 
-  /// R_i, and how a column goes on from i - 1 to i. True where R_i is another than before.
+  /// R_i, and the continuation of a column from i - 1 to i. True if R_i has changed.
   bool step_left(std::size_t i) {
     const node_matrix before = right_[i];
     right_[i] = i + 1 == d_.size() ? d_[i] : d_[i] + e_[i] * go_right_[i + 1];

@@ -43,7 +43,7 @@ class stiffness_engine {
  public:
   virtual ~stiffness_engine() = default;
 
-  /// Put the spring of pair `pair` (from 0) in, or take it out.
+  /// Add the spring of pair `pair` (from 0), or remove it.
   virtual void switch_spring(int pair, bool closed) = 0;
 
   /// Solve K w* = R* and write d* where each pair acts to `d_star` [pairs]. Throws no_factor.

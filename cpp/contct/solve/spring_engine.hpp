@@ -74,8 +74,9 @@ class spring_engine : public stiffness_engine {
     return applied_ = wanted_;
   }
 
-  /// Apply the springs that have been switched by `update(pair)`: first those that come in, then those that
-  /// go out, so that the structure is held throughout. False as soon as `update` is: a new factor is due.
+  /// Apply the springs that have been switched by `update(pair)`: first the added ones, then the removed
+  /// ones, so that the structure is held throughout. False as soon as `update` returns false: a new factor is
+  /// needed.
   template <class Update>
   [[nodiscard]] bool apply_switched(Update update) {
     for (const char closed : {char{1}, char{0}}) {

@@ -9,7 +9,7 @@
 namespace contct {
 namespace {
 
-// The least 1 - k c when a stiff spring goes out: with less, too many of its digits have cancelled.
+// The least 1 - k c for removing a stiff spring: below it, too many of its digits have cancelled.
 constexpr double least_denominator = 1e-2;
 
 // Columns that are solved for together: a factor is read from memory once for all of them.

@@ -94,7 +94,7 @@ class part_of_factor {
     succeed(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
     constexpr PetscInt most_space = 1000;
     for (PetscInt space = 0;; space = std::max<PetscInt>(2 * space, 50)) {
-      if (infog(1) < 0) analyse();  // PETSc factors no more once MUMPS has failed
+      if (infog(1) < 0) analyse();  // PETSc makes no further factor after MUMPS has failed
       if (space > 0) succeed(MatMumpsSetIcntl(factor_, more_space_percent, space));
       MatFactorInfo info;
       succeed(MatFactorInfoInitialize(&info));
