@@ -74,7 +74,7 @@ void list_recipes() {
   for (const recipe& r : recipes()) print_text(fmt::format("  {:<12}{}\n", r.kind, r.what));
 }
 
-/// A name that is taken, if only by a link that leads nowhere, is never written to.
+/// Refuse to write to an existing name, even a link without a target.
 void refuse_taken(const std::string& file) {
   std::error_code ignored;
   const auto kind = fs::symlink_status(file, ignored).type();

@@ -101,7 +101,7 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
   return fmt::format("{}; the commands are: {}{}", words, joined(commands, ", "), advice);
 }
 
-/// An empty name would be no file, and the output be lost without a word.
+/// Refuse an empty name: the output would be lost without a message.
 std::string a_name(const std::string& file) {
   return file.empty() ? "found no name; allowed: a file" : "";
 }

@@ -123,7 +123,9 @@ TEST_CASE(
   CHECK(explained({pb7, "--increment", "2", "--step", "4", "--pair", "3"}).out == one.out);
 }
 
-TEST_CASE("a step, increment or pair out of range is exit 2, with what is allowed, and nothing is written") {
+TEST_CASE(
+    "a step, increment or pair out of range gives exit status 2 and the allowed values, and no file is "
+    "written") {
   const scratch_folder dir;
   const std::string out = (dir.path() / "out.json").string();
   const auto refused = [&](std::vector<std::string> arguments, const char* words) {

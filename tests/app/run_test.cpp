@@ -280,7 +280,8 @@ TEST_CASE("free run: every kernel follows its own path, and r4 differs from r8 w
   CHECK(result["free_run"][1]["displacement"] > 0.0);
 }
 
-TEST_CASE("free run: a share of the step beyond its bound is exit 1, and the message says by how much") {
+TEST_CASE(
+    "free run: a share of the step beyond its bound gives exit status 1, and the message has the excess") {
   // The pair makes contact 1e-5 before full load and leaves 1e-5 after it: single precision cannot tell the
   // two apart.
   const scratch_folder dir;
@@ -313,7 +314,8 @@ TEST_CASE("contct kernels and --version name the listing's checksum and the floa
   CHECK_THAT(kernels.out, Contains(checksum));
 }
 
-TEST_CASE("under --strict an uncertified state is exit 3, and the toggle that was too early is named") {
+TEST_CASE(
+    "an uncertified state under --strict gives exit status 3, and the toggle that was too early is named") {
   const scratch_folder dir;
   const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
   CHECK(contct_program(dir.path(), {"run", pb5, "--kernels", "fortran,cpp"}).exit == 0);

@@ -30,7 +30,7 @@ for row in rows:
     if row["engine"] == "refactor":
         assert row["ratio_to_refactor"] == 1 and row["factors"] > row["events"], where
     events += row["events"]
-# Every engine has a row where it suits: condensed on beams alone.
+# Every engine has a row for each suitable problem: condensed only for beams.
 plain = engines - {"condensed"}
 expected = {(name, engine) for name in problems for engine in (engines if name.startswith("rail") else plain)}
 assert {(row["problem"], row["engine"]) for row in rows} == expected and len(rows) == len(expected), rows

@@ -17,7 +17,7 @@ work=$build/tests/browser
 rm -rf "$work"
 mkdir -p "$work"
 wrong=0
-# page NAME FILE EXIT [ARGUMENT..]: run FILE, which must exit so.
+# page NAME FILE EXIT [ARGUMENT..]: run FILE, which must exit with status EXIT.
 page() {
   name=$1 file=$2 expected=$3
   shift 3

@@ -70,7 +70,7 @@ bool says(const certificate& c, const std::string& words) {
   return c.problem.find(words) != std::string::npos;
 }
 
-constexpr double weak = 1e-12;  // a spring that no equilibrium notices
+constexpr double weak = 1e-12;  // a spring too weak to change any equilibrium
 constexpr double stiff = 1e12;
 
 /// A span with a pair of every kind: pressed and separated ones on a spring of noticeable stiffness and on

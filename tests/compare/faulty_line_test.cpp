@@ -121,7 +121,7 @@ TEST_CASE("a wrong value that the named line cannot cause is counted as not expl
   CHECK(all.found()->differ == 5);
 }
 
-TEST_CASE("the lines that two kernels took stand beside GAP, DTEST and SSCHK") {
+TEST_CASE("the lines that two kernels took are reported with GAP, DTEST and SSCHK") {
   small_call<double> c = four_pairs(5e-10);
   call_outputs other{c.smin, c.ss, c.isep, ""};
   other.ss[2] = 1e-20;

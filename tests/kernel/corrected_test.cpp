@@ -90,7 +90,8 @@ void check_unchanged(const Change& changed) {
 }  // namespace
 
 TEST_CASE(
-    "corrected: a pair makes contact where it meets its face, and breaks it where it comes back to it") {
+    "corrected: a pair makes contact when it reaches its face, and breaks contact when it returns to the "
+    "face") {
   const answered closes({{-1.0, -4.0, -2.0, apart, below}});
   CHECK(closes.smin == 0.25);
   CHECK(closes.ss[0] == 0.25);

@@ -133,7 +133,7 @@ TEST_CASE("Parts of a load add up exactly before they are shifted to an element"
   CHECK(load_on(b, l, 1) == std::vector<double>{6.0, 2.0});
 }
 
-TEST_CASE("Equal elements under the same constant loads have their pieces once") {
+TEST_CASE("Equal elements under the same constant loads share one list of pieces") {
   const beam b{{0.0, 0.1, 0.2, 0.3, 0.7}, {1, 1, 1, 1}};
   const auto all = pieces_of(b, {{}, {{{4.0}, {}}, {{2.0}, {1, 2, 3}}}});
   REQUIRE(all.size() == 3);

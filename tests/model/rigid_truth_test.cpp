@@ -166,7 +166,8 @@ TEST_CASE("the difference of the work of two loads is unknown if one of them is 
 }
 
 TEST_CASE(
-    "pairs carry a load between them, and a hinged support and a pair carry a moment that presses the pair") {
+    "two pairs carry a load between them, and a hinged support with a pair carries a load that presses the "
+    "pair") {
   const linear_structure bare =
       build(beam_at({0, 1, 2, 3}), {}, {{0, -1, 0, 1, false}, {2, -1, 0, 1, false}});
   const auto carried = [](const linear_structure& s, const load& l) {

@@ -38,7 +38,7 @@ TEST_CASE("gaps and forces have the same signs on either side, and tension is a 
   CHECK(force_of(above, 0.75, true) == 25.0);
 }
 
-TEST_CASE("supports go to the rows of their dofs") {
+TEST_CASE("supports act in the rows of their dofs") {
   linear_structure s = four_dofs();
   put_on_supports(s, std::vector<support>{{0, 1, true}, {1, 0, false, 7.0}}, {{1, 1, 0.5, 3.0, false}});
   CHECK(s.fixed == std::vector<char>{0, 1, 0, 0});

@@ -134,7 +134,7 @@ FAULTS = {
     "the state is missing": lambda step: step.pop("state"),
     "no bounds, and yet a state": put("error", None),
 }
-# And the proof of another problem: a digit of the file is another one.
+# The proof of another problem is refused too: one digit of the file is changed.
 OTHERS = {"EI": (r"EI( *)= *", "1"), "the load": (r"uniform( *)= *", "1"), "a face": (r"face( *)= *", "1"), "a spring": (r"stiffness( *)= *", "1")}
 
 

@@ -102,7 +102,7 @@ TEST_CASE("loads on the same elements are one load, their sum, and a list of all
   CHECK(l.distributed[1].polynomial == std::vector<double>{-4.5});
 }
 
-TEST_CASE("a pair on a fixed dof is taken with a warning: the listing may toggle it") {
+TEST_CASE("a pair on a fixed dof is accepted with a warning, since the listing may toggle it") {
   const problem p = parse_problem(with("node = 3\nsurface", "node = 1\nsurface"), "pb.toml");
   REQUIRE(p.warnings.size() == 1);
   CHECK_THAT(p.warnings[0], Catch::Matchers::StartsWith("pb.toml:7: contact[1]: node 1 is fixed in w"));

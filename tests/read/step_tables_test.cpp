@@ -28,7 +28,9 @@ TEST_CASE("point loads at several coordinates are one load at each") {
   CHECK((l.points[4].node == 1 && l.points[4].value == 5));
 }
 
-TEST_CASE("a point load between nodes stands where the file says, one at a node's coordinate at the node") {
+TEST_CASE(
+    "a point load between nodes acts at the coordinate of the file, and one at a node's coordinate acts at "
+    "the node") {
   const load l = step_of("point = [ { x = [1.0, 1.25], w = -1, theta = 3 } ]\n");
   REQUIRE(l.points.size() == 2);
   CHECK((l.points[1].node == 1 && l.points[1].dof == 1 && l.points[1].value == 3));

@@ -39,7 +39,7 @@ TEST_CASE("a range of reals includes or excludes its bounds as declared") {
   CHECK_FALSE(half.holds(0.51));
 }
 
-TEST_CASE("integers are taken for reals, and reals are not taken for integers") {
+TEST_CASE("integers are accepted as reals, and reals are not accepted as integers") {
   CHECK(value("n = 3", [](const toml_value& t) { return t["n"].real(any_real); }) == 3.0);
   CHECK(value("n = [1, 2.5]", reals) == std::vector<double>{1.0, 2.5});
   CHECK(value("n = 3", [](const toml_value& t) { return t["n"].integer(3, 3); }) == 3);
@@ -47,7 +47,7 @@ TEST_CASE("integers are taken for reals, and reals are not taken for integers") 
         "f.toml:2:6: n: found 3; allowed: a whole number from 1 to 5");
 }
 
-TEST_CASE("an array is refused as a whole for its length, and at the entry that is out of range") {
+TEST_CASE("an array of wrong length is refused as a whole, and a number out of range at its entry") {
   CHECK_THAT(refusal("n = [1]", reals),
              Contains("f.toml:1:5: n: found an array of 1; allowed: an array of at"));
   CHECK_THAT(refusal("n = [1, 2, 0]", reals),

@@ -84,7 +84,9 @@ TEST_CASE(
   CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 2 * count + 1);
 }
 
-TEST_CASE("a problem has such warnings, and its numbers are those of the shortest decimals") {
+TEST_CASE(
+    "a problem has a warning for each number that is not the shortest decimal, and uses the shortest "
+    "decimals") {
   const std::string rest =
       "[[support]]\nnode = 1\nfix = \"w\"\n[[step]]\npoint = [ { node = 2, w = 1000000000000.00001 } ]\n";
   const auto p = parse_problem("[beam]\nx = [0, 1]\nEI = 0.10000000000000000555\n" + rest, "p.toml");

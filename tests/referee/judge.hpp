@@ -15,7 +15,7 @@ namespace contct::referee {
 /// and `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits are judged: its
 /// path and its end are the 1989 rule's.
 enum class way { default_engine, refactor, final_only, listing };
-inline constexpr int ways = 3;  ///< of the corrected rule
+inline constexpr int ways = 3;  ///< the first three, which use the corrected rule
 [[nodiscard]] std::string_view name_of(way w);
 
 /// The possible errors of a run. `outside`: a number of a certified step is further off than the tolerance of

@@ -106,7 +106,9 @@ TEST_CASE("the interval doubles while the drift is negligible, up to 16 times th
   }
 }
 
-TEST_CASE("the interval halves when the drift is too large, down to four, and stays in between") {
+TEST_CASE(
+    "the interval halves when the drift is too large, down to four, and is unchanged for a drift in "
+    "between") {
   drift_monitor m(first_check);
   for (const int interval : {8, 4, 4}) {
     CHECK(responses_until_due(m) == interval);

@@ -158,7 +158,7 @@ TEST_CASE("an event's load omits its parts if they are many, and a long list of 
   CHECK(many["force"].get<double>() == Approx(-33.0));
 }
 
-TEST_CASE("forces balance: loads, pairs and reactions add up to nothing") {
+TEST_CASE("loads, contact forces and reactions of a result add up to 0") {
   const auto r = result_of(good_problem);
   const auto& step = r["steps"][0];
   const double pair = step["pairs"][0]["force"];

@@ -85,15 +85,14 @@ struct long_system : equations<double_double> {
     return std::abs(u[p.dof].hi) + (p.other < 0 ? 0.0 : std::abs(u[p.other].hi)) + face_size[pair];
   }
 
-  /// The load less K u and what pairs beyond their faces press with, whatever their statuses.
+  /// The load minus K u and the forces of pairs beyond their faces, whatever their statuses.
   [[nodiscard]] long_residual residual(std::span<const double_double> u, const long_loads& l) const;
   /// The same, with one rounding of the forces that the elements need.
   [[nodiscard]] long_residual residual_of_rounded(long_vector needed) const;
 
-  /// Are there numbers, or products that the element formulas make of them, for which doubles are too coarse
-  /// near 0?
+  /// Are there numbers, or products of them in the element formulas, for which doubles are too coarse near 0?
   [[nodiscard]] bool is_below_range(const long_loads& l) const;
-  /// Does nothing act, and is no pair beyond its face in the state of no displacement?
+  /// Are there no loads, and no pairs beyond their faces at zero displacement?
   [[nodiscard]] bool is_unloaded(const long_loads& l) const;
 
  private:

@@ -21,7 +21,7 @@ namespace contct {
 template <class Number>
 [[nodiscard]] Number number_of(double x);
 
-/// a - b, however much of them cancels.
+/// a - b, without loss of digits by cancellation.
 template <class Number>
 [[nodiscard]] Number difference_of(double a, double b);
 

@@ -187,9 +187,8 @@ struct linear_structure {
   stiffness_matrix stiffness;  ///< with elastic supports; the row of a fixed dof is decoupled: see in_row
   std::vector<char> fixed;     ///< [dofs] 1 where a support fixes the dof
   std::vector<char> settles;   ///< [dofs] 1 where that prescribes a displacement; empty: nowhere
-  std::vector<matrix_entry>
-      to_settling;                  ///< K's entries at free dofs (rows) that settling ones (columns) move
-  std::vector<contact_pair> pairs;  ///< in the order of their numbers
+  std::vector<matrix_entry> to_settling;  ///< K's entries in rows of free dofs and columns of settling dofs
+  std::vector<contact_pair> pairs;        ///< in the order of their numbers
 
   std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
 
