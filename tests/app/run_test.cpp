@@ -281,9 +281,10 @@ TEST_CASE("free run: every kernel follows its own path, and r4 differs from r8 w
 }
 
 TEST_CASE(
-    "free run: a share of the step beyond its bound gives exit status 1, and the message has the excess") {
-  // The pair makes contact 1e-5 before full load and leaves 1e-5 after it: single precision cannot tell the
-  // two apart.
+    "free run: a share of the step beyond its bound gives exit status 1, and the message has the "
+    "difference") {
+  // The node ends 1e-5 before its face, and then 1e-5 beyond it: single precision cannot tell at which share
+  // it meets the face.
   const scratch_folder dir;
   dir.write("near.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"

@@ -74,8 +74,5 @@ TEST_CASE("the reaction of a fixed dof that settles also balances the force of i
   const load l{{{1, 0, -3.0}}, {}, {{1, 0, 0.5}}};
   const std::vector<double> all_up = {0.5, 0, 0.5, 0, 0.5, 0};  // the elements are not bent
   const std::vector<double> r = reactions(two_spans, l, supports, all_up);
-  CHECK(r ==
-        std::vector<double>{
-            5.0, -2.0,
-            0.0});  // together they balance the load of 3; the first fixed support has the whole reaction
+  CHECK(r == std::vector<double>{5.0, -2.0, 0.0});  // 5 - 2 = 3 of the load; the first fixed one has all
 }

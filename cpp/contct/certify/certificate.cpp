@@ -27,8 +27,7 @@ bool can_be_proved_by_columns(const linear_structure& s) {
   return 3 * factor->bytes() <= memory_limit() && factor->flops() <= most_flops;
 }
 
-/// The stiffness fits in memory twice more during a proof, besides the bands of the path and of the
-/// comparison.
+/// Is there memory for the bands of the path and of the comparison, and for two more during a proof?
 bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return can_be_proved_by_columns(s);
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
@@ -348,9 +347,7 @@ found_end certifier::end_of(int step, const full_load_state* reached) {
     if (is_certified(step, *refined) || !prover_) return {std::move(refined), true};
   }
   const auto kept = [&] {
-    (void)is_certified(
-        step,
-        *refined);  // restores the remainders below double precision, which belong to the state proved last
+    (void)is_certified(step, *refined);  // restores its remainders below double precision
     return found_end{std::move(refined), true};
   };
   if (found_end exactly = exactly_ ? exactly_->end_of(step) : found_end(); exactly.exists) {

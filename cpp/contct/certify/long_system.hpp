@@ -43,7 +43,7 @@ struct element_value {
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
   bool moment = true;   ///< otherwise a shear
 
-  /// The largest relative rounding error of the equations: a coordinate, a length or a modulus comes in at
+  /// The largest rounding error of the value: a coordinate, a length or a modulus comes in at
   /// most ten times, each good to 2^-94.
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };

@@ -289,7 +289,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   explain_one(suspects_[at(l::if_check_positive, wrong_product)], 1.0);
 }
 
-/// SS that kept their initial values: their source, and the branch of the pair before them.
+/// Note SS that kept their initial values: from which pair on, and the branch of the pair before it.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, const answered_call& right, std::span<const double> ss) {
   const std::size_t pairs = ss.size();

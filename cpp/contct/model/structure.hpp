@@ -23,10 +23,9 @@ struct nodal_value {
   double value = 0.0;   ///< positive as the dof
   double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
 };
-using point_load = nodal_value;  ///< a force or moment, work-conjugate to the dof
-using prescribed_displacement =
-    nodal_value;                ///< the displacement that a support imposes on a dof that it fixes
-using face_move = nodal_value;  ///< how far the faces of all pairs there are moved
+using point_load = nodal_value;               ///< a force or moment, work-conjugate to the dof
+using prescribed_displacement = nodal_value;  ///< the displacement of a dof that a support fixes
+using face_move = nodal_value;                ///< how far the faces of all pairs there are moved
 
 /// A polynomial of a file, times factors: the product of the decimals.
 struct scaled_polynomial {

@@ -74,10 +74,9 @@ struct explained_increment {
   const increment& what;
   double fraction_before = 0.0;  ///< share of the step's load consumed before it
   const explained_call& call;
-  const call_outputs* other =
-      nullptr;                    ///< the second kernel's; null if there is no second kernel, or no answer
-  std::optional<mismatch> apart;  ///< where the second kernel differs first
-  bool left_undone = false;       ///< the driver took the toggles back: the load that is left is rounding
+  const call_outputs* other = nullptr;  ///< the second kernel's; null if there is no answer of one
+  std::optional<mismatch> apart;        ///< where the second kernel differs first
+  bool left_undone = false;  ///< the driver took the toggles back: the load that is left is rounding
 };
 
 /// Explains a path of a kernel that has the 1989 rule, and passes on the requested increments, one at a time,
