@@ -76,8 +76,7 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-/// What a line that is not TOML may lack at `column`, from 1, where reading stopped: a text without quotes
-/// ("title = Crane"), or a key with blanks ("Q pos. 1 = 1.5").
+/// Of a line that reading left at `column`, from 1: "title = Crane" and "Q pos. 1 = 1.5" lack quotes.
 std::string_view quotes_hint(std::string_view line, std::size_t column, std::string_view description) {
   if (description.find("expected '='") != std::string_view::npos)
     return line.find('=', column) == std::string_view::npos ? "" : " (a name with blanks stands in quotes)";
