@@ -32,7 +32,7 @@ def entries(table):
                       for line in table.splitlines()]
     for first, *others in rows:
         named = [f"{name.split(',')[0]}: {cell}" for name, cell in zip(head[1:-1], others) if cell]
-        yield f".SS {lines(first.strip('*'))}" if first.startswith("**") else f".TP\n{lines(first)}"
+        yield f".SS {lines(first.strip('*'))}" if first.startswith("**") else ".TP\n" + lines(first).replace("\n", " ")
         yield from (lines(part) for part in ("; ".join(named) + "." * bool(named), others[-1]) if part)
 
 

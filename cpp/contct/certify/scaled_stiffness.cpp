@@ -103,7 +103,7 @@ bool scaled_stiffness::factor_in_doubles() {
   if (by_columns_) {
     sparse_columns all = columns(0.0);
     const std::vector<double> diagonal = diagonal_of(all);
-    sparse_ = sparse_ ? sparse_->likewise(std::move(all)) : sparse_factor::make(std::move(all));
+    sparse_ = sparse_ ? sparse_->likewise(all) : sparse_factor::make(std::move(all));
     return sparse_->factor(diagonal);
   }
   factor_ = band<double>(0.0);

@@ -77,30 +77,35 @@ double value_bits(suspect& s, Real got, Real right, double for_rounding, rule re
 /// The listing's SS of one pair if its dof is `dof`, from 0: NaN if the call has no such dof.
 template <class Real>
 struct pair_values {
-  Real gap, d_star, sschk, event, delta_first, at_face, moving,
-      s;  // at_face and moving: s if that branch were taken
-  bool responds, is_stationary, check;
+  Real gap{}, d_star{}, sschk{}, event{}, delta_first{}, s{};
+  Real at_face{}, moving{};  // s if that branch were taken
+  bool responds = false, is_stationary = false, check = false;
 
-  pair_values(const call<Real>& c, int status, std::size_t i, std::int64_t dof) {
-    const Real delta = sizeof(Real) == 4 ? static_cast<Real>(1.E-20F) : static_cast<Real>(1.E-20);
-    const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
-    const bool is_there = dof >= 0 && dof < std::ssize(c.dd);
-    const Real nan = std::numeric_limits<Real>::quiet_NaN();
-    d_star = is_there ? c.dtest[dof] : nan;
-    gap = c.cc[i] - (is_there ? c.dd[dof] : nan);
-    sschk = static_cast<Real>(status * c.isurf[i]) / d_star;
-    event = sschk * delta;
-    delta_first = static_cast<Real>(status * c.isurf[i]) * delta / d_star;  // the product in another order
-    check = sschk > Real(0);
-    at_face = check ? event : Real(1);
-    moving = gap / d_star;
-    responds = !(d_star == Real(0));
-    is_stationary = std::abs(gap) < epsgap;
-    s = !responds ? Real(1) : without_first();
-  }
   /// Without IF (DTEST(NDOF).EQ.0.).
   [[nodiscard]] Real without_first() const { return is_stationary ? at_face : moving; }
 };
+
+/// `dof`: that of pair `i`, from 0.
+template <class Real>
+pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std::int64_t dof) {
+  pair_values<Real> p;
+  const Real delta = sizeof(Real) == 4 ? static_cast<Real>(1.E-20F) : static_cast<Real>(1.E-20);
+  const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
+  const bool is_there = dof >= 0 && dof < std::ssize(c.dd);
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  p.d_star = is_there ? c.dtest[dof] : nan;
+  p.gap = c.cc[i] - (is_there ? c.dd[dof] : nan);
+  p.sschk = static_cast<Real>(status * c.isurf[i]) / p.d_star;
+  p.event = p.sschk * delta;
+  p.delta_first = static_cast<Real>(status * c.isurf[i]) * delta / p.d_star;  // the product in another order
+  p.check = p.sschk > Real(0);
+  p.at_face = p.check ? p.event : Real(1);
+  p.moving = p.gap / p.d_star;
+  p.responds = !(p.d_star == Real(0));
+  p.is_stationary = std::abs(p.gap) < epsgap;
+  p.s = !p.responds ? Real(1) : p.without_first();
+  return p;
+}
 
 /// "MAKING" and "BREAKING" by pair, as the text of a kernel reports it; pairs of more than three digits are
 /// not reported.
@@ -113,7 +118,8 @@ std::vector<std::optional<change>> told_by(const std::string& text, std::size_t 
     if (line.find("MAKING") != std::string::npos) what = change::make;
     if (line.find("BREAKING") != std::string::npos) what = change::break_;
     const std::size_t pair = line.find("PAIR:");
-    const int number = pair == std::string::npos ? 0 : std::atoi(line.c_str() + pair + 5);
+    const int number =
+        pair == std::string::npos ? 0 : static_cast<int>(std::strtol(line.c_str() + pair + 5, nullptr, 10));
     if (number > 0 && static_cast<std::size_t>(number) <= pairs) told[number - 1] = what;
   }
   return told;
@@ -225,7 +231,7 @@ void fault_finder::note_scale_factors(const call<Real>& c, const answered_call& 
 template <class Real>
 void fault_finder::note_pair(const call<Real>& c, const answered_call& right, std::size_t i, Real got) {
   const int status = right.isep_before[i];
-  const auto at_dof = [&](std::int64_t dof) { return pair_values<Real>(c, status, i, dof); };
+  const auto at_dof = [&](std::int64_t dof) { return values_of(c, status, i, dof); };
   const pair_values<Real> p = at_dof(c.dof.dof_of(c.id[i]) - 1);
   const bool wrong = !same_bits(got, c.ss[i]);
   differ_ += wrong ? 1 : 0;
@@ -243,7 +249,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   could_give(at(l::common), at_dof((c.id[i] - 1LL) * c.dof.indof + c.dof.ndofpn - 1).s, got);
   call<Real> swapped = c;
   std::swap(swapped.dd, swapped.dtest);
-  could_give(at(l::arguments), pair_values<Real>(swapped, status, i, c.dof.dof_of(c.id[i]) - 1).s, got);
+  could_give(at(l::arguments), values_of(swapped, status, i, c.dof.dof_of(c.id[i]) - 1).s, got);
   could_give(at(l::node), at_dof(static_cast<std::int64_t>(i) * c.dof.ndofpn + c.dof.indof - 1).s, got);
   could_give(at(l::if_no_response), p.responds ? Real(1) : p.without_first(), p.d_star);
   ++suspects_[at(l::ndof)].reached;
@@ -310,7 +316,7 @@ void fault_finder::note_loop(const call<Real>& c, const answered_call& right, st
     left_by_.push_back(name);
   };
   const auto of = [&](std::size_t i) {
-    return pair_values<Real>(c, right.isep_before[i], i, c.dof.dof_of(c.id[i]) - 1);
+    return values_of(c, right.isep_before[i], i, c.dof.dof_of(c.id[i]) - 1);
   };
   left_behind(at(l::no_response, loop_left), [&](std::size_t i) { return !of(i).responds; });
   left_behind(at(l::moving, loop_left),
@@ -351,8 +357,10 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   const auto smin = static_cast<Real>(other.smin);
   std::vector<Real> diffs(pairs);
   std::vector<int> toggled(pairs);
-  std::vector<std::size_t> expected, found;  // pairs that DO 30 toggles, that were toggled
-  std::int64_t without_event = 0, wrong = 0;
+  std::vector<std::size_t> expected;  // pairs that DO 30 toggles
+  std::vector<std::size_t> found;     // that were toggled
+  std::int64_t without_event = 0;
+  std::int64_t wrong = 0;
   for (std::size_t i = 0; i < pairs; ++i) {
     const int before = right.isep_before[i];
     diffs[i] = std::abs(static_cast<Real>(other.ss[i]) - smin) / smin;
@@ -396,7 +404,8 @@ void fault_finder::note_toggle(int before, int got, Real diff_now, const std::op
   const Real epsmul = Real(1) / Real(256);
   const bool is_within = diff_now < epsmul;
   const bool was_separated = before == separated;
-  const int if_true = in_contact, if_false = separated;  // what either branch of IF (ISEP(I).EQ.1) sets
+  const int if_true = in_contact;  // what either branch of IF (ISEP(I).EQ.1) sets
+  const int if_false = separated;
   const int by_branch = was_separated ? if_true : if_false;
   const bool wrong = got != (is_within ? by_branch : before);
   const bool went_in = has_text ? told.has_value() : got != before;
@@ -431,12 +440,14 @@ void fault_finder::note_toggle(int before, int got, Real diff_now, const std::op
 
 /// The first line of the text that differs.
 void fault_finder::note_text(const answered_call& right, const call_outputs& other) {
-  std::string_view a = *right.text, b = other.text;
+  std::string_view a = *right.text;
+  std::string_view b = other.text;
   if (a == b) return;
   ++differ_;
   const bool as_many = std::count(a.begin(), a.end(), '\n') == std::count(b.begin(), b.end(), '\n');
   while (!a.empty()) {
-    const text_line expected(a), found(b);
+    const text_line expected(a);
+    const text_line found(b);
     if (expected.words == found.words) continue;
     const int format = expected.format();
     const std::size_t name = as_many ? writer_of(expected, found, right.c.id.empty() ? 0 : right.c.id.back())
@@ -491,8 +502,8 @@ std::optional<faulty_line> fault_finder::found() const {
   for (std::size_t k = 0; k < std::size(ifs); ++k) {
     if (ifs[k] != best || !std::isfinite(s.least) || !std::isfinite(s.most)) continue;
     char text[100];
-    std::snprintf(text, sizeof text, "%s was %.9g to %.9g", std::string(compared[k]).c_str(), s.least,
-                  s.most);
+    (void)std::snprintf(text, sizeof text, "%s was %.9g to %.9g", std::string(compared[k]).c_str(), s.least,
+                        s.most);
     line.compared = text;
   }
   return line;
@@ -524,7 +535,7 @@ std::string lines_in(const call<Real>& c, const answered_call& right, const call
   const std::size_t i = ss < other.ss.size() ? ss : isep;
   if (i >= other.isep.size()) return "";
   const int before = right.isep_before[i];
-  const pair_values<Real> p(c, before, i, c.dof.dof_of(c.id[i]) - 1);
+  const pair_values<Real> p = values_of(c, before, i, c.dof.dof_of(c.id[i]) - 1);
   std::string words = "pair " + std::to_string(i + 1) + ": GAP = " + short_decimal(p.gap) +
                       ", DTEST = " + short_decimal(p.d_star);
   if (p.responds && p.is_stationary) words += ", SSCHK = " + short_decimal(p.sschk);

@@ -112,8 +112,8 @@ class cholmod final : public sparse_factor {
     order_ = made(cholmod_analyze(&view, &work_));
     prepare();
   }
-  cholmod(sparse_columns a, const cholmod& like) : a_(std::move(a)) {
-    order_ = made(cholmod_copy_factor(like.order_, &work_));
+  cholmod(sparse_columns a, const cholmod& like)
+      : a_(std::move(a)), order_(made(cholmod_copy_factor(like.order_, &work_))) {
     work_.fl = like.work_.fl;
     prepare();
   }
@@ -122,8 +122,8 @@ class cholmod final : public sparse_factor {
     for (cholmod_dense** vector : {&b_, &x_, &y_, &e_}) cholmod_free_dense(vector, &work_);
   }
 
-  [[nodiscard]] std::unique_ptr<sparse_factor> likewise(sparse_columns a) const override {
-    return std::make_unique<cholmod>(std::move(a), *this);
+  [[nodiscard]] std::unique_ptr<sparse_factor> likewise(const sparse_columns& a) const override {
+    return std::make_unique<cholmod>(a, *this);
   }
 
   [[nodiscard]] std::int64_t bytes() const override {

@@ -48,7 +48,7 @@ class sparse_factor {
 
   /// One of another matrix with entries in the same places, in this one's order. Throws as make does, and
   /// std::logic_error where others hold A.
-  [[nodiscard]] virtual std::unique_ptr<sparse_factor> likewise(sparse_columns /*a*/) const {
+  [[nodiscard]] virtual std::unique_ptr<sparse_factor> likewise(const sparse_columns& /*a*/) const {
     throw std::logic_error("this factor's order cannot be taken over");
   }
 

@@ -57,7 +57,7 @@ template <class Real>
 [[nodiscard]] inline std::string short_decimal(double x) {
   char text[40];
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, x);
+    (void)std::snprintf(text, sizeof text, "%.*g", digits, x);
     if (same_bits(std::strtod(text, nullptr), x)) break;
   }
   return text;

@@ -90,7 +90,7 @@ class json_parser {
   toml::table object() {
     toml::table t;
     for (++at_; !take('}');) {
-      if (!t.empty() && !take(',')) refuse("\",\" or \"}\"");
+      if (!t.empty() && !take(',')) refuse(R"("," or "}")");
       if (next() != '"') refuse("a key in quotation marks");
       const std::size_t begins = at_;
       const auto key = token().get<std::string>();
@@ -107,7 +107,7 @@ class json_parser {
   toml::array array() {
     toml::array a;
     for (++at_; !take(']');) {
-      if (!a.empty() && !take(',')) refuse("\",\" or \"]\"");
+      if (!a.empty() && !take(',')) refuse(R"("," or "]")");
       value([&](auto&& read) {
         a.push_back(std::forward<decltype(read)>(read));
         return &a.back();

@@ -118,8 +118,8 @@ class toml_value {
     return std::string(name_).append(name_.empty() ? "" : ".").append(key);
   }
 
-  const toml::node* node_;    // null: missing
-  toml::source_position at_;  // of the table in which it is missing
+  const toml::node* node_;      // null: missing
+  toml::source_position at_{};  // of the table in which it is missing
   std::string name_;
   std::string_view file_;
   const toml_places* places_ = nullptr;
