@@ -21,7 +21,7 @@ std::string quoted(std::string_view text) {
   return '"' + escaped(whole_line(text), marks) + '"';
 }
 
-/// The checksum of a plug-in's file. The program that a command runs is unknown.
+/// The checksum of a plug-in's file; null for a command, whose program is not known.
 std::string file_sha256(const std::string& kernel) {
   constexpr std::string_view plugin = "plugin:";
   constexpr std::size_t most_mib = 512;

@@ -91,7 +91,8 @@ TEST_CASE("way 2: in a small unit of length a separated pair comes into contact 
 }
 
 TEST_CASE(
-    "way 2: a pair pressed by less than EPSGAP separates with its force as soon as the load goes back") {
+    "way 2: a pair pressed by less than EPSGAP separates, and keeps its force, as soon as the load "
+    "decreases") {
   const std::string text = section("2. ");
   const json wrong = run("stiff-stop.toml", "fortran", uncertified);
   const json truth = run("stiff-stop.toml", "corrected", right);

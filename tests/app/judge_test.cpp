@@ -49,7 +49,7 @@ TEST_CASE("a number outside the tolerance is named with the exact value, and the
   CHECK_THAT(f.out, Contains("step 2, force, pair 1: found 41.8614651; exactly 1800/43: an error of"));
 }
 
-TEST_CASE("fewer numbers than --least give exit status 2, and the files are written") {
+TEST_CASE("fewer numbers than --least give exit status 2, and the reports are still written") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "6");
   CHECK(f.exit == 2);

@@ -367,7 +367,7 @@ TEST_CASE("the 1989 rule uses refactor by default, and the corrected rule the fa
   CHECK_THAT(unknown.err, Contains("no engine is named \"warp\"") && Contains("condensed"));
 }
 
-TEST_CASE("the option --final-only gives the final states of the path without a path, certified") {
+TEST_CASE("the option --final-only gives certified final states without following the path") {
   const scratch_folder dir;
   const std::string pb5 =
       std::string(CONTCT_ROOT) + "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";

@@ -69,7 +69,9 @@ TEST_CASE("a pair that both kernels toggled to different statuses leads to IF (I
   CHECK(words_of(*of_status) == "pair 1: IF (ISEP(I).EQ.1) was false");
 }
 
-TEST_CASE("a kernel with an EPSGAP of 1e-9 leads to IF (ABS(GAP).LT.EPSGAP) of the pair that it got wrong") {
+TEST_CASE(
+    "the fault of a kernel with an EPSGAP of 1e-9 is traced to IF (ABS(GAP).LT.EPSGAP) of the pair that it "
+    "got wrong") {
   made_kernel wrong(
       [](call<double>& c) {
         std::vector<event> events(c.cc.size());

@@ -21,7 +21,7 @@ double error_of(double told, const rational& truly) {
   return std::abs(contct::rounded(binary_value(told) - truly));
 }
 
-/// The largest force or reaction in a state; of one without any, on the path before it.
+/// The largest force or reaction in a state; if it has none, in the last step before it that has one.
 double largest_force(const exact_path& truly, std::size_t step) {
   double largest = 0.0;
   for (; step > 0 && largest == 0.0; --step)

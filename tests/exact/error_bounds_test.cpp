@@ -318,7 +318,7 @@ TEST_CASE("a structure that is not certainly held is not proved, with the reason
         "the stiffness is too ill-conditioned, or it is not certain that the structure is held");
 }
 
-TEST_CASE("a fixed dof on a spring, which settles: the support holds the spring too, and both have bounds") {
+TEST_CASE("a fixed dof that settles and has a spring: the reactions of support and spring have bounds") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"

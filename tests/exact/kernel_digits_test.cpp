@@ -70,7 +70,7 @@ TEST_CASE("the first event that differs is reported for both paths") {
         "0.333333333");
 }
 
-TEST_CASE("a path that ends early does not have the same events") {
+TEST_CASE("a path that ends early does not count as having the exact path's events") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::make, path_status::mechanism);
   CHECK_FALSE(r.same_events);
   CHECK_THAT(r.first_difference, Contains("ends early"));

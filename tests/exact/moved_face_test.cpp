@@ -61,7 +61,7 @@ TEST_CASE("States with moved faces have errors within their bounds") {
   }
 }
 
-TEST_CASE("Cantilevers that meet press on each other as the fraction says, by either rule") {
+TEST_CASE("Cantilevers that meet press on each other with the exact force, a fraction, by either rule") {
   assembled a;
   a.stiffness = {4,
                  {{0, 0, 15000},

@@ -73,7 +73,9 @@ std::string refusal_of(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("a number needs its exact value, as a decimal or a fraction in lowest terms") {
+TEST_CASE(
+    "a number of verification.toml without an exact value, a decimal or a fraction in lowest terms, is "
+    "refused") {
   for (const char* exact : {"1/2", "0.5", "5e-1", "-0.0", "-208/58875"})
     CHECK(refusal_of("value = 0.5\nexact = \"" + std::string(exact) + "\"\n").empty());
   CHECK_THAT(refusal_of("value = 0.5\n"), Contains("exact"));

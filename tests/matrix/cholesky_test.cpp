@@ -87,7 +87,8 @@ TEST_CASE("the exact condition of a small matrix is found") {
 }
 
 TEST_CASE(
-    "the digits lost by a long span grow with the fourth power of its elements, and are reported, unlike by "
+    "the digits lost by a long span grow with the fourth power of the number of elements, and are reported, "
+    "unlike by "
     "LAPACK") {
   const double at_10 = rcond_of(simple_span(10, 1.0));
   const double at_100 = rcond_of(simple_span(100, 1.0));

@@ -75,7 +75,8 @@ TEST_CASE("A load that grows with x has its largest moment where the shear is ze
 }
 
 TEST_CASE(
-    "Inside an element a beam's line meets its ends, and its derivatives are slope, moment, shear and load") {
+    "The deflection line of an element has the values at its nodes, and its derivatives are slope, moment, "
+    "shear and load") {
   const beam b{{1.0, 1.5, 4.0}, {20.0, 50.0}};
   const load l{{{1, 0, -3.0}}, {{{1.0, -2.0, 0.5}, {1}}, {{4.0}, {}}}};
   const std::vector<double> u = displaced(b, {{0, 0, true}, {0, 1, true}, {2, 0, true}}, l);

@@ -13,7 +13,7 @@ using namespace contct;
 
 namespace {
 
-/// Of dofs with these rows, held one after the other.
+/// The rank after all dofs with these rows are held, one after the other.
 int rank_of(const std::vector<rigid_row>& rows) {
   rigid_rank rank(rows, 1e-12);
   for (std::size_t dof = 0; dof < rows.size(); ++dof) rank.hold(static_cast<int>(dof));

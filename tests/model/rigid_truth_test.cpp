@@ -96,7 +96,7 @@ TEST_CASE("a load over a support turns the beam about it only with a moment, how
   CHECK(turn->at(1) < 0.0);  // the slope goes as the moment
 }
 
-TEST_CASE("the driven motion is the steepest one, with the same parts as from the rounded loads") {
+TEST_CASE("the driven motion is that on which loads do most work, and equals that of the rounded loads") {
   load l = points({{0, 0, 3.0}, {2, 1, -0.5}});
   l.distributed = {{{1.0, -0.25, 0.125}, {}}, {{2.0}, {0, 2}}, {{-1.0, 1.0}, {1, 2}}};
   agree(beam_at({0, 1, 3, 4}), l);

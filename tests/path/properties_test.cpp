@@ -120,7 +120,7 @@ TEST_CASE("a held structure that is loaded and unloaded returns to its start") {
 
 TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements, to the bit") {
   const double factor = std::ldexp(1.0, 30);
-  random_problem_kind held;  // what drives a free structure is decided by decimals, and 2^30 x has others
+  random_problem_kind held;  // 2^30 x has other decimals, by which the motion of a free structure is decided
   held.free_share = 0.0;
   check_same_path(
       6, factor, [factor](const random_problem& p) { return scaled(factor, p); }, held);

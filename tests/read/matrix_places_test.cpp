@@ -41,7 +41,7 @@ const std::string good_places = "# the frame\n\na 0 0 # foot\nb\t1.5 -2e-3\n";
 
 }  // namespace
 
-TEST_CASE("coordinates are read: comments, blank lines, names of any kind, two of them or three") {
+TEST_CASE("coordinates are read with comments, blank lines, any names, and two or three numbers") {
   const auto flat = parse_coordinates(good_places, "K.xyz");
   REQUIRE(flat.size() == 2);
   CHECK(flat[0].name == "a");

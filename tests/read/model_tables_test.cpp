@@ -113,7 +113,8 @@ TEST_CASE("CalculiX's mesh is read from the file that is named, or else from the
   // Another job's input in the same folder is allowed, but not used.
   (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
   CHECK_FALSE(places("").known());
-  CHECK_THAT(places("").notes.at(0), Catch::Matchers::Contains("has no node of any label, as \"2.3\""));
+  CHECK_THAT(places("").notes.at(0),
+             Catch::Matchers::Contains("no label of a dof, such as \"2.3\", names a node of "));
   CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
              Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
                  Catch::Matchers::Contains("allowed: labels NODE.DIRECTION"));

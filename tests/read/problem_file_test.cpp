@@ -59,7 +59,8 @@ TEST_CASE("a pair touches from the start where its face is at 0, unless told oth
 }
 
 TEST_CASE(
-    "a bed is a pair at every free node, modulus times tributary length, and limiting it moves no share") {
+    "a bed is a pair at every free node, modulus times tributary length, and limiting a bed to some nodes "
+    "changes no tributary length") {
   const std::string head = "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n";
   const std::string tail = "[[step]]\nuniform = -1\n";
   const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");

@@ -205,7 +205,7 @@ TEST_CASE("a pair's deflection gives a gap or a force, never both") {
   CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
 }
 
-TEST_CASE("only dofs known to be lengths deflect: those of a matrix's pairs, or along an axis") {
+TEST_CASE("only dofs known to be lengths are deflections: those of a matrix's pairs, or along an axis") {
   const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
   const std::vector<int> dofs = deflecting_nodes(placed);
   CHECK(dofs.size() == 22);

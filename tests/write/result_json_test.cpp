@@ -137,7 +137,7 @@ TEST_CASE("events carry pair, node, side and change, and their load in absolute 
   CHECK(i["fraction"].get<double>() == Approx(0.25).epsilon(1e-12));
 }
 
-TEST_CASE("an event's load omits its parts if they are many, and a long list of elements counts as many") {
+TEST_CASE("an event's load omits its parts if these or their elements are many") {
   const auto load_on = [](const std::string& elements) {
     const auto r = result_of(
         "[beam]\nlength = 80\nelements = 80\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", "
@@ -432,7 +432,7 @@ TEST_CASE("warnings of the problem and of its states are in the result") {
   CHECK_THAT(plate["warnings"][0].get<std::string>(), Catch::Matchers::Contains("under a point load"));
 }
 
-TEST_CASE("a combination has the factors of its cases, and a train its place besides") {
+TEST_CASE("a combination has the factors of its cases, and a train also its place") {
   const auto steps = result_of(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nx = [0, 2]\nfix = \"w\"\n[[case]]\nname = "
       "\"G\"\n"

@@ -185,7 +185,8 @@ run_table rows_for(const std::string& text, const std::string& leads = "fortran"
 
 }  // namespace
 
-TEST_CASE("many pairs that separate as the load begins to act get one row, and a few are named in theirs") {
+TEST_CASE(
+    "many pairs that separate as the load begins to act share one row, and a few are named one by one") {
   CHECK_THAT(rows_for(lying_beam(40)).text, Contains(" at first load"));
   CHECK_THAT(rows_for(lying_beam(3)).text, Contains("break 4: node 4 below") && !Contains(" at first load"));
 }

@@ -24,8 +24,7 @@ class allowed_errors {
   by_quantity largest_;  // so far
 };
 
-/// A bound as a share of the size of its kind; 0 without one, infinite where nothing is allowed, or it is no
-/// number.
+/// `error` as a share of `allowed`: 0 without an error, infinite if nothing is allowed or the error is NaN.
 [[nodiscard]] double share_of(const std::optional<double>& error, const std::optional<double>& allowed);
 
 /// The largest share of any kind.

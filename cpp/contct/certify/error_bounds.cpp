@@ -315,8 +315,9 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
   return all;
 }
 
-/// All forces are 0 then, and so are all displacements if the supports hold the structure. If they do not, it
-/// may be anywhere, unbent, with no pair beyond its face. False, with the reason, if it may be bent.
+/// The bounds of a state without loads: all forces are 0, and so are all displacements if the supports hold
+/// the structure. If they do not, it may be anywhere, unbent, with no pair beyond its face. False, with the
+/// reason, if it may be bent.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
   state_ = {told.step,

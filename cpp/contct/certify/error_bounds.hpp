@@ -81,8 +81,9 @@ class exact_means {
 /// Computes bounds on the errors of states of a problem.
 class error_prover {
  public:
-  /// All must outlive this object. `exactly`, which may be null, gives residuals where only 32 digits factor
-  /// K_A: those in 32 digits would be too coarse there. It decides about a matrix that only pairs hold, too.
+  /// All must outlive this object. `exactly`, which may be null, gives residuals if only 32 digits factor
+  /// K_A, because residuals in 32 digits are too coarse then. It also decides whether a matrix that only
+  /// pairs hold is semidefinite.
   error_prover(const problem& p, const linear_structure& s, exact_means* exactly = nullptr);
 
   [[nodiscard]] error_bounds bound(const reported_state& told);

@@ -325,7 +325,7 @@ void trace_reader::read_pairs(call_inputs<double>& in) {
     const std::int64_t dof = static_cast<std::int64_t>(in.id[i] - 1) * in.dof.ndofpn + in.dof.indof;
     if (dof > static_cast<std::int64_t>(in.dd.size()))
       refuse("a pair at dof " + std::to_string(dof),
-             "up to " + std::to_string(in.dd.size()) + ", as \"dofs\" has it");
+             "1 to " + std::to_string(in.dd.size()) + ", the number in the line \"dofs\"");
   }
   const std::string_view line = need_line("\"ask\"");
   if (line != "ask") refuse(line, "\"ask\", behind the last pair");

@@ -13,8 +13,8 @@ namespace {
 
 using exact_poly = rational_vector;
 
-/// The first and the last of a line's intervals that a load from `from` to `to` acts on; a place has the one
-/// in which it is.
+/// The first and the last of a line's intervals that a load from `from` to `to` acts on; both are the
+/// interval of the place if these are equal.
 std::pair<int, int> intervals_of(const std::vector<double>& x, double from, double to) {
   const auto most = static_cast<std::ptrdiff_t>(x.size()) - 2;
   const std::ptrdiff_t first = std::upper_bound(x.begin(), x.end(), from) - x.begin() - 1;

@@ -211,7 +211,7 @@ struct model {
 /// Of that band.
 [[nodiscard]] int subdiagonals(const model& m);
 
-/// Assemble it on its supports. Of a matrix, the motions that its supports leave free are found from it: see
+/// Assembles the model with its supports. The motions that supports leave free to a matrix are computed: see
 /// find_free_motions. Throws std::invalid_argument when an entry of an element's stiffness is not a finite
 /// number, naming the element (from 1); where a dof of a matrix has neither stiffness nor support; and as
 /// find_free_motions does.

@@ -49,7 +49,7 @@ class cycle_detector {
     return false;
   }
 
-  /// Pairs, from 0, that toggled more than once in the last increments (at most 200 of them).
+  /// Pairs, from 0, that toggled more than once in the last 200 increments.
   [[nodiscard]] std::vector<int> restless_pairs() const {
     std::map<int, int> toggles;
     for (const std::vector<event>& events : recent_)

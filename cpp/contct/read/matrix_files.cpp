@@ -204,8 +204,8 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
     read(count);
   }
   if (count < said)
-    lines.refuse(fmt::format("the end of the file after {} of {}", count, said),
-                 fmt::format("as many as line {} says", size_line));
+    lines.refuse(fmt::format("the end of the file after {} of {} entries", count, said),
+                 fmt::format("{} entries, as line {} declares", said, size_line));
 }
 
 /// The line of each name.

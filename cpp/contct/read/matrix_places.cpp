@@ -349,7 +349,7 @@ placed_nodes places_by_mesh(std::string_view text, std::string_view file, const 
     drop_idle_nodes(places);
   else
     places.notes.push_back(
-        fmt::format("{} has no node of any label, as {}.", file, in_quotes(a.label_of(0))));
+        fmt::format("no label of a dof, such as {}, names a node of {}.", in_quotes(a.label_of(0)), file));
   return places;
 }
 

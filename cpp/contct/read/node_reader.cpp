@@ -120,7 +120,8 @@ void node_reader::refuse_hinge(const toml_value& named, int node, int dof) const
   const auto* const b = std::get_if<beam>(&structure_.kind);
   if (b == nullptr || dof == 0 || !b->has_hinge(node)) return;
   named.refuse(
-      fmt::format("theta at node {}, where a hinge parts the slopes of its left and right", node + 1),
+      fmt::format("theta at node {}, where a hinge has one slope on its left and another on its right",
+                  node + 1),
       "w there, and theta at a node beside the hinge");
 }
 

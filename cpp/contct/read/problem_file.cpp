@@ -212,7 +212,8 @@ class problem_reader {
       problem_.keys.push_back({face.name_of(i), stiffness.name_of(i)});
       if (fixed_in_w(at[i]))
         problem_.warnings.push_back(fmt::format(
-            "{}: {} is fixed{}; the pair cannot change the deflections, and its support takes its force, but "
+            "{}: {} is fixed{}; the pair cannot change the deflections, and the support carries its force, "
+            "but "
             "the listing may toggle it",
             t.where(), place_words(problem_.geometry, at[i]), nodes_->on_matrix() ? "" : " in w"));
     }

@@ -283,7 +283,7 @@ std::string named_files::path_of(const toml_value& named, std::string_view endin
   return all_->emplace_back(path == "-" ? "./-" : path);
 }
 
-/// A path that cannot be resolved is not below it.
+/// Is the file below the problem's folder? False if the path cannot be resolved.
 bool named_files::is_below(const std::string& path) const {
   std::error_code wrong;
   const auto resolved = [&wrong](const fs::path& p) {

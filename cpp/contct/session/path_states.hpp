@@ -18,7 +18,7 @@ struct path_moment {
   int at;                             ///< increments since the start of the path
 };
 
-/// In the order of the path. The last increment of a step leads to its end, and is not there twice.
+/// The states in the order of the path. The last increment of a step and the step's end are one entry.
 [[nodiscard]] std::vector<path_moment> moments_of(const run_result& r);
 
 /// Up to this share a step has only begun: structures that rest on their faces separate at once.

@@ -29,7 +29,7 @@ struct structure_state {
   double fraction = 0.0;                    ///< share of the step's load consumed
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
-  std::vector<double> pair_forces = {};     ///< better known than from `displacement`; or empty [pairs]
+  std::vector<double> pair_forces = {};     ///< more accurate than by `displacement`; may be empty [pairs]
   std::optional<end_numbers> numbers = {};  ///< likewise
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }

@@ -321,7 +321,7 @@ std::string reason_without_proof(const std::optional<certificate>& c) {
   if (!c) return "the step did not reach its load";
   if (!c->proved) return c->problem;
   if (!c->unique)
-    return "a rigid-body motion is free on which the load does no work, which this proof does not cover";
+    return "the structure can move as a rigid body without work of the load, which this proof does not cover";
   return "the bounds are proved with a sparse factor, which is not written";
 }
 

@@ -79,7 +79,7 @@ function stateWords(f) {
 
 const cuts = new Set();  // what the page leaves out, in words
 
-// `count` numbers from 0 to `all` - 1, evenly, the first and the last among them; all where there are no more.
+// `count` numbers from 0 to `all` - 1, evenly, the first and the last among them; all if there are not more than `count`.
 const evenly = (all, count) => Array.from({ length: Math.min(all, count) }, (_, i) => (all <= count ? i : Math.floor((i * (all - 1)) / (count - 1))));
 
 function some(what, all, most) {
