@@ -85,11 +85,14 @@ bool is_run(const std::vector<int>& elements) {
          std::is_sorted(elements.begin(), elements.end());
 }
 
-load_path::load_path(const problem& p) : problem_(p), totals_{resultant_of(p.geometry, {})}, parts_(1) {
-  for (const load& l : p.steps) {
-    totals_.push_back(resultant_of(p.geometry, l));
-    parts_.push_back(parts_of(l));
-  }
+load_path::load_path(const problem& p) : problem_(p), totals_(p.steps.size() + 1), parts_(1) {
+  for (const load& l : p.steps) parts_.push_back(parts_of(l));
+}
+
+const resultant& load_path::total_of(int step) const {
+  if (!totals_[step])
+    totals_[step] = resultant_of(problem_.geometry, step == 0 ? load{} : problem_.steps[step - 1]);
+  return *totals_[step];
 }
 
 load load_path::at(int step, double fraction) const {
@@ -99,8 +102,8 @@ load load_path::at(int step, double fraction) const {
 }
 
 resultant load_path::resultant_at(int step, double fraction) const {
-  const resultant& a = totals_[step_before(step)];
-  const resultant& b = totals_[step];
+  const resultant& a = total_of(step_before(step));
+  const resultant& b = total_of(step);
   resultant r{between(a.force, b.force, fraction), a.moments};
   for (std::size_t i = 0; i < r.moments.size(); ++i)
     r.moments[i] = between(a.moments[i], b.moments[i], fraction);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,11 @@ class load_path {
   [[nodiscard]] int step_before(int step) const { return problem_.steps[step - 1].from_zero ? 0 : step - 1; }
 
   const problem& problem_;
-  std::vector<resultant> totals_;   // at the start, then at the end of each step
-  std::vector<std::size_t> parts_;  // how many things there are to write, likewise
+  /// Of all that acts at the end of the step, summed in rational numbers when it is first asked for.
+  [[nodiscard]] const resultant& total_of(int step) const;
+
+  mutable std::vector<std::optional<resultant>> totals_;  // at the start, then at the end of each step
+  std::vector<std::size_t> parts_;                        // how many things there are to write, likewise
 };
 
 /// Do these elements follow one another, each once?

@@ -94,8 +94,8 @@ struct end_comparison {
 state_difference difference_of(const run_result& answer, const load& l, const structure_state& right,
                                const structure_state& other, const certificate& c) {
   const problem& p = answer.what;
-  const step_results a = results_of(p, l, other);
-  const step_results b = results_of(p, l, right);
+  const step_results a = numbers_of(p, l, other);
+  const step_results b = numbers_of(p, l, right);
   end_comparison all{c.allowed, {right.step}};
   for (int dof = 0; dof < std::ssize(right.displacement); ++dof)
     all.take(answer.structure.deflects(dof) ? quantity::w : quantity::slope, other.displacement[dof],

@@ -82,10 +82,21 @@ pair_reading reading_of(const contact_pair& p, double w, bool closed) {
   return {w, gap_of(p, w, closed), force_of(p, w, closed), look, p.face};
 }
 
-step_results results_of(const problem& p, const load& l, const structure_state& s) {
+step_results numbers_of(const problem& p, const load& l, const structure_state& s) {
   const std::vector<double>& u = s.displacement;
   step_results r{{}, results_in_elements(p.geometry, l, u), {}, {}, {}};
   if (s.numbers) r.elements.values = s.numbers->element_values;
+  r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
+  for (const contact_pair& c : pairs_under(p, l))
+    r.pairs.push_back(reading_of(c, c.seen_in(u, dofs_per_node(p.geometry)), s.closed(r.pairs.size())));
+  const std::vector<double>& known = s.numbers ? s.numbers->pair_forces : s.pair_forces;
+  for (std::size_t i = 0; i < known.size(); ++i) r.pairs[i].force = known[i];
+  return r;
+}
+
+step_results results_of(const problem& p, const load& l, const structure_state& s) {
+  const std::vector<double>& u = s.displacement;
+  step_results r = numbers_of(p, l, s);
   r.stresses = stresses_of(p.geometry, r.elements);
   r.ranges = ranges_of(p.geometry, l, u, deflecting_nodes(p), r.elements.values);
   if (const auto* const b = std::get_if<beam>(&p.geometry.kind); b != nullptr && !l.placed.empty()) {
@@ -93,11 +104,6 @@ step_results results_of(const problem& p, const load& l, const structure_state& 
     for (int e = 0; e < b->elements(); ++e)
       if (lines.is_broken(e)) r.pieces.emplace(e, lines.pieces(e));
   }
-  r.reactions = s.numbers ? s.numbers->reactions : reactions(p, l, u, s.isep);
-  for (const contact_pair& c : pairs_under(p, l))
-    r.pairs.push_back(reading_of(c, c.seen_in(u, dofs_per_node(p.geometry)), s.closed(r.pairs.size())));
-  const std::vector<double>& known = s.numbers ? s.numbers->pair_forces : s.pair_forces;
-  for (std::size_t i = 0; i < known.size(); ++i) r.pairs[i].force = known[i];
   return r;
 }
 

@@ -64,7 +64,8 @@ struct step_results {
   [[nodiscard]] std::optional<std::size_t> hardest_support(const problem& p) const;
 };
 
-/// Of a state under load `l`.
+/// Of a state under load `l`; numbers_of leaves out ranges, stresses and pieces.
+[[nodiscard]] step_results numbers_of(const problem& p, const load& l, const structure_state& s);
 [[nodiscard]] step_results results_of(const problem& p, const load& l, const structure_state& s);
 
 /// The sums of the upward forces on a structure: in equilibrium they add up to 0, but for rounding.
