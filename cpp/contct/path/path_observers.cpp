@@ -7,20 +7,22 @@
 namespace contct {
 
 void early_toggles::called(const answered_call& c) {
-  distances_.assign(c.isep_before.size(), 0.0);
+  distances_.clear();
   for (std::size_t i = 0; i < c.isep_before.size(); ++i) {
     const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
     const double reached = c.c.dd[dof] + c.c.smin * c.c.dtest[dof];
-    if (std::isfinite(reached)) largest_ = std::max(largest_, std::abs(reached));
-    if (c.c.isep[i] != c.isep_before[i]) distances_[i] = std::abs(c.c.cc[i] - reached);
+    // Branches that are seldom taken: each call has a look at every pair.
+    if (std::abs(reached) > largest_ && std::isfinite(reached)) largest_ = std::abs(reached);
+    if (c.c.isep[i] != c.isep_before[i]) distances_[static_cast<int>(i)] = std::abs(c.c.cc[i] - reached);
   }
 }
 
 void early_toggles::incremented(const increment& i) {
   const double rounding = rounding_share(sizeof(double)) * largest_;
   for (const event& e : i.events) {
-    const double distance = e.pair < std::ssize(distances_) ? distances_[e.pair] : 0.0;
-    if (distance > rounding) all_.push_back({i.step, i.number, e, distance, distance / largest_});
+    const auto off = distances_.find(e.pair);
+    if (off != distances_.end() && off->second > rounding)
+      all_.push_back({i.step, i.number, e, off->second, off->second / largest_});
   }
 }
 

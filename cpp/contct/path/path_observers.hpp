@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,7 +44,7 @@ class early_toggles final : public observer {
   [[nodiscard]] const std::vector<early_toggle>& all() const { return all_; }
 
  private:
-  std::vector<double> distances_;  // of the pairs toggled in the last call; 0 of others [pairs]
+  std::map<int, double> distances_;  // of the pairs toggled in the last call, from 0
   double largest_ = 0.0;
   std::vector<early_toggle> all_;
 };

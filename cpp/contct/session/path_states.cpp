@@ -45,6 +45,12 @@ std::vector<path_moment> without_first_moves(std::vector<path_moment> all) {
   return kept;
 }
 
+std::size_t bytes_of_state(const problem& p) {
+  const std::size_t of_element = std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;
+  return std::size_t{20} * dofs(p.geometry) + 100 * p.pairs.size() + 55 * p.supports.size() +
+         of_element * elements(p.geometry) + 1;
+}
+
 path_states::path_states(const run_result& r)
     : run_(r),
       structure_(r.structure),

@@ -58,6 +58,12 @@ class path_states {
 
 inline constexpr std::size_t most_pictures = 120;
 
+/// The states within steps that a page has take no more bytes than this; so a larger state is in no page.
+inline constexpr std::size_t most_bytes_of_page = 6'000'000;
+
+/// About what a state takes as text.
+[[nodiscard]] std::size_t bytes_of_state(const problem& p);
+
 /// The states that pictures show: the unloaded structure, and those along the path, no more than `most` and
 /// no more than `most_numbers` displacements together.
 [[nodiscard]] std::vector<structure_state> pictures_of(const run_result& r, std::size_t most = most_pictures,

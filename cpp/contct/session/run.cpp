@@ -12,6 +12,7 @@
 #include "contct/matrix/cholesky.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/session/path_states.hpp"
 #include "contct/session/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 
@@ -57,10 +58,11 @@ void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
   to = outputs;
   const bool drawn = to.page != nullptr;
   lockstep_on_path* const compared = result.compared ? &*result.compared : nullptr;
-  result.record =
-      run_recorder(compared, {.calls = drawn && !wanted.both_rules,
-                              .states = leader_ && (drawn || wanted.pictures || to.table != nullptr ||
-                                                    (wanted.envelope && !starts_from_zero(result.what)))});
+  result.record = run_recorder(
+      compared, {.calls = drawn && !wanted.both_rules,
+                 .states = leader_ &&
+                           ((drawn && bytes_of_state(result.what) <= most_bytes_of_page) || wanted.pictures ||
+                            to.table != nullptr || (wanted.envelope && !starts_from_zero(result.what)))});
   if (to.proof != nullptr) result.judged.keep_proofs();
   std::vector<observer*> all;
   if (compared != nullptr) all.push_back(compared);

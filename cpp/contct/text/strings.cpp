@@ -40,8 +40,10 @@ bool is_obeyed(char32_t c) {
 /// that is not UTF-8.
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
-  std::string out;
-  out.reserve(text.size());
+  const auto plain = [](char c) { return c >= ' ' && c <= '~'; };
+  const auto first = static_cast<std::size_t>(std::ranges::find_if_not(text, plain) - text.begin());
+  std::string out(text.substr(0, first));
+  text.remove_prefix(first);
   while (!text.empty()) {
     const decoded d = first_character(text);
     const std::string_view bytes = text.substr(0, std::max<std::size_t>(d.bytes, 1));

@@ -23,8 +23,13 @@ std::string script_text(const run_result& r) {
   output_file out(&text);
   write_result(r, out, result_parts::report);
   std::string safe;
-  for (const char c : text) safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
-  return safe;
+  for (std::string_view rest = text;;) {
+    const std::size_t at = rest.find('<');
+    safe += rest.substr(0, at);
+    if (at == std::string_view::npos) return safe;
+    safe += "\\u003c";
+    rest.remove_prefix(at + 1);
+  }
 }
 
 /// The one section of the parallel edition, whose file is a page of its own.

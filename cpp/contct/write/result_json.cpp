@@ -146,13 +146,6 @@ json rule_1989_json(const run_result& r) {
           {"wrong_steps", wrong}};
 }
 
-/// About what a state takes as text.
-std::size_t bytes_of_state(const problem& p) {
-  const std::size_t of_element = std::holds_alternative<plate>(p.geometry.kind) ? 300 : 120;
-  return std::size_t{20} * dofs(p.geometry) + 100 * p.pairs.size() + 55 * p.supports.size() +
-         of_element * elements(p.geometry) + 1;
-}
-
 /// Of combinations that are too many for a page, those whose states it leaves out, from 0: not those that the
 /// envelope names or that failed, and of the others evenly as many as there is room for.
 std::set<std::size_t> ends_left_out(const run_result& r) {
@@ -178,10 +171,10 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
 /// Of the states within steps, those that are written: evenly chosen, so that all together take not too many
 /// bytes.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
-  constexpr std::size_t fewest = 4;
   std::vector<path_moment> within = moments_of(r);
   std::erase_if(within, [](const path_moment& m) { return m.is_end; });
-  const std::size_t most = std::clamp(most_bytes / bytes_of_state(r.what), fewest, most_pictures);
+  const std::size_t most = std::min(most_bytes / bytes_of_state(r.what), most_pictures);
+  if (most == 0) return {};
   const std::size_t stride = (within.size() + most - 1) / most;
   std::map<const increment_record*, path_moment> chosen;
   for (std::size_t i = 0; i < within.size(); i += stride) chosen.emplace(within[i].increment, within[i]);
@@ -194,8 +187,8 @@ class result_writer {
       : r_(r), parts_(parts), document_(out, head(), "steps") {
     if (parts == result_parts::report) left_out_ = ends_left_out(r);
     if (parts == result_parts::ends || !r.record.keeps_states() || !left_out_.empty()) return;
-    within_ = states_within(r, parts == result_parts::report ? 6'000'000 : 1'500'000);
-    states_.emplace(r);
+    within_ = states_within(r, parts == result_parts::report ? most_bytes_of_page : 1'500'000);
+    if (!within_.empty()) states_.emplace(r);
   }
 
   void write() {
