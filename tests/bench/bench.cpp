@@ -30,6 +30,7 @@ struct options {
   int rounds = 3;
   std::string json_file;
   bool without_kernels = false;
+  bool print = false;
 };
 
 /// One thread on one processor: so that ratios are meaningful.
@@ -171,6 +172,7 @@ void bench_peers(const options& o, const std::string& name, json& rows) {
     rows.push_back({{"problem", name},
                     {"method", a.method},
                     {"ms", 1e3 * a.seconds},
+                    {"mib", a.mib},
                     {"steps", a.steps},
                     {"digits", a.digits},
                     {"wrong_statuses", a.wrong_statuses},
@@ -180,6 +182,10 @@ void bench_peers(const options& o, const std::string& name, json& rows) {
 
 int run(options o) {
   if (o.problems.empty()) o.problems = bench::usual_problems();
+  if (o.print) {
+    for (const std::string& name : o.problems) fmt::print("{}", bench::text_of(name));
+    return 0;
+  }
   std::optional<contct::output_file> out;
   if (!o.json_file.empty()) out.emplace(o.json_file);
   pin();
@@ -223,6 +229,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   program.add_flag("--without-kernels", o.without_kernels,
                    "Engines only; the kernels alone take some seconds");
+  program.add_flag("--print", o.print, "Print the problem files instead of running them");
   program.add_option("--json", o.json_file, "Write the rows to this file (- is standard output)");
   CLI11_PARSE(program, argc, argv);
   try {

@@ -30,7 +30,9 @@ struct cpu_clock {
   }
 };
 
-/// "rail-50", "mat-100", "grid-50": the family and its size. Throws std::invalid_argument for others.
+/// The problem file of "rail-50", "mat-100", "grid-50": the family and its size. Throws std::invalid_argument
+/// for others.
+[[nodiscard]] std::string text_of(const std::string& name);
 [[nodiscard]] contct::problem make_problem(const std::string& name);
 
 /// The problems of the benchmark, smallest first.
@@ -94,6 +96,7 @@ struct seconds_of_a_call {
 struct peer_answer {
   std::string method;
   double seconds = 0.0;    ///< of processor time, from K in memory to D; the median
+  double mib = 0.0;        ///< the most memory that CHOLMOD had
   int steps = 0;           ///< of Newton's method
   double digits = 0.0;     ///< that all numbers are proved to have, at most 15
   int wrong_statuses = 0;  ///< of pairs

@@ -60,6 +60,8 @@ class newton {
     throw std::runtime_error("Newton's method does not end");
   }
 
+  [[nodiscard]] double mib() const { return static_cast<double>(common_.memory_usage) / (1 << 20); }
+
   std::vector<double> u;  ///< [rows]
 
  private:
@@ -201,6 +203,7 @@ std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& 
       newton solver(s, k, load, updown);
       a.steps = solver.run();
       seconds.push_back(std::chrono::duration<double>(cpu_clock::now() - start).count());
+      a.mib = solver.mib();
       u = solver.u;
     }
     std::sort(seconds.begin(), seconds.end());

@@ -75,21 +75,25 @@ std::string grid(int n) {
 
 }  // namespace
 
-contct::problem make_problem(const std::string& name) {
+std::string text_of(const std::string& name) {
   const std::size_t dash = name.find('-');
   const std::string family = name.substr(0, dash);
   int size = 0;
   if (dash != std::string::npos)
     (void)std::from_chars(name.data() + dash + 1, name.data() + name.size(), size);
   std::string text;
-  if (size >= 2 && size <= 5000 && family == "rail") text = rail(size);
-  if (size >= 4 && size <= 400 && family == "mat") text = mat(size);
-  if (size >= 4 && size <= 400 && family == "grid") text = grid(size);
+  if (size >= 2 && size <= 20'000 && family == "rail") text = rail(size);
+  if (size >= 4 && size <= 1400 && family == "mat") text = mat(size);
+  if (size >= 4 && size <= 1400 && family == "grid") text = grid(size);
   if (text.empty())
     throw std::invalid_argument("--problem: found \"" + name +
-                                "\"; allowed: rail-S (2 to 5000 spans), mat-N, grid-N (4 to 400 elements a "
+                                "\"; allowed: rail-S (2 to 20000 spans), mat-N, grid-N (4 to 1400 elements a "
                                 "side)");
-  return contct::parse_problem(text, name);
+  return text;
+}
+
+contct::problem make_problem(const std::string& name) {
+  return contct::parse_problem(text_of(name), name);
 }
 
 std::vector<std::string> usual_problems() {

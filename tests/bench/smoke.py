@@ -38,7 +38,7 @@ assert engines == {"refactor", "updated", "condensed"}, engines
 assert events >= 200, events
 # CHOLMOD alone, if it is available, on problems of one load step: the digits that rounding leaves.
 for peer in document["peers"]:
-    assert 8.5 <= peer["digits"] <= 15 and peer["wrong_statuses"] == 0 and peer["values"] >= 100 and peer["ms"] > 0, peer
+    assert 8.5 <= peer["digits"] <= 15 and peer["wrong_statuses"] == 0 and peer["values"] >= 100 and peer["ms"] > 0 and peer["mib"] > 0, peer
 assert [p["problem"] for p in document["peers"]] in ([], [name for name in problems[:4] for _ in range(2)]), document["peers"]
 
 # Only so many events, and a name that nothing has.

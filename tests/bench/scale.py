@@ -1,0 +1,133 @@
+"""scale.py BUILD FIGURE.svg [SECONDS [SIZES]]: processor time and memory against size, of contct and of other programs, as one picture.
+
+Each point is a whole process of a problem by formula, reading and certificate included; CHOLMOD alone is Newton's method with K in
+memory. A curve ends where a run takes more than SECONDS (120), or fails, or after so many SIZES. Points are printed as they come, with the message of a failure."""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+BUILD, FIGURE, SECONDS = Path(sys.argv[1]).resolve(), Path(sys.argv[2]), float(sys.argv[3]) if len(sys.argv) > 3 else 120.0
+MOST_SIZES = int(sys.argv[4]) if len(sys.argv) > 4 else None
+CCX, MPIRUN = "ccx", ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2"]
+SIZES = {"rail": [3, 10, 30, 100, 300, 1000, 3000, 10000], "grid": [8, 16, 32, 64, 128, 256, 512]}
+DOFS = {"rail": lambda spans: 2 * (100 * spans + 1), "grid": lambda n: 3 * (n + 1) ** 2}
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "reference/benchmarks"))
+import calculix  # noqa: E402
+from make import problem_of  # noqa: E402
+
+
+def measured(command, folder):
+    """Processor seconds and MiB of a process and of those that it waited for; the last line of its errors if it fails."""
+    limited = ["timeout", str(SECONDS * 4), *map(str, command)]
+    with open(folder / "out", "wb") as out:
+        process = subprocess.Popen(limited, cwd=folder, stdout=out, stderr=out)
+        _, status, usage = os.wait4(process.pid, 0)
+    if os.waitstatus_to_exitcode(status) == 124:
+        return None, f"more than {SECONDS * 4:g} s"
+    if status != 0:
+        lines = (folder / "out").read_text(errors="replace").strip().splitlines()
+        return None, (lines or ["no message"])[-1]
+    return (usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024), ""
+
+
+def contct(*options, before=()):
+    return lambda name, folder: measured([*before, BUILD / "contct", "run", folder / f"{name}.toml", "--quiet", *options], folder)
+
+
+def cholmod(method):
+    def run(name, folder):
+        point, problem = measured([BUILD / "contct_bench", "--problem", name, "--engine", "updated", "--events", "1", "--rounds", "1",
+                                   "--without-kernels", "--json", "rows.json"], folder)
+        found = [row for row in json.loads((folder / "rows.json").read_text())["peers"] if row["method"] == method] if point else []
+        return ((found[0]["ms"] / 1e3, found[0]["mib"]), "") if found else (None, problem or "no CHOLMOD")
+    return run
+
+
+def ccx(name, folder):
+    """A plate's loads without their moments, and edges that are held at corners of elements: for its time alone."""
+    problem = problem_of(folder / f"{name}.toml")
+    step = problem["steps"][0] | {"loads": [load for load in problem["steps"][0]["loads"] if load[1] in calculix.DIRECTIONS]}
+    Path(folder, "job.inp").write_text(calculix.deck(problem, step))
+    return measured([CCX, "job"], folder)
+
+
+METHODS = {
+    "1989's way, path": ("#c0392b", contct("--kernels", "fortran", "--engine", "refactor")),
+    "quickest engine, path": ("#1f5fa8", contct("--kernels", "corrected")),
+    "--final-only": ("#0b8a6a", contct("--final-only")),
+    "PETSc, 2 ranks, path": ("#7d3c98", contct("--kernels", "corrected", "--engine", "petsc", before=MPIRUN)),
+    "CHOLMOD, updated": ("#d68910", cholmod("up/downdating")),
+    "CHOLMOD, a factor a step": ("#8a6d3b", cholmod("a factor for each step")),
+    "CalculiX": ("#444444", ccx),
+}
+
+
+def curve(family, run):
+    """[(dofs, seconds, MiB)]"""
+    points = []
+    for size in SIZES[family][:MOST_SIZES]:
+        name = f"{family}-{size}"
+        with tempfile.TemporaryDirectory() as made:
+            folder = Path(made)
+            with open(folder / f"{name}.toml", "wb") as file:
+                subprocess.run([BUILD / "contct_bench", "--print", "--problem", name], stdout=file, check=True)
+            point, problem = run(name, folder)
+        print(f"  {name}: {'%.3f s, %.0f MiB' % point if point else 'ended: ' + problem}", flush=True)
+        if point is None:
+            break
+        points.append((DOFS[family](size), *point))
+        if point[0] > SECONDS:
+            break
+    return points
+
+
+def panel(left, title, unit, curves, of):
+    """Of one family, both axes logarithmic: `of` 1, seconds, or 2, MiB."""
+    width, height, top = 330, 250, 30
+    xs = [math.log10(point[0]) for _, points in curves for point in points]
+    ys = [math.log10(max(point[of], 1e-3)) for _, points in curves for point in points]
+    x0, x1, y0, y1 = math.floor(min(xs)), math.ceil(max(xs)), math.floor(min(ys)), math.ceil(max(ys))
+    at = lambda x, y: (left + (x - x0) / (x1 - x0) * width, top + height - (y - y0) / (y1 - y0) * height)
+    lines = [f'<text x="{left}" y="{top - 10}">{title}</text><rect x="{left}" y="{top}" width="{width}" height="{height}" fill="none" stroke="#999"/>']
+    for power in range(x0, x1 + 1):
+        x, y = at(power, y0)
+        lines.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{top}" y2="{y:.1f}" stroke="#ddd"/><text x="{x - 8:.1f}" y="{y + 15:.1f}">1e{power}</text>')
+    for power in range(y0, y1 + 1):
+        x, y = at(x0, power)
+        lines.append(f'<line x1="{x:.1f}" x2="{x + width:.1f}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/><text x="{x - 36:.1f}" y="{y + 4:.1f}">1e{power}</text>')
+    lines.append(f'<text x="{left + width - 40}" y="{top + height + 30}">dofs</text><text x="{left - 36}" y="{top - 10}">{unit}</text>')
+    for name, points in curves:
+        if points:
+            places = [at(math.log10(point[0]), math.log10(max(point[of], 1e-3))) for point in points]
+            lines.append(f'<polyline fill="none" stroke="{METHODS[name][0]}" stroke-width="1.8" points="{" ".join("%.1f,%.1f" % p for p in places)}"/>')
+            lines += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.5" fill="{METHODS[name][0]}"/>' for x, y in places]
+    return lines
+
+
+def picture(found):
+    lines = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1640 340" font-family="sans-serif" font-size="12">',
+             '<rect width="1640" height="340" fill="#fff"/>']
+    for i, (family, title) in enumerate((("rail", "Beam"), ("grid", "Plate"))):
+        lines += panel(50 + 820 * i, f"{title}: time", "s", found[family], 1) + panel(450 + 820 * i, f"{title}: memory", "MiB", found[family], 2)
+    for i, (name, (colour, _)) in enumerate(METHODS.items()):
+        lines.append(f'<line x1="{50 + 225 * i}" x2="{75 + 225 * i}" y1="330" y2="330" stroke="{colour}" stroke-width="3"/>'
+                     f'<text x="{80 + 225 * i}" y="334">{name}</text>')
+    return "\n".join([*lines, "</svg>"]) + "\n"
+
+
+found = {}
+for family in SIZES:
+    found[family] = []
+    for name, (_, run) in METHODS.items():
+        print(f"{name}, {family}", flush=True)
+        found[family].append((name, curve(family, run)))
+FIGURE.write_text(picture(found))
+print(f"{sum(len(points) for of in found.values() for _, points in of)} points: {FIGURE}")
+for family, curves in found.items():
+    if len(curves[1][1]) < 3:
+        sys.exit(f"scale.py: {family}: found {len(curves[1][1])} points of the quickest engine; allowed: 3 or more")
