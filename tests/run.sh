@@ -71,7 +71,7 @@ if [ "$full" = yes ]; then
   need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
   need "for one more engine" libsuitesparse-dev
   need_petsc || true  # its tests are skipped where it cannot be had
-  need "to compare with another program" calculix-ccx || true  # the same
+  need "to compare with other programs" calculix-ccx python3-siconos || true  # the same
   need "for the manual pages" mandoc
   for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
     command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # its test is skipped
@@ -100,7 +100,7 @@ if [ "$full" = yes ]; then
   sh tests/two_lapacks/run.sh build/release
   echo "== the same programs from another folder"
   sh tests/package/same_binaries.sh build/release
-  with_tool "CalculiX as a peer" peer/run.sh build/release
+  with_tool "CalculiX and Siconos as peers" peer/run.sh build/release
   with_tool "other processors" emulated/run.sh
   with_tool "the page in a browser" browser/run.sh build/release
   with_tool "the playground in a browser" playground/run.sh build/release

@@ -132,7 +132,7 @@ def errors(problem, answers):
             yield abs(answer["value"] - float(Fraction(words))) / (sizes[kind] or 1.0)
 
 
-def row(family, problems, calculix):
+def row(family, problems, programs):
     """Of PB3a, PB3b and so on, those of a family."""
     first, title = problems[0], problems[0]["title"].partition("  ")[2] or problems[0]["title"]
     number = f"{family[:2].upper()}{int(family[2:])}"
@@ -141,20 +141,20 @@ def row(family, problems, calculix):
     fractions = [n for n in first["numbers"] if n["quantity"] in ("w", "force") and "/" in n["exact"]]
     shown = min(fractions, key=lambda n: len(n["exact"]), default=None)
     exact = f"{shown['quantity']}({shown.get('node', shown.get('pair'))}), step {shown['step']}: {shown['exact']}" if shown else "40 digits"
-    judged = [error for p in problems for error in errors(p, calculix.get(p["name"], []))]
-    theirs = f"{len(judged)} within {max(judged):.0e}" if judged else "no convergence" if family in NO_CONVERGENCE else "not tried"
+    judged = [[error for p in problems for error in errors(p, of.get(p["name"], []))] for of in programs]
+    theirs = [f"{len(all)} within {max(all):.0e}" if all else "no convergence" if family in NO_CONVERGENCE else "not tried" for all in judged]
     cells = [picture, f"{'' if len(problems) == 1 else number + ' '}{' '.join(links)} {title}", str(sum(len(p["numbers"]) for p in problems)),
-             exact, PUBLISHED.get(family, "-"), theirs]
+             exact, PUBLISHED.get(family, "-"), *theirs]
     return "|" + "|".join(cells) + "|"
 
 
 def page_with(table, problems):
     """benchmarks.md with the table."""
-    calculix = json.loads((HERE / "calculix.json").read_text())["problems"]
+    programs = [json.loads((HERE / name).read_text())["problems"] for name in ("calculix.json", "siconos.json")]
     families = {}
     for problem in problems:
         families.setdefault(problem["name"][:4], []).append(problem)
-    rows = [row(family, of, calculix) for family, of in sorted(families.items())]
+    rows = [row(family, of, programs) for family, of in sorted(families.items())]
     begin, end = table.index("| picture |"), table.index("\n\n", table.index("| picture |"))
     header = table[begin:end].splitlines()[:2]
     return table[:begin] + "\n".join(header + rows) + table[end:]

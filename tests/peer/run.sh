@@ -1,18 +1,17 @@
 #!/bin/sh
-# Another program as a witness: CalculiX (ccx) finds the same states as contct, on solids whose matrix it
-# wrote
-# for contct, on the combinations of a base plate, and on benchmark problems of reference/benchmarks.
+# Other programs as witnesses: CalculiX (ccx) finds the same states as contct on solids whose matrix it wrote, on the combinations of a
+# base plate, and on benchmark problems; Siconos finds them on all benchmark problems of reference/benchmarks.
 # usage: sh tests/peer/run.sh [BUILD]      (default: build/release; the needed targets are built)
-# Exit 0: all agrees; 1: something does not; 2: usage; 77: skipped, CalculiX cannot be had.
+# Exit 0: all agrees; 1: something does not; 2: usage; 77: skipped, one of them cannot be had.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh
 [ $# -le 1 ] || { echo "usage: sh tests/peer/run.sh [BUILD]" >&2; exit 2; }
 build=${1:-build/release}
 
-command -v ccx >/dev/null 2>&1 || need "as a peer" calculix-ccx || true
-if ! command -v ccx >/dev/null 2>&1; then
-  echo "CalculiX as a peer: SKIPPED: ccx is not found and cannot be installed"
+need "as peers" calculix-ccx python3-siconos python3-numpy || true
+if ! command -v ccx >/dev/null 2>&1 || ! python3 -c "import siconos.numerics" 2>/dev/null; then
+  echo "CalculiX and Siconos as peers: SKIPPED: one is not found and cannot be installed"
   exit 77
 fi
 need_core || exit 1
