@@ -8,17 +8,17 @@
 namespace contct {
 namespace {
 
-/// A number of a kind counts as zero up to this share of a related kind: shears of a beam bent only by
-/// couples are 0 up to the rounding of 32 digits.
+/// An error counts as zero up to this share of a related kind: the shears of a beam that only couples bend
+/// are 0 up to the rounding of 32 digits.
 constexpr double of_related = 0x1p-60;
 
-/// The same share of the force that moves one settling dof alone, used if no load acts.
+/// An error counts as zero up to this share of the force that moves one settling dof alone, if no load acts.
 constexpr double of_settling = 0x1p-70;
 
 constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
 
-/// The size of each kind of number in a state: forces, reactions and shears are of one kind, moments are
-/// measured by them too, and gaps by deflections.
+/// The size of each kind of number in a state. Forces, reactions and shears have a common size; that of
+/// moments includes force times extent, and that of gaps includes deflections.
 by_quantity sizes_of(const error_bounds& b, double extent) {
   by_quantity sizes = b.size;
   double force = 0.0;
@@ -29,16 +29,16 @@ by_quantity sizes_of(const error_bounds& b, double extent) {
   return sizes;
 }
 
-/// Only the proved part of each size: a number that is not certified may be reported too large, and the
-/// numbers of an unloaded state are only errors.
+/// Each size less its error: an uncertified number may be reported too large, and the numbers of an unloaded
+/// state are only errors.
 by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));
   return sizes_of(b, extent);
 }
 
-/// An error up to this floor counts as zero, whatever the size of the kind, since all its numbers may be 0.
-/// The floors do not depend on a bound.
+/// An error up to its floor counts as zero, because all numbers of its kind may be 0. Floors do not depend on
+/// error bounds.
 by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double extent) {
   by_quantity floors;
   const double force = of_settling * b.settling[quantity::force].value_or(0.0);

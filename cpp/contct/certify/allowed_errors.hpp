@@ -9,35 +9,35 @@
 
 namespace contct {
 
-/// Certified means: every proved bound on an error is at most this share of the size of its kind in this
-/// state.
+/// A state is certified if every proved bound on an error is at most this share of the size of the number's
+/// kind.
 inline constexpr double certified_share = 1e-6;
 
-/// Knows how large the numbers of a path have been (reference/certificate-proof.md, "Sizes").
+/// Computes allowed errors from the sizes of the numbers of a path (reference/certificate-proof.md, "Sizes").
 class allowed_errors {
  public:
   /// The allowed error of each kind of number in the state of `b`; empty for kinds without a bound. `extent`:
-  /// the largest side of the structure. The steps of a path come in their order.
+  /// the largest side of the structure. Must be called for the steps of a path in their order.
   [[nodiscard]] by_quantity of(const error_bounds& b, double extent);
 
  private:
-  by_quantity largest_;  // so far
+  by_quantity largest_;  // the largest proved size of each kind so far
 };
 
 /// `error` as a share of `allowed`: 0 without an error, infinite if nothing is allowed or the error is NaN.
 [[nodiscard]] double share_of(const std::optional<double>& error, const std::optional<double>& allowed);
 
-/// The largest share of any kind.
+/// The largest `share_of` of any kind.
 [[nodiscard]] double worst_share(const by_quantity& error, const by_quantity& allowed);
 
 /// "deflection", "contact force", ..: the name of one number of a kind.
 [[nodiscard]] std::string_view name_of_kind(quantity q);
 
-/// The unit of a kind, with a blank before it; empty where the problem names none.
+/// The unit of a kind, after a blank; empty if the problem names no unit.
 [[nodiscard]] std::string unit_of(const problem& p, quantity q);
 
-/// The bound that exceeds its allowed error most, in words, in the units of `of` if that is given; empty if
-/// no bound exceeds it.
+/// The error that exceeds its allowed error most, in words; empty if no error exceeds it. Has units if `of`
+/// is not null.
 [[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed,
                                       const problem* of = nullptr);
 

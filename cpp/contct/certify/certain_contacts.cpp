@@ -9,7 +9,7 @@
 namespace contct {
 namespace {
 
-/// The largest error of products that underflow.
+/// A bound on the error of products that underflow.
 constexpr double underflow = 1e-300;
 
 std::vector<int> rows_of(const linear_structure& s) {
@@ -28,15 +28,15 @@ certain_contacts::certain_contacts(const problem& p, const linear_structure& s, 
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt,
                  quickest_factor(s) == factored_by::cholmod) {}
 
-/// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
-/// rho^2 = r'z + z'e + e' K_A^-1 e.
+/// rho, an upper bound on the norm of the residual r in K_A^-1. With z approximating K_A^-1 r and e = r - K_A
+/// z, rho^2 = r'z + z'e + e' K_A^-1 e.
 std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   const std::size_t n = system_.dofs();
   long_vector z(n);
   std::vector<double> e(n);
   long_vector left = r.force;
   long_vector product;
-  std::vector<double> sizes;  // of the products in row i
+  std::vector<double> sizes;  // sums of the magnitudes of the products in K_A z [dofs]
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t dof = 0; dof < n; ++dof) e[dof] = left[dof].hi;
     stiffness_.solve(e);
@@ -49,14 +49,14 @@ std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   double_double work;
   double slack = 0.0;
   double rest = 0.0;
-  bool any = false;  // a residual, or a residual that underflows
+  bool any = false;  // some residual is not 0, or may have underflowed
   for (std::size_t dof = 0; dof < n; ++dof) {
     if (system_.fixed[dof] != 0) continue;
     any = any || r.force[dof].hi != 0.0 || r.slack[dof] > 0.0;
     work += z[dof] * (r.force[dof] + left[dof]);
     double size = sizes[dof];
     const double root = 1.0 / stiffness_.scale(dof);
-    size += root * root * std::abs(z[dof].hi) * 2;  // the springs of A
+    size += root * root * std::abs(z[dof].hi) * 2;  // springs of pairs in A
     const double off = r.slack[dof] + 2 * long_rounding * size;
     slack += 2 * std::abs(z[dof].hi) * off;
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
@@ -112,7 +112,7 @@ bool certain_contacts::last_digits_decide() const {
   const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
   if (a == nullptr || a->free_motions) return false;
   if (a->stiffness.last_digits.empty()) return false;
-  std::vector<double> rows(system_.dofs());  // of S H S, where H has the half units
+  std::vector<double> rows(system_.dofs());  // row sums of S H S, with H = half units in the last digits
   for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
     const matrix_entry& e = a->stiffness.entries[i];
     if (system_.fixed[e.row] != 0 || system_.fixed[e.column] != 0) continue;
@@ -123,7 +123,7 @@ bool certain_contacts::last_digits_decide() const {
   return !(std::ranges::max(rows) * (1 + summation_slack) < mu_);
 }
 
-/// Why they are not found, in words.
+/// Finds A and rho. Returns the reason in words if they are not proved, otherwise "".
 std::string certain_contacts::search(std::span<const double_double> u, const long_residual& r, bool balanced,
                                      contact_set& b) {
   b.closed = pressed(u);
@@ -178,7 +178,8 @@ bool certain_contacts::find_balanced(int step, std::span<const double_double> u,
   return true;
 }
 
-/// No work on the motions that A leaves free, and no pair that these motions move can be in contact.
+/// True if the load does no work on the rigid-body motions that A leaves free, and no pair that these motions
+/// move can be in contact.
 bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);

@@ -1,5 +1,5 @@
-// Which pairs are certainly in contact, and how far a state can be from the equilibrium in the norm of their
-// stiffness (reference/certificate-proof.md).
+// Finds which pairs are certainly in contact, and bounds the distance of a state from the equilibrium in the
+// norm of K_A (reference/certificate-proof.md).
 #pragma once
 
 #include <limits>
@@ -13,43 +13,46 @@
 
 namespace contct {
 
-/// The facts about a state's contacts that are certain.
+/// What is proved about the contacts of a state.
 struct contact_set {
   bool unique = true;      ///< false: the same forces also balance at other displacements
   std::string not_proved;  ///< why the contacts are not proved, in words; empty if they are
-  double rho = std::numeric_limits<double>::infinity();  ///< how far the state is, in the norm of K_A
-  std::vector<int> closed;  ///< A: the pairs that are certainly in contact, from 0
+  double rho = std::numeric_limits<double>::infinity();  ///< distance from the equilibrium, at most, in the
+                                                         ///< norm of K_A
+  std::vector<int> closed;                               ///< A: the pairs certainly in contact, from 0
 };
 
-/// A, the pairs that are certainly in contact, with K_A, its factor, and the proof that it is definite.
+/// Finds the set A of pairs certainly in contact, and proves that K_A, the stiffness with their springs, is
+/// positive definite.
 class certain_contacts {
  public:
-  /// All must outlive this object.
+  /// All arguments must outlive this object.
   certain_contacts(const problem& p, const linear_structure& s, const long_system& system);
 
-  /// A and rho of `b`, for a state with a residual: A begins with all pairs beyond their faces; those that
-  /// are not certainly beyond are removed. False, with the reason, if nothing is proved.
+  /// Sets A and rho in `b` for a state with a residual. A begins with all pairs beyond their faces; pairs
+  /// that are not certainly beyond are removed. If nothing is proved, returns false and sets `b.not_proved`.
   bool find(std::span<const double_double> u, const long_residual& r, contact_set& b);
-  /// If the pairs of A leave rigid-body motions on which the load does no work: add springs without force,
-  /// which hold the structure at its position and change nothing else.
+  /// Proves a state that balances: the pairs of A leave rigid-body motions free, but the load does no work on
+  /// them. Springs without force hold the structure during the proof.
   bool find_balanced(int step, std::span<const double_double> u, const long_residual& r, contact_set& b);
 
-  /// Factor K_A; is it definite for certain?
+  /// Factors K_A and returns true if it is certainly positive definite.
   [[nodiscard]] bool proves(const std::vector<int>& closed);
-  /// Pairs beyond their faces.
+  /// The pairs beyond their faces.
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
-  /// `closed`, extended by the pairs nearest to their faces if `closed` alone does not hold the structure.
+  /// `closed`, and, if these pairs do not hold the structure, the pairs nearest to their faces that complete
+  /// the support.
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
 
-  /// The largest change of a dof between two states at a distance of 1.
+  /// The largest change of a dof between two states at a distance of 1 in the norm of K_A.
   [[nodiscard]] double reach(std::size_t dof) const { return stiffness_.scale(dof) * inverse_root_mu_; }
-  /// The same of the difference that a pair sees: of one dof, or between two.
+  /// The largest change of the relative displacement of a pair between two such states.
   [[nodiscard]] double reach(const long_pair& p) const {
     return p.other < 0 ? reach(p.dof) : reach(p.dof) + reach(p.other);
   }
-  /// The largest difference between a pair's depth under u and in any state within rho of u.
+  /// A bound on the difference of a pair's depth between u and any state within rho of u.
   [[nodiscard]] double reach_of_pair(std::size_t pair, std::span<const double_double> u, double rho) const;
-  /// Not in contact, in any state within rho of u.
+  /// Is the pair separated in every state within rho of u?
   [[nodiscard]] bool is_certainly_open(std::size_t pair, std::span<const double_double> u, double rho) const;
 
   [[nodiscard]] scaled_stiffness& stiffness() { return stiffness_; }
@@ -60,21 +63,21 @@ class certain_contacts {
   [[nodiscard]] std::string search(std::span<const double_double> u, const long_residual& r, bool balanced,
                                    contact_set& b);
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
-  /// Can half a unit in the last digits of a matrix, that does not say how many motions it leaves free, make
-  /// K_A indefinite?
+  /// Can errors of half a unit in the last digits of a matrix make K_A indefinite? False if the file gives
+  /// the number of rigid-body motions.
   [[nodiscard]] bool last_digits_decide() const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
   [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const contact_set& b) const;
-  /// Removes from `closed` the pairs that may be separated; false if there are none.
+  /// Removes from `closed` the pairs that may be separated; returns false if there are none.
   bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
 
   const problem& problem_;
   const linear_structure& structure_;
   const long_system& system_;
   scaled_stiffness stiffness_;
-  std::optional<std::vector<int>> factored_;  // the pairs in the last factor
+  std::optional<std::vector<int>> factored_;  // the pairs of the last factor
   double mu_ = 0.0, inverse_root_mu_ = 0.0;
-  long_vector z_;  // about K_A^-1 r
+  long_vector z_;  // approximates K_A^-1 r
 };
 
 }  // namespace contct

@@ -19,7 +19,7 @@ double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
 }
 
-/// A sparse factor that fits into memory three times, and whose product takes a minute or less.
+/// Does the sparse factor fit into memory three times, and does its product take a minute or less?
 bool can_be_proved_by_columns(const linear_structure& s) {
   if (!sparse_factor::available()) return false;
   constexpr double most_flops = 5e10;
@@ -27,11 +27,11 @@ bool can_be_proved_by_columns(const linear_structure& s) {
   return 3 * factor->bytes() <= memory_limit() && factor->flops() <= most_flops;
 }
 
-/// Is there memory for the bands of the path and of the comparison, and for two more during a proof?
+/// Is there memory for the bands of the path and of the reference solution, and for two more during a proof?
 bool can_be_proved(const linear_structure& s) {
   if (!s.stiffness.is_band()) return can_be_proved_by_columns(s);
   const std::int64_t width = s.stiffness.band().subdiagonals() + 1;
-  constexpr std::int64_t bytes = 40;  // of five doubles
+  constexpr std::int64_t bytes = 40;  // five doubles
   return bytes * s.dofs() * width <= memory_limit();
 }
 
@@ -72,7 +72,7 @@ bool certifier::all_certified() const {
 certificate certifier::judge(const step_state& s) {
   certificate c;
   if (!is_finite(s.displacement)) {
-    c.problem = "a displacement is not a finite number";  // it would slip through every comparison below
+    c.problem = "a displacement is not a finite number";  // comparisons with NaN are false
     return c;
   }
   const std::vector<double> load = load_at(s.step);
@@ -81,7 +81,7 @@ certificate certifier::judge(const step_state& s) {
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   if (c.certified) measure_state(s, load, c);
-  const bool beyond_face = !c.unique && c.penetration > certified_share;  // displacements have no bound here
+  const bool beyond_face = !c.unique && c.penetration > certified_share;  // then displacements have no bound
   if (!c.certified || beyond_face) compare(s, load, c);
   if (!c.certified) find_pulling_pair(s, c);
   return c;
@@ -100,7 +100,8 @@ std::vector<double> certifier::load_at(int step) const {
   return load;
 }
 
-/// The certificate of a state by proof. The proof of the last state is kept.
+/// Tries to prove a state and returns its certificate. If is_certified has just judged the state, its
+/// certificate is returned.
 certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
@@ -119,7 +120,7 @@ certificate certifier::proof_of(const step_state& s) {
   return c;
 }
 
-/// Finds the pair in contact that pulls most, if it pulls with more than a millionth of the largest contact
+/// Finds the pair in contact that pulls most, if its force is more than a millionth of the largest contact
 /// force.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
@@ -147,12 +148,12 @@ std::string certifier::status_words(std::size_t pair, const step_state& s) const
   return text + unit_of(problem_, quantity::gap);
 }
 
-/// The worst measure above the tolerance, in words.
+/// The first measure above the tolerance, in words.
 std::string certifier::worst_of(const certificate& c) const {
   struct part {
     double share;
     const char* words;
-    double whole;  // a length; 0: they are scaled, and have no unit
+    double whole;  // a length; 0: the share is of scaled numbers without a unit
   };
   const part parts[] = {{c.displacement_error, "the deflections are off", largest_length()},
                         {c.shape_error, "the displacements are off", 0.0},
@@ -188,7 +189,7 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.shape_error = c.worst_share;
 }
 
-/// Compare with the reference solution, to find the error when a proof failed.
+/// Compares the state with the reference solution, to find its error if the proof failed.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
   const reference_answer answer = reference_at(s.step);
   remember_sizes(answer.displacement);
@@ -212,8 +213,8 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  // A state that is proved, though not closely enough, is more accurate than a reference solution outside its
-  // bound.
+  // The bounds of a proved state may be too wide to certify it, but a reference solution outside these bounds
+  // is less accurate than the state.
   const bool reference_is_off = answer.how != outcome::found ||
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
@@ -235,7 +236,7 @@ double certifier::largest_length() const {
   return std::max(largest_deflection_, largest_displacement_ / largest_scale_);
 }
 
-/// From the state alone: equilibrium, penetration, tension.
+/// Measures equilibrium, penetration and tension from the state alone.
 void certifier::measure_state(const step_state& s, std::span<const double> load, certificate& c) const {
   const auto row = [this](std::size_t dof) { return structure_.row_of(static_cast<int>(dof)); };
   const std::vector<double> v = from_faces(s.step, s.displacement);
@@ -246,7 +247,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
     left[row(dof)] = structure_.in_row(dof, load[dof]);
   }
   structure_.stiffness.subtract_product(std::span<const double>(u), left);
-  std::vector<double> stiffness(load.size());  // on the diagonal, springs included
+  std::vector<double> stiffness(load.size());  // the diagonal of K with springs
   for (std::size_t dof = 0; dof < load.size(); ++dof) stiffness[dof] = scale_[dof] * scale_[dof];
   double deepest = 0.0;
   double farthest = 0.0;
@@ -259,7 +260,7 @@ void certifier::measure_state(const step_state& s, std::span<const double> load,
       deepest = std::max(deepest, pressing);
     } else {
       farthest = std::max(farthest, -pressing);
-      if (structure_.fixed[dof] != 0) continue;  // the support takes its force
+      if (structure_.fixed[dof] != 0) continue;  // the support carries the force
       const long double spring =
           static_cast<long double>(p.stiffness) * (static_cast<long double>(seen) - p.face);
       left[row(dof)] -= spring;
@@ -302,7 +303,7 @@ reference_answer certifier::reference_at(int step) {
 
 namespace {
 
-/// As observers get it.
+/// The state as observers get it.
 step_state told(const full_load_state& s, int step, double rcond) {
   return {.step = step,
           .fraction = 1.0,
@@ -327,7 +328,7 @@ path_status status_without(outcome how, const found_end& end) {
 
 }  // namespace
 
-/// Refines a state, and tells whether it is then proved.
+/// Refines a state and returns true if it is then certified.
 bool certifier::is_certified(int step, full_load_state& s) {
   last_.reset();
   if (!prover_ || !is_finite(s.displacement)) return false;
@@ -338,8 +339,7 @@ bool certifier::is_certified(int step, full_load_state& s) {
   return c.certified;
 }
 
-/// A state of the path that is not proved is kept where no other is proved either. What takes too much memory
-/// to be proved is not looked for elsewhere either.
+/// Returns the path's own state if no other state is certified either, or if its proof takes too much memory.
 found_end certifier::end_of(int step, const full_load_state* reached) {
   std::optional<full_load_state> refined;
   if (reached != nullptr) {
@@ -347,7 +347,7 @@ found_end certifier::end_of(int step, const full_load_state* reached) {
     if (is_certified(step, *refined) || !prover_) return {std::move(refined), true};
   }
   const auto kept = [&] {
-    (void)is_certified(step, *refined);  // restores its remainders below double precision
+    (void)is_certified(step, *refined);  // restores the digits below double precision
     return found_end{std::move(refined), true};
   };
   if (found_end exactly = exactly_ ? exactly_->end_of(step) : found_end(); exactly.exists) {
@@ -368,7 +368,7 @@ end_finder certifier::ends() {
 
 path_end certifier::find_final_states(std::span<observer* const> observers) {
   path_end end;
-  bool stands = true;  // the step before was solved
+  bool stands = true;  // the previous step was solved
   for (int step = 1; step <= std::ssize(problem_.steps); ++step) {
     if (!stands && !problem_.steps[step - 1].from_zero) continue;
     const reference_answer answer = reference_at(step);

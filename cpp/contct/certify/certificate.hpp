@@ -1,11 +1,11 @@
-// Is the final state of a step right? Proved by bounds on the errors of its numbers, from its own residual
-// (reference/certificate.md). Where a path's end is not proved, or the path was lost, another one is found:
-// the exact path's where the problem is small enough for it, otherwise the reference solution, which also
-// tells what is wrong with a state that nothing proves.
+// Certifies the final state of each step: proves bounds on the errors of its numbers from its residual
+// (reference/certificate.md). If the end of a path is not proved, or the path failed, another state is tried:
+// the end of the exact path if the problem is small enough, otherwise the reference solution. If no state is
+// proved, a comparison with the reference solution finds the error.
 //
-// The reference solution shares no code with kernels, engines or the loop. It does share the assembled
-// stiffness, its Cholesky factor (matrix/cholesky) and the count of rigid-body motions
-// (model/rigid_modes) with them.
+// The reference solution shares no code with kernels, engines or the loop over increments. All of them use
+// the same assembled stiffness, Cholesky factor (matrix/cholesky) and count of rigid-body motions
+// (model/rigid_modes).
 #pragma once
 
 #include <memory>
@@ -22,60 +22,64 @@
 
 namespace contct {
 
-/// The certificate of a step's final state. Lengths are relative to the largest deflection that the path has
-/// seen, so that a state of no load has a measure too; and where slopes count for more, relative to what
-/// these come to as deflections, so that a structure whose deflections are rounding is not measured by
-/// rounding.
+/// The certificate of a step's final state. Lengths are relative to the largest deflection on the path so
+/// far, or to the largest slope converted to a deflection by sqrt(K_ii), whichever is larger: deflections
+/// alone may be only rounding.
 struct certificate {
-  bool certified = false;  ///< proved within certified_share in every respect
-  // Proved errors of a certified state; for others, differences from the reference solution:
-  double displacement_error = 0.0;  ///< of any deflection
-  double shape_error = 0.0;  ///< of any number, against the size of its kind; or of any dof, scaled by the
-                             ///< root of its stiffness, against the largest
-  double equilibrium = 0.0;  ///< residual load of K D and the pairs' forces, scaled likewise
-  double penetration = 0.0;  ///< of separated pairs
-  double tension = 0.0;      ///< how far the springs of pairs in contact are stretched
-  double rcond = 0.0;        ///< of the equilibrated stiffness
-  /// False: the state is the reference solution itself, so that a comparison shows nothing. Then only
-  /// equilibrium, penetration and tension are checked.
+  bool certified = false;  ///< every error is proved to be at most certified_share
+  // displacement_error and shape_error are proved errors if the state is certified, otherwise differences
+  // from the reference solution.
+  double displacement_error = 0.0;  ///< largest error of a deflection
+  double shape_error = 0.0;  ///< certified: largest error of any number, relative to the size of its kind;
+                             ///< otherwise of a displacement times sqrt(K_ii), relative to the largest such
+                             ///< product
+  double equilibrium = 0.0;  ///< largest residual of a row of the equilibrium, divided by sqrt(K_ii)
+  double penetration = 0.0;  ///< largest depth of a separated pair beyond its face
+  double tension = 0.0;      ///< largest distance of a pair in contact from its face, if its spring pulls
+  double rcond = 0.0;        ///< reciprocal condition number of the equilibrated stiffness
+  /// False if the state is the reference solution itself: a comparison of the two would show no error.
   bool independent = true;
-  bool unique = true;        ///< false: other displacements are as good, so these have no bound
-  bool proved = false;       ///< there are bounds: the three that follow
-  by_quantity error;         ///< on the errors of all numbers of a kind, absolute
-  by_quantity allowed;       ///< what these may reach
-  double worst_share = 0.0;  ///< the worst of them, as a share of the size of its kind
-  std::shared_ptr<const step_proof> proof;  ///< what proves the bounds, if that is kept
-  std::string problem;                      ///< the error, in words; empty when certified
-  int pulling = -1;   ///< of a state that is not certified: the pair in contact that pulls most, from 0
-  double pull = 0.0;  ///< its tensile force
+  bool unique = true;        ///< false: other displacements balance the load too, so displacements have no
+                             ///< bound
+  bool proved = false;       ///< the bounds are proved: `error`, `allowed` and `worst_share` are set
+  by_quantity error;         ///< bounds on the errors of each kind of number, absolute
+  by_quantity allowed;       ///< the errors that a certified state may have, absolute
+  double worst_share = 0.0;  ///< the worst error as a share of the size of its kind
+  std::shared_ptr<const step_proof> proof;  ///< the data that prove the bounds; null unless proofs are kept
+  std::string problem;                      ///< what is wrong, in words; empty if certified
+  int pulling = -1;   ///< not certified: the pair in contact that pulls most, from 0; -1: none
+  double pull = 0.0;  ///< the tensile force of that pair
 };
 
-/// Whole decimal digits that every number of a state has, as proved: 0 where nothing is. At most 15.
+/// The number of decimal digits to which every number of a state is proved right: from 0, nothing proved, to
+/// 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
-/// Observes a path and certifies the end of every step that was solved.
+/// Observes a path and certifies the end of every step that is solved.
 class certifier final : public observer {
  public:
-  /// `p` and `s`, its structure, must outlive this object.
+  /// `p` and its structure `s` must outlive this object.
   certifier(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly = nullptr);
 
   void step_ended(const step_state& s) override;
 
-  /// Proves or replaces the final state of each step of a path. This object must outlive the result.
+  /// Returns a function that proves or replaces the final state of a step. This object must outlive it.
   [[nodiscard]] end_finder ends();
 
-  /// Only the ends: find the equilibrium under the total load of every step and tell it to the observers as
-  /// that step's end. An elastic structure on one-sided springs without friction has no memory: each is where
-  /// the path would arrive. A handful of factorisations a step; no increments, no events.
+  /// Finds the equilibrium under the total load of every step without following the path, and reports it to
+  /// the observers as the end of that step. A path would arrive at the same states, because an elastic
+  /// structure on one-sided springs without friction has no memory. Takes a few factorisations a step and has
+  /// no increments or events.
   ///
-  /// Ends as `mechanism` at the first step whose load certainly nothing carries, as `path_ended` where that
-  /// is not decided, and as `not_factored` where no answer is found; that step is not told.
+  /// A step without a state is not reported to the observers. The first of these steps decides the status:
+  /// `mechanism` if its load certainly has no equilibrium, `path_ended` if that is not decided,
+  /// `not_factored` if no solution is found.
   path_end find_final_states(std::span<observer* const> observers);
 
-  /// Keep what proves the bounds of each step that follows.
+  /// Keeps the proofs of the bounds in later certificates.
   void keep_proofs();
 
-  /// One for each step ended so far; none for a step that did not reach its load.
+  /// The certificate of each step that ended; empty for a step that did not reach its full load.
   [[nodiscard]] const std::vector<std::optional<certificate>>& steps() const { return steps_; }
   [[nodiscard]] bool all_certified() const;
 
@@ -87,7 +91,7 @@ class certifier final : public observer {
   void take(const error_bounds& b, const step_state& s, certificate& c);
   [[nodiscard]] std::string status_words(std::size_t pair, const step_state& s) const;
   [[nodiscard]] std::vector<double> load_at(int step) const;
-  /// Displacements at the end of a step, counted from the faces that it moves.
+  /// Displacements [dofs] less the distances by which the faces are moved at the end of a step.
   [[nodiscard]] std::vector<double> from_faces(int step, std::span<const double> displacement) const;
   [[nodiscard]] reference_answer reference_at(int step);
   void compare(const step_state& s, std::span<const double> load, certificate& c);
@@ -99,7 +103,7 @@ class certifier final : public observer {
   [[nodiscard]] double largest_length() const;
   [[nodiscard]] bool deflects(std::size_t dof) const { return structure_.deflects(static_cast<int>(dof)); }
 
-  /// The proof of a state before the path reports it.
+  /// The certificate of a state that is not yet reported.
   struct proved_state {
     int step;
     std::vector<double> displacement;
@@ -111,14 +115,14 @@ class certifier final : public observer {
   const linear_structure& structure_;
   load_history total_load_;
   std::unique_ptr<exact_means> exactly_;       // may be null
-  std::optional<reference_solver> reference_;  // made when it is first asked
-  std::unique_ptr<error_prover> prover_;       // null where a proof takes too much memory
+  std::optional<reference_solver> reference_;  // made at the first use
+  std::unique_ptr<error_prover> prover_;       // null if a proof takes too much memory or time
   allowed_errors allowed_;
   std::optional<proved_state> last_;
-  std::vector<double> scale_;          // roots of the stiffness at each dof [dofs]
-  double largest_scale_ = 0.0;         // of a deflection that is not fixed
-  double largest_deflection_ = 0.0;    // of path and reference solution, so far
-  double largest_displacement_ = 0.0;  // scaled, any dof
+  std::vector<double> scale_;   // sqrt(K_ii) [dofs]
+  double largest_scale_ = 0.0;  // the largest scale_ of a free deflection
+  double largest_deflection_ = 0.0;
+  double largest_displacement_ = 0.0;  // the largest displacement so far, times its scale_
   std::vector<std::optional<certificate>> steps_;
 };
 

@@ -10,7 +10,7 @@
 namespace contct {
 namespace {
 
-/// Displacements so small that products of them underflow become 0.
+/// Sets displacements to 0 if their products underflow.
 void flush_tiny(long_vector& u) {
   constexpr double none = 1e-140;
   for (double_double& x : u)
@@ -25,8 +25,8 @@ quantity kind_of(const support& s) {
   return s.dof == 0 ? quantity::reaction : quantity::moment;
 }
 
-/// Compare a reported number with that of the state, whose error is at most `slack`, and at most `moved` more
-/// in the equilibrium.
+/// Compares the reported number `told` with `x` from the state. The error of x is at most `slack`; the number
+/// in the equilibrium differs by at most `moved` more.
 void take(error_bounds& b, quantity q, double told, const double_double& x, double slack, double moved) {
   const double off = std::abs((double_double(told) - x).hi);
   b.error.take(q, (off + slack + moved) * (1 + summation_slack));
@@ -98,8 +98,7 @@ long_vector error_prover::long_displacement(int step, std::span<const double> di
   return u;
 }
 
-/// The residual if the pairs of `closed` pressed or pulled by their springs, and no others: that is linear in
-/// u.
+/// The residual if exactly the pairs of `closed` had forces, of either sign. That residual is linear in u.
 long_vector error_prover::residual_of_set(const long_residual& r, std::span<const double_double> u,
                                           const std::vector<int>& closed) const {
   long_vector force = r.force;
@@ -114,7 +113,7 @@ long_vector error_prover::residual_of_set(const long_residual& r, std::span<cons
   return force;
 }
 
-/// K_A^-1 r, and the square of r's norm.
+/// Sets `correction` to K_A^-1 r, with r = `force`; returns r' K_A^-1 r.
 double error_prover::correction_for(const long_vector& force, std::vector<double>& correction) {
   double square = 0.0;
   for (std::size_t dof = 0; dof < force.size(); ++dof) correction[dof] = force[dof].hi;
@@ -123,19 +122,19 @@ double error_prover::correction_for(const long_vector& force, std::vector<double
   return square;
 }
 
-/// u += K_A^-1 r until r is negligible relative to the loads, or no longer decreases; then the pairs beyond
-/// their faces become the new A, until A no longer changes. The depth of a stiff pair may be below the
-/// rounding of a correction, so A is kept until its own equations are solved. False if K_A is not certainly
-/// definite. Keeps the residual.
+/// Repeats u += K_A^-1 r until r is negligible relative to the loads, or no longer decreases. Then the pairs
+/// beyond their faces become the new A, and all is repeated until A no longer changes. A stays the same until
+/// its own equations are solved, because the depth of a stiff pair may be below the rounding of a correction
+/// of u. False if K_A is not certainly definite. The residual is stored in state_.
 bool error_prover::correct(const long_loads& l) {
   constexpr int most = 40;
-  constexpr double none = 0x1p-150;  // of the loads' work: displacements are right to 2^-75
+  constexpr double none = 0x1p-150;  // relative to the loads' work: displacements are right to 2^-75
   long_vector u = std::move(state_.u);
   flush_tiny(u);
   std::vector<int> closed = contacts_.pressed(u);
   long_vector best;
   double least = std::numeric_limits<double>::infinity();
-  double before = least;  // with the same A
+  double before = least;  // `square` of the previous correction with the same A
   std::vector<double> correction(u.size());
   for (int i = 0; i < most && contacts_.proves(contacts_.holding(u, closed)); ++i) {
     const long_residual r = residual_of(u, l);
@@ -143,7 +142,7 @@ bool error_prover::correct(const long_loads& l) {
     double square = correction_for(r.force, correction);
     double work = 0.0;
     for (std::size_t dof = 0; dof < u.size(); ++dof) work += l.force[dof].hi * u[dof].hi;
-    // Another A measures by another norm.
+    // Norms of different A cannot be compared.
     if (best.empty() || (now == closed && (square < least || square == 0.0))) {
       best = u;
       state_.left = r;
@@ -167,7 +166,7 @@ bool error_prover::correct(const long_loads& l) {
   return !state_.u.empty();
 }
 
-/// Correct the status of a pair if the sign of its force is certain in spite of rounding.
+/// Corrects the status of each pair whose force has a sign that is certain in spite of rounding.
 void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) const {
   const auto force_at = [&](std::size_t i) {
     return system_.pairs[i].stiffness.hi * system_.depth(i, state_.u).hi;
@@ -179,7 +178,7 @@ void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) con
     if (std::abs(force_at(i)) > 1e-12 * largest) isep[i] = force_at(i) > 0.0 ? in_contact : separated;
 }
 
-/// Set the status of each pair that is certainly beyond its face, or certainly away from it, in all states
+/// Corrects the status of each pair that is certainly beyond its face, or certainly separated, in all states
 /// within rho of u.
 void error_prover::settle_certain_statuses(double rho, std::span<int> isep) const {
   for (std::size_t i = 0; i < isep.size(); ++i) {
@@ -189,7 +188,7 @@ void error_prover::settle_certain_statuses(double rho, std::span<int> isep) cons
   }
 }
 
-/// Reactions and element forces that are no more than the rounding of 32 digits are 0.
+/// The numbers of a state. Reactions and element forces within the rounding of 32 digits are 0.
 end_numbers error_prover::numbers_of(std::span<const int> isep) const {
   const auto told = [](const double_double& x, double noise) { return std::abs(x.hi) > noise ? x.hi : 0.0; };
   end_numbers n;
@@ -226,17 +225,17 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   return numbers_of(isep);
 }
 
-/// Is K, without any pair, proved to be positive semidefinite? Only then E is convex. May leave another
-/// factor.
+/// Is K without pairs proved to be positive semidefinite, so that the energy is convex? May replace the
+/// factor of `contacts_`.
 bool error_prover::is_semidefinite() {
-  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // by its elements' formulas
+  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // element formulas ensure it
   if (!semidefinite_)
     semidefinite_ = contacts_.proves({}) || (exactly_ != nullptr && exactly_->is_semidefinite());
   return *semidefinite_;
 }
 
-/// The size is that of the nodal loads. Without loads it is the force that moves one settling dof alone, to
-/// which rounding is compared.
+/// Sets sizes from the nodal loads. If none acts, rounding is compared with the force that moves one settling
+/// dof alone.
 void error_prover::measure(const long_loads& l, error_bounds& b) const {
   const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
@@ -271,8 +270,8 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
   }
 }
 
-/// Each pair's status, and its gap, which is 0 for a pair in contact; the bounds on gaps only where
-/// displacements have bounds.
+/// Checks the status of each pair, and bounds its gap if displacements have bounds. A pair in contact has a
+/// gap of 0.
 void error_prover::bound_pairs(const reported_state& told, error_bounds& b) const {
   const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[told.step - 1]);
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
@@ -285,7 +284,6 @@ void error_prover::bound_pairs(const reported_state& told, error_bounds& b) cons
         is_closed ? gap.hi * (1 - summation_slack) > reach : -gap.hi * (1 - summation_slack) > reach;
     if (is_wrong && !b.wrong_status) b.wrong_status = i;
     if (!b.unique) continue;
-    // A pair that presses has no gap, whatever its depth.
     const auto off = [&](const double_double& x) {
       return std::abs((double_double(told_gap) - x).hi) * (1 + summation_slack);
     };
@@ -296,7 +294,7 @@ void error_prover::bound_pairs(const reported_state& told, error_bounds& b) cons
   }
 }
 
-/// A dof that is fixed twice gives its reaction to the first support.
+/// If a dof is fixed twice, the first support gets the whole reaction.
 std::vector<error_prover::support_force> error_prover::support_forces() const {
   std::vector<char> taken(system_.dofs(), 0);
   std::vector<support_force> all;
@@ -348,7 +346,7 @@ void error_prover::keep(const reported_state& told, error_bounds& b) const {
                                                     of_stiffness});
 }
 
-/// Find A and rho of the state, or the reason why they cannot be found.
+/// Finds A and rho of the state, or sets the reason why they cannot be proved.
 bool error_prover::find_contacts(const reported_state& told, const long_loads& l, contact_set& b) {
   bool found = true;
   if (!is_refined(told.step, told.displacement)) {
@@ -361,7 +359,7 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
   } else {
     found = contacts_.find(state_.u, state_.left, b);
   }
-  if (!state_.refined && has_exact_residual(l)) {  // only now is it known that K_A has no factor in doubles
+  if (!state_.refined && has_exact_residual(l)) {  // find() has shown that doubles do not factor K_A
     state_.left = residual_of(state_.u, l);
     found = contacts_.find(state_.u, state_.left, b);
   }
@@ -372,7 +370,7 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
         "rounded entries may be the cause: a [[support]] with a weak spring at such a dof helps";
     return false;
   }
-  (void)contacts_.proves(b.closed);  // the proof of K alone may have replaced factor and proof
+  (void)contacts_.proves(b.closed);  // is_semidefinite() may have replaced the factor and its proof
   return true;
 }
 
@@ -400,7 +398,7 @@ error_bounds error_prover::bound(const reported_state& told) {
     take(b, kind_of(v), told.numbers.element_values[i], v.value, v.noise(), v.energy * b.rho);
   }
   widen_by_extremes(problem_, told, b);
-  if (b.unique || b.unloaded) keep(told, b);  // the checker cannot check a balanced state
+  if (b.unique || b.unloaded) keep(told, b);  // check_proof.py cannot check a balanced state under loads
   return b;
 }
 

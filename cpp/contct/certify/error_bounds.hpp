@@ -1,4 +1,4 @@
-// Bounds on the distance of a state from the equilibrium, proved from the state alone
+// Bounds on the distance of a state from the equilibrium, proved from its printed numbers alone
 // (reference/certificate-proof.md).
 #pragma once
 
@@ -18,18 +18,17 @@ enum class quantity { w, slope, force, reaction, moment, shear, gap };
 inline constexpr std::array<const char*, 7> quantity_names = {"w",      "slope", "force", "reaction",
                                                               "moment", "shear", "gap"};
 
-/// A number for each kind; empty if the structure has no such quantity.
+/// One number for each kind; empty if the structure has no numbers of that kind.
 struct by_quantity {
   std::array<std::optional<double>, quantity_names.size()> all;
   [[nodiscard]] std::optional<double>& operator[](quantity q) { return all[static_cast<std::size_t>(q)]; }
   [[nodiscard]] const std::optional<double>& operator[](quantity q) const {
     return all[static_cast<std::size_t>(q)];
   }
-  /// The larger of the two.
+  /// Keeps the larger of `value` and the number stored for `q`; NaN counts as infinite.
   void take(quantity q, double value);
 };
 
-/// The reported numbers of a state.
 struct reported_state {
   int step;                              ///< from 1
   std::span<const double> displacement;  ///< [dofs]
@@ -37,90 +36,93 @@ struct reported_state {
   end_numbers numbers;
 };
 
-/// The numbers that a run gives for the end of a step.
+/// The numbers that a run reports for the end of a step.
 [[nodiscard]] reported_state reported_state_at(const problem& p, const step_state& s);
 
 /// The data that a check of a step's bounds needs besides the problem file (reference/proof-format.md).
 struct step_proof {
-  // As handed out:
+  // The state as reported:
   std::vector<double> displacement;  ///< [dofs]
   std::vector<int> isep;             ///< in_contact or separated [pairs]
   end_numbers numbers;
 
-  long_vector state;                            ///< u [dofs]
+  long_vector state;                            ///< u in 32 digits [dofs]
   std::vector<int> closed;                      ///< A: pairs from 0
-  long_vector z;                                ///< about K_A^-1 r [dofs]; empty without loads
-  std::optional<stiffness_proof> of_stiffness;  ///< empty without loads and supports
+  long_vector z;                                ///< approximates K_A^-1 r [dofs]; empty without loads
+  std::optional<stiffness_proof> of_stiffness;  ///< empty if no load acts and only contact holds the
+                                                ///< structure
 };
 
 struct error_bounds : contact_set {
-  /// The largest error that any number of a kind can have. Infinite: none is proved.
+  /// Bounds on the largest error of each kind of number; infinite if nothing is proved.
   by_quantity error;
-  by_quantity size;      ///< the largest number of a kind; of forces, loads and reactions count too
-  by_quantity settling;  ///< without loads: the forces that move one settling dof alone
-  /// No load acts, and no pair is beyond its face at zero displacement, which is therefore the equilibrium.
+  by_quantity size;      ///< the largest number of each kind; nodal loads count as forces and moments
+  by_quantity settling;  ///< no load acts: the force or moment that moves one settling dof alone
+  /// No load acts, and no pair is beyond its face at zero displacement: this is the equilibrium.
   bool unloaded = false;
-  /// A pair, from 0, whose status is certainly wrong; empty if there is none.
+  /// The first pair, from 0, whose status is certainly wrong.
   std::optional<std::size_t> wrong_status;
-  std::shared_ptr<const step_proof> proof;  ///< if it is kept
+  std::shared_ptr<const step_proof> proof;  ///< null unless proofs are kept
 };
-/// Decisions by rational numbers where doubles are too short; empty for a problem that is too large.
+/// Gives answers by rational numbers if doubles are not accurate enough. Answers are empty or false for a
+/// problem that is too large.
 class exact_means {
  public:
   virtual ~exact_means() = default;
-  /// The end of a step of the exact path; steps are counted from 1.
+  /// The state at the end of a step, from 1, of the exact path.
   [[nodiscard]] virtual found_end end_of(int step) = 0;
-  /// K u less the loads at the end of a step and what pairs beyond their faces press with, at every dof, each
-  /// number rounded once. At fixed dofs u is the prescribed displacement.
+  /// K u - f + sum of n k max(0, d) at every dof [dofs] at the end of a step, each number rounded once: f is
+  /// the load, d the depth of a pair beyond its face. At fixed dofs u is the prescribed displacement.
   [[nodiscard]] virtual std::optional<long_vector> residual_of(int step,
                                                                std::span<const double_double> u) = 0;
   /// Is K certainly positive semidefinite on the dofs that are not fixed?
   [[nodiscard]] virtual bool is_semidefinite() = 0;
 };
 
-/// Computes bounds on the errors of states of a problem.
+/// Bounds the errors of a problem's states.
 class error_prover {
  public:
-  /// All must outlive this object. `exactly`, which may be null, gives residuals if only 32 digits factor
-  /// K_A, because residuals in 32 digits are too coarse then. It also decides whether a matrix that only
-  /// pairs hold is semidefinite.
+  /// All arguments must outlive this object. `exactly` may be null. It gives residuals if K_A can be factored
+  /// only in 32 digits, because residuals in 32 digits are too coarse then. It also decides whether a matrix
+  /// that only pairs hold is semidefinite.
   error_prover(const problem& p, const linear_structure& s, exact_means* exactly = nullptr);
 
   [[nodiscard]] error_bounds bound(const reported_state& told);
-  /// The same with exact residuals, which takes longer; nothing if these are not available.
+  /// The bounds from exact residuals, which take longer; empty if there is no `exactly`.
   [[nodiscard]] std::optional<error_bounds> bound_closely(const reported_state& told);
 
-  /// Corrections with this residual, as long as each makes it smaller. Nothing if the structure is not
-  /// certainly held. The remainders below double precision are kept for `bound`.
+  /// Corrects a state by its residual as long as the residual becomes smaller, and returns its numbers. Empty
+  /// if the structure is not certainly held. Digits below double precision are kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
   [[nodiscard]] double extent() const { return system_.extent; }
 
-  /// Keep what proves the bounds.
+  /// Keeps the proofs of later bounds.
   void keep_proof();
 
  private:
-  /// A state and its proof.
+  /// The state that was refined or bounded last.
   struct known_state {
     int step = 0;  // from 1
     bool refined = false;
     long_vector u;
     long_residual left;
-    std::vector<element_value> values;    // the results in its elements
-    std::optional<contact_set> contacts;  // of a refined state that is certainly held
+    std::vector<element_value> values;
+    std::optional<contact_set> contacts;  // set only for a refined state that is certainly held
   };
-  /// The force of a support, how far off it may be, and by how much of rho.
+  /// The force of a support. Its error is at most slack + per_rho * rho.
   struct support_force {
     double_double force;
     double slack = 0.0, per_rho = 0.0;
   };
 
-  /// At the end of a step, from 1; kept until another step is asked for.
+  /// The loads at the end of a step, from 1; stored until another step is asked for.
   [[nodiscard]] const long_loads& loads_of(int step);
   [[nodiscard]] bool has_exact_residual(const long_loads& l);
   [[nodiscard]] long_residual residual_of(std::span<const double_double> u, const long_loads& l);
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
-  /// `displacement`, with settlements as they are prescribed; the state refined last has its low parts, too.
+  /// `displacement` with the prescribed settlements at fixed dofs. If this state was refined last, with its
+  /// digits below double precision.
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const long_loads& l) const;
 
@@ -143,19 +145,19 @@ class error_prover {
   void keep(const reported_state& told, error_bounds& b) const;
 
   const problem& problem_;
-  long_system system_;  // its faces as at the end of the step of `loads_`
+  long_system system_;  // its faces are those at the end of the step of `loads_`
   certain_contacts contacts_;
   exact_means* exactly_;
   std::optional<bool> semidefinite_;
-  bool closely_ = false;  // residuals are exact though doubles factor K_A
+  bool closely_ = false;  // residuals are exact even if doubles factor K_A
   long_loads loads_;
-  known_state state_;  // refined or bounded last
+  known_state state_;
   bool keeps_proof_ = false;
 };
 
-/// Widen the errors, which bound the numbers at nodes and ends of elements, until they bound the extremes of
-/// w, moment and shear too that ranges_of finds along a beam, where w in the middle of elements has a size
-/// too. Those of plates and matrices are at nodes and corners: nothing changes.
+/// Widens the bounds on w, moment and shear of a beam, which cover only the ends of elements, so that they
+/// also cover the extremes that ranges_of finds in between. The size of w then includes the middle of
+/// elements. Plates and matrices have their extremes at nodes and corners, so nothing changes.
 void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b);
 
 }  // namespace contct

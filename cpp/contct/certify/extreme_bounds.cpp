@@ -1,4 +1,4 @@
-// Errors inside a beam's elements that can exceed those at their ends.
+// Bounds the errors inside the elements of a beam, which can exceed those at their ends.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,22 +16,23 @@ double sum_of_sizes(const std::vector<double>& p) {
   return sum;
 }
 
-/// The largest rounding error of a line's polynomial p: its coefficients above the cubic ones have at most 20
-/// roundings each, two rounds of Horner's rule and the conversion to Bernstein's form 6 a degree, and each of
-/// 26 bisections one a degree. Of a polynomial without a cubic part the largest value is at most that of its
-/// coefficients, and the parts of Hermite's functions that fit it to the ends at most a quarter a degree
-/// more.
+/// A bound on the rounding error of a line's polynomial p. Its coefficients above the cubic ones have at most
+/// 20 roundings each; two evaluations by Horner's rule and the conversion to Bernstein's form have 6 for each
+/// degree, and each of 26 bisections one for each degree. A polynomial without a cubic part is at most its
+/// largest coefficient; fitting it to the ends by Hermite's functions adds at most a quarter of that for each
+/// degree.
 double rounding_in(const std::vector<double>& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// The largest amount by which a polynomial in Bernstein's form exceeds `top`; amounts below `close` do not
-/// matter. `reached`: the amount that is certain, since its first and last coefficients are values.
+/// An upper bound on the amount by which a polynomial in Bernstein's form exceeds `top`; amounts below
+/// `close` do not matter. `reached`: the amount that is certainly exceeded, since the first and last
+/// coefficients are values of the polynomial.
 double above(std::vector<double> b, double top, double close, int bisections, double& reached) {
   const double beyond = std::ranges::max(b) - top;
   reached = std::max({reached, b.front() - top, b.back() - top});
   if (beyond <= reached + close || bisections == 0) return std::max(beyond, 0.0);
-  std::vector<double> left;  // P. de Casteljau: `b` becomes the right half
+  std::vector<double> left;  // de Casteljau: `b` becomes the right half
   for (std::size_t last = b.size(); last > 0; --last) {
     left.push_back(b.front());
     for (std::size_t i = 0; i + 1 < last; ++i) b[i] = b[i] / 2 + b[i + 1] / 2;
@@ -40,9 +41,10 @@ double above(std::vector<double> b, double top, double close, int bisections, do
                   above(std::move(b), top, close, bisections - 1, reached));
 }
 
-/// The distance of the polynomial from its printed extremes, and from the reported value at its right end.
+/// A bound on how far the polynomial exceeds its printed extremes, plus its distance from the reported value
+/// at its right end.
 double off_extremes(const std::vector<double>& p, const value_range& printed, double right_end) {
-  constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
+  constexpr int bisections = 26;  // a smooth maximum is found to 4^-26 of the polynomial's change
   const double close = rounding_in(p);
   std::vector<double> b = bernstein_of(p);
   double reached = 0.0;
@@ -63,11 +65,11 @@ double middle_of(const std::vector<element_line>& pieces, double h) {
   return polynomial_at(pieces.back().w, 1.0);
 }
 
-/// The error of M is linear in t, but for rounding, and that of V constant: nowhere larger than at the ends.
-/// That of w is a cubic; of Hermite's functions those of w add up to 1 and those of slopes to at most h / 4.
-/// So it is where loads break an element into pieces, too: the loads are those of the equilibrium.
-/// Left of a hinge it is the cubic with the left slope and the right curvature, which is 0 but for rounding:
-/// its functions are likewise, and that of the curvature is at most h^2 / 27.
+/// Up to rounding, the error of M is linear in t and that of V constant, so both are largest at the ends. The
+/// error of w is a cubic: Hermite's functions of w add up to 1, those of slopes to at most h / 4.
+/// This also holds if loads break an element into pieces, because the loads are those of the equilibrium.
+/// Left of a hinge, the error of w is the cubic with the left slope and the right curvature, which is 0 up to
+/// rounding. Its functions have the same bounds, and that of the curvature is at most h^2 / 27.
 void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
   const std::vector<value_range> printed =
       ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
@@ -84,14 +86,14 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
                              ? std::abs(polynomial_at(last.moment, 1.0)) * h / 6 / b.EI[e]
                              : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
     const double of_slope = h / 4 * (error[quantity::slope].value_or(0.0) + slope);
-    // If parts of a load cancel, their sum has errors of 2^-89 of the parts.
+    // The sum of loads that cancel has an error of up to 2^-89 of their magnitudes.
     const double of_load = 0x1p-80 * last.load_size * h;
     bounds.size.take(quantity::w, std::abs(middle_of(pieces, h)));
     for (const element_line& line : pieces) {
       const auto off = [&](const std::vector<double>& p, std::size_t name, double right_end) {
         return off_extremes(p, printed[name], &line == &last ? right_end : polynomial_at(p, 1.0));
       };
-      if (line.load_size != 0.0) {  // otherwise both are largest at the ends
+      if (line.load_size != 0.0) {  // otherwise both extremes are at the ends
         inside.take(quantity::shear, of_load + off(line.shear, 2, lines.ends().at(e, 0)[1]));
         inside.take(quantity::moment, of_load * h + off(line.moment, 1, lines.ends().at(e, 1)[1]));
       }

@@ -16,14 +16,14 @@ double_double root_of(const double_double& x) {
   return renormalized(near, left.hi / (2 * near));
 }
 
-/// The sum of l_ik l_jk over the columns k < `end` that both rows have.
+/// The sum of l_ik l_jk over the columns k < `end` that rows i and j have in common.
 double_double product(const long_band& l, int i, int j, int end) {
   double_double sum;
   for (int k = std::max(l.first(i), l.first(j)); k < end; ++k) sum += l.at(i, k) * l.at(j, k);
   return sum;
 }
 
-/// The first `rows` of x become those of L'^-1 x.
+/// Replaces the first `rows` of x by those of L'^-1 x.
 void solve_upper(const long_band& l, std::span<double_double> x, int rows) {
   for (int i = rows; i-- > 0;) {
     x[i] = x[i] / l.at(i, i);
@@ -31,7 +31,7 @@ void solve_upper(const long_band& l, std::span<double_double> x, int rows) {
   }
 }
 
-/// Row sums of |A| + |L| |L'|.
+/// The row sums of |A| + |L| |L'|.
 row_sums magnitudes(const sparse_columns& a, const sparse_columns& l) {
   row_sums sums(l.order(), 0.0);
   for (int column = 0; column < l.order(); ++column) {
@@ -45,8 +45,8 @@ row_sums magnitudes(const sparse_columns& a, const sparse_columns& l) {
   return sums;
 }
 
-/// The columns with which blocks begin, and the order: those of a block have the same rows, but for their own
-/// above. Most of a factor is in such columns.
+/// The first columns of all blocks, and the order. Columns of a block have the same rows below the diagonal
+/// of its last one; most columns of a factor are in large blocks.
 std::vector<int> blocks_of(const sparse_columns& l) {
   std::vector<int> firsts;
   for (int column = 0; column < l.order(); ++column) {
@@ -86,7 +86,7 @@ void solve_with(const long_band& l, std::span<double_double> x) {
   solve_upper(l, x, l.order());
 }
 
-/// With the row l of L that failed, and those above it: -L'^-1 l, and 1.
+/// Let l be the row of L that failed: x is -L'^-1 l in the rows above it, and 1 in that row.
 std::vector<double_double> suspect_in(const long_band& failed) {
   std::vector<double_double> x(failed.order());
   int row = 0;
@@ -101,7 +101,7 @@ std::vector<double_double> suspect_in(const long_band& failed) {
 double row_sums::largest() const {
   double most = 0.0;
   for (const double sum : sums_) {
-    if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();  // NaN has no largest
+    if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();  // std::max would ignore NaN
     most = std::max(most, sum);
   }
   return most * (1 + 0x1p-30);
@@ -111,12 +111,12 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
   const int n = l.order();
   row_sums sums(n, 0.0);
   const std::vector<int> firsts = blocks_of(l);
-  std::vector<int> next(firsts.size(), 0);  // which row of each block is next, from 0
-  std::vector<std::vector<int>> with(n);    // blocks by that row
+  std::vector<int> next(firsts.size(), 0);  // the next row of each block, from 0
+  std::vector<std::vector<int>> with(n);    // [row] the blocks whose next row it is
   for (int block = 0; firsts[block] < n; ++block) with[firsts[block]].push_back(block);
-  std::vector<double> difference(n, 0.0);  // a column of A - L L'
-  std::vector<int> rows;                   // that are not 0 in it
-  std::vector<double> product;             // a block's part of it
+  std::vector<double> difference(n, 0.0);  // one column of A - L L'
+  std::vector<int> rows;                   // rows of `difference` that are not 0
+  std::vector<double> product;             // the column's part from one block
   const auto add = [&](int row, double value) {
     if (difference[row] == 0.0) rows.push_back(row);
     difference[row] += value;
@@ -131,7 +131,8 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
       const int* const own = &l.rows[l.starts[first]];
       const int height = l.starts[first + 1] - l.starts[first];
       product.assign(height - row, 0.0);
-      const int width = std::min(row + 1, firsts[block + 1] - first);  // of the columns that begin above
+      const int width = std::min(row + 1, firsts[block + 1] - first);  // the columns of the block that reach
+                                                                       // this row
       for (int k = 0; k < width; ++k) {
         const double* const values = &l.values[l.starts[first + k] + row - k];
         for (int i = 0; i < height - row; ++i) product[i] += values[0] * values[i];
@@ -145,9 +146,10 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
     rows.clear();
   }
   const row_sums sizes = magnitudes(a, l);
-  for (int row = 0; row < n; ++row)  // a product goes into its block's sum, and that into the column's
+  for (int row = 0; row < n; ++row)  // each product is added to the sum of its block, and that sum to the
+                                     // column
     sums.add(row, row, (most_terms + 4) * half_ulp * sizes.of(row));
-  return sums.largest() + 0x1p-900;  // of underflow
+  return sums.largest() + 0x1p-900;  // for underflow
 }
 
 sparse_columns reordered(const sparse_columns& a, std::span<const int> places) {

@@ -1,5 +1,5 @@
-// Cholesky's factor of a narrow band in numbers of 32 digits, for matrices that doubles cannot factor; and
-// bounds on the error of factors.
+// Cholesky factors of narrow bands in numbers of 32 digits, for matrices that doubles cannot factor; and
+// bounds on the errors of factors.
 #pragma once
 
 #include <algorithm>
@@ -15,20 +15,20 @@ namespace contct {
 
 using long_band = band_of_numbers<double_double>;
 
-/// May a band be factored so, by the time that takes?
+/// Is a band small enough to be factored in 32 digits in acceptable time?
 [[nodiscard]] bool can_be_factored_long(int order, int subdiagonals);
 
-/// A becomes L, with L L' = A up to rounding. False if a pivot is not positive; that pivot stays in its
+/// Replaces A by L with L L' = A up to rounding. False if a pivot is not positive; that pivot stays in its
 /// place.
 [[nodiscard]] bool factor(long_band& a);
 
-/// x becomes (L L')^-1 x.
+/// Replaces x by (L L')^-1 x.
 void solve_with(const long_band& l, std::span<double_double> x);
 
-/// If `factor` returned false: x with x' A x <= 0 up to rounding. Otherwise 0.
+/// If `factor` returned false: a vector x with x' A x <= 0 up to rounding. Otherwise 0.
 [[nodiscard]] std::vector<double_double> suspect_in(const long_band& failed);
 
-/// A product of entries, exact where 32 digits are asked of doubles.
+/// The product of two entries; exact if Number is double_double and Entry is double.
 template <class Number, class Entry>
 [[nodiscard]] Number product_in(const Entry& x, const Entry& y) {
   if constexpr (std::is_same_v<Number, Entry>)
@@ -37,7 +37,7 @@ template <class Number, class Entry>
     return exact_product(x, y);
 }
 
-/// Sums of magnitudes in the rows of a symmetric matrix that is given by one triangle.
+/// Sums of the magnitudes in each row of a symmetric matrix, from the entries of one triangle.
 class row_sums {
  public:
   row_sums(int order, double at_first) : sums_(order, at_first) {}
@@ -46,17 +46,17 @@ class row_sums {
     if (row != column) sums_[column] += std::abs(entry);
   }
   [[nodiscard]] double of(int row) const { return sums_[row]; }
-  /// The largest, from above, so a bound on the norm; infinite if one is NaN.
+  /// An upper bound on the largest sum, and so on the norm of the matrix; infinite if a sum is NaN.
   [[nodiscard]] double largest() const;
 
  private:
   std::vector<double> sums_;
 };
 
-/// An upper bound on the largest row sum of |A - L L'|, so on its norm, where the entries of A, at most 1,
-/// are off by at most `rounding`. Sums are of A's kind of number. A column of L is one piece of memory, so
-/// one after the other is taken off. The magnitudes of a product of two rows add up to at most 1.1: their
-/// squares are the diagonal's.
+/// An upper bound on the largest row sum of |A - L L'|, and so on its norm. The entries of A are at most 1,
+/// with errors of at most `rounding`. Sums are computed in A's kind of number. The magnitudes of a product of
+/// two rows add up to at most 1.1, because their squares add up to the diagonal's. Columns of L are
+/// subtracted one by one, because each is contiguous in memory.
 template <class Number, class Entry>
 [[nodiscard]] double largest_row_of_error(band_of_numbers<Number> a, const band_of_numbers<Entry>& l,
                                           double rounding) {
@@ -77,11 +77,11 @@ template <class Number, class Entry>
   return sums.largest();
 }
 
-/// The same of a symmetric A and a lower triangle L by columns, both in the same order. Rounding of the sums
-/// is in the bound.
+/// The same bound for a symmetric A and a lower triangle L, both by columns and in the same order. It
+/// includes the rounding of the sums.
 [[nodiscard]] double largest_row_of_error(const sparse_columns& a, const sparse_columns& l);
 
-/// A with row i at `places[i]`.
+/// A with its row and column i moved to `places[i]`.
 [[nodiscard]] sparse_columns reordered(const sparse_columns& a, std::span<const int> places);
 
 }  // namespace contct

@@ -7,7 +7,8 @@
 namespace contct {
 namespace {
 
-/// Shears and moments at the ends of a beam's elements. Their energies: a beam's moment is linear.
+/// Shears and moments at the ends of a beam's elements. Their error bounds by energy assume that the error of
+/// the moment is linear.
 std::vector<element_value> values_of(const beam_elements<double_double>& beam, const load& l,
                                      std::span<const double_double> u) {
   std::vector<element_value> all;
@@ -31,12 +32,12 @@ std::vector<element_value> values_of(const beam_elements<double_double>& beam, c
   return all;
 }
 
-/// The magnitudes that w_xx and w_yy, and w_xy, at a corner are summed from.
+/// Sums of the magnitudes from which w_xx and w_yy (bends) and w_xy (twists) at a corner are computed.
 struct curvature_size {
   double bends = 0.0, twists = 0.0;
 };
 
-/// The slopes of an element count with those of the plane that is subtracted.
+/// Each slope of an element counts with the slope of the plane that is subtracted.
 std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double>& plate, int e,
                                               std::span<const double_double> u) {
   const double a = plate.halves_of(e).a.hi;
@@ -57,8 +58,8 @@ std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double
   return sizes;
 }
 
-/// Moments at the corners: w_xx and w_yy are bilinear and w_xy has five terms, so a corner's value is at most
-/// 4 and sqrt(17) times its root mean square over the element, which the energy bounds.
+/// Moments at the corners of elements. w_xx and w_yy are bilinear, and w_xy has five terms, so a value at a
+/// corner is at most 4 or sqrt(17) times its root mean square over the element, which the energy bounds.
 std::vector<element_value> values_of(const plate_elements<double_double>& plate, const load& /*l*/,
                                      std::span<const double_double> u) {
   std::vector<element_value> all;
@@ -91,7 +92,7 @@ double least_cube(std::span<const double> x) {
   return least;
 }
 
-/// The least that the formulas of its elements multiply.
+/// The smallest product in the element formulas.
 double least_product_of(const beam& b) {
   return std::min(least_cube(b.x), std::ranges::min(b.EI));
 }
@@ -128,11 +129,11 @@ void long_system::move_faces(const long_loads& l) {
 
 double long_system::doubt(std::size_t pair, std::span<const double_double> u) const {
   const double size = size_of_depth(pair, u);
-  return size == 0.0 ? 0.0 : 2 * long_rounding * size + 0x1p-1000;  // of underflow
+  return size == 0.0 ? 0.0 : 2 * long_rounding * size + 0x1p-1000;  // for underflow
 }
 
 bool long_system::is_below_range(const long_loads& l) const {
-  constexpr double least = 1e-280;  // the low halves of 32 digits are numbers too, down to 1e-308
+  constexpr double least = 1e-280;  // the low half of a 32-digit number must be at least 1e-308
   const auto too_small = [](const double_double& x) { return x.hi != 0.0 && std::abs(x.hi) < least; };
   const auto has_small_pair = [&](const long_pair& p) { return too_small(p.face) || too_small(p.stiffness); };
   const auto has_small_entry = [&](const auto& row) {
@@ -145,14 +146,14 @@ bool long_system::is_below_range(const long_loads& l) const {
 
 void long_system::put_forces(long_residual& r) const {
   for (std::size_t dof = 0; dof < dofs(); ++dof) {
-    if (r.slack[dof] > 0.0) r.slack[dof] = 2 * long_rounding * r.slack[dof] + 0x1p-1000;  // of underflow
+    if (r.slack[dof] > 0.0) r.slack[dof] = 2 * long_rounding * r.slack[dof] + 0x1p-1000;  // for underflow
     if (fixed[dof] == 0) r.force[dof] = -r.needed[dof];
   }
 }
 
 long_residual long_system::residual_of_rounded(long_vector needed) const {
   long_residual r{long_vector(dofs()), std::vector<double>(dofs()), std::move(needed)};
-  for (std::size_t dof = 0; dof < dofs(); ++dof)  // a residual that underflows does not count as 0
+  for (std::size_t dof = 0; dof < dofs(); ++dof)  // an underflowed residual does not count as 0
     r.slack[dof] = std::max(std::abs(r.needed[dof].hi), std::numeric_limits<double>::min());
   put_forces(r);
   return r;
@@ -164,7 +165,8 @@ long_residual long_system::residual(std::span<const double_double> u, const long
   add_product(u, r.needed, r.slack);
   if (std::ranges::any_of(u, [](const double_double& x) { return x.hi != 0.0; }))
     for (double& size : r.slack)
-      size = std::max(size, std::numeric_limits<double>::min());  // it may underflow
+      size = std::max(size, std::numeric_limits<double>::min());  // the product
+                                                                  // may underflow
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const long_pair& p = pairs[i];
     const double_double deep = depth(i, u);
@@ -173,7 +175,7 @@ long_residual long_system::residual(std::span<const double_double> u, const long
       r.slack[p.dof] += p.stiffness.hi * size;
       if (p.other >= 0) r.slack[p.other] += p.stiffness.hi * size;
     }
-    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // counts NaN, too
+    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // true for NaN
   }
   put_forces(r);
   return r;

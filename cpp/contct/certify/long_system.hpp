@@ -1,5 +1,5 @@
-// A problem's equations in pairs of doubles, from the decimals that its file has, and how far rounding can
-// put them off.
+// The equations of a problem in pairs of doubles, from the decimals in its file, with bounds on their
+// rounding errors.
 #pragma once
 
 #include <cmath>
@@ -15,36 +15,36 @@ namespace contct {
 
 using long_vector = std::vector<double_double>;
 
-/// Every entry of K is off by at most this share of sqrt(K_ii K_jj), every other number by this share of
-/// itself: the element formulas take fewer than a hundred operations, each good to 2^-100 (double_double),
-/// on decimals good to 2^-94.
+/// Bound on rounding: the error of every entry of K is at most this share of sqrt(K_ii K_jj), that of every
+/// other number this share of itself. Element formulas take fewer than a hundred operations, each good to
+/// 2^-100 (double_double), on decimals good to 2^-94.
 inline constexpr double long_rounding = 0x1p-90;
-/// Sums of doubles are off by less than this share of their magnitudes.
+/// Bound on the rounding of sums of doubles, as a share of the sum of magnitudes.
 inline constexpr double summation_slack = 0x1p-30;
 
 using long_pair = pair_in<double_double>;
 
 /// The loads at the end of a step.
 struct long_loads : loads_in<double_double> {
-  int step = 0;  ///< at whose end they act, from 1; 0 in between
+  int step = 0;  ///< the step at whose end the loads act, from 1; 0: not at the end of a step
 };
 
-/// The residual of a step's loads in a state.
+/// The residual of a state under the loads of a step.
 struct long_residual {
-  long_vector force;          ///< 0 at fixed dofs [dofs]
-  std::vector<double> slack;  ///< how far off that may be [dofs]
-  long_vector needed;         ///< K u less the loads and what pairs press with, at every dof [dofs]
+  long_vector force;          ///< residual; 0 at fixed dofs [dofs]
+  std::vector<double> slack;  ///< bound on the error of `force` [dofs]
+  long_vector needed;         ///< K u - f + sum of n k max(0, d) with depths d [dofs]
 };
 
-/// A value at the end of an element, in the order of element_results.
+/// A moment or shear at the end or corner of an element. Values are in the order of element_results.
 struct element_value {
   double_double value;
-  double size = 0.0;    ///< the sum of the magnitudes that make it
+  double size = 0.0;    ///< sum of the magnitudes from which the value is added up
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
-  bool moment = true;   ///< otherwise a shear
+  bool moment = true;   ///< false: a shear
 
-  /// The largest rounding error of the value: a coordinate, a length or a modulus comes in at
-  /// most ten times, each good to 2^-94.
+  /// A bound on the rounding error of the value. A coordinate, length or modulus is used at most ten times,
+  /// each good to 2^-94.
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };
 
@@ -54,45 +54,45 @@ struct long_system : equations<double_double> {
     for (const long_pair& p : pairs) face_size.push_back(std::abs(p.face.hi));
   }
 
-  std::vector<long_pair> unmoved;  ///< the pairs, with their faces where the file has them
-  std::vector<double> face_size;   ///< [pairs] of the face and its move
-  /// Puts the faces of `pairs` where these loads move them.
+  std::vector<long_pair> unmoved;  ///< the pairs with their faces as in the file
+  std::vector<double> face_size;   ///< sum of the magnitudes of face and movement [pairs]
+  /// Moves the faces of `pairs` by the movements in `l`.
   void move_faces(const long_loads& l);
 
-  std::vector<double> root;    ///< [dofs] sqrt(K_ii), rounded up
-  std::vector<char> deflects;  ///< [dofs] 1: a deflection, 0: a slope
-  double extent = 0.0;         ///< see extent_of
-  /// The least that the formulas of its elements multiply: a cube of a length, a stiffness.
+  std::vector<double> root;    ///< sqrt(K_ii), rounded up [dofs]
+  std::vector<char> deflects;  ///< 1: a deflection, 0: a slope [dofs]
+  double extent = 0.0;         ///< the largest side of the structure; 0 if it has none
+  /// The smallest product in the element formulas: the cube of a length, or a stiffness.
   double least_product = 1.0;
-  /// Loads at the end of a step, from 1.
+  /// The loads at the end of a step, from 1.
   std::function<long_loads(int step)> loads;
-  /// The results in the elements under displacements u [dofs] at the end of a step.
+  /// The moments and shears in elements under displacements u [dofs] at the end of a step, from 1.
   std::function<std::vector<element_value>(int step, std::span<const double_double> u)> element_values;
 
-  /// sum += K u; and sizes_i += the sum of sqrt(K_ii K_jj) |u_j| over the entries of row i, unless `sizes` is
-  /// empty. All [dofs].
+  /// Adds K u to `sum` and, unless `sizes` is empty, the sum of sqrt(K_ii K_jj) |u_j| over the entries of row
+  /// i to sizes_i. All [dofs].
   void add_product(std::span<const double_double> u, std::span<double_double> sum,
                    std::span<double> sizes = {}) const;
 
-  /// The depth of a pair beyond its face under `u`, and the largest rounding error of that depth.
+  /// The depth of a pair beyond its face under displacements u.
   [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const {
     return (pairs[pair].seen_in(u) - pairs[pair].face) * pairs[pair].surface;
   }
   [[nodiscard]] double doubt(std::size_t pair, std::span<const double_double> u) const;
-  /// The magnitudes that it is summed from.
+  /// The sum of the magnitudes from which the depth is computed.
   [[nodiscard]] double size_of_depth(std::size_t pair, std::span<const double_double> u) const {
     const long_pair& p = pairs[pair];
     return std::abs(u[p.dof].hi) + (p.other < 0 ? 0.0 : std::abs(u[p.other].hi)) + face_size[pair];
   }
 
-  /// The load minus K u and the forces of pairs beyond their faces, whatever their statuses.
+  /// f - K u - sum of n k max(0, d) over all pairs, whatever their statuses; d: depth beyond the face.
   [[nodiscard]] long_residual residual(std::span<const double_double> u, const long_loads& l) const;
-  /// The same, with one rounding of the forces that the elements need.
+  /// The residual for a given `needed` (see long_residual), of which each number was rounded once.
   [[nodiscard]] long_residual residual_of_rounded(long_vector needed) const;
 
-  /// Are there numbers, or products of them in the element formulas, for which doubles are too coarse near 0?
+  /// Are there numbers other than 0, or products in the element formulas, that are too small for 32 digits?
   [[nodiscard]] bool is_below_range(const long_loads& l) const;
-  /// Are there no loads, and no pairs beyond their faces at zero displacement?
+  /// True if no load acts and no pair is beyond its face at zero displacement.
   [[nodiscard]] bool is_unloaded(const long_loads& l) const;
 
  private:
@@ -102,7 +102,7 @@ struct long_system : equations<double_double> {
 /// The largest side of a structure; 0 if it has none.
 [[nodiscard]] double extent_of(const model& m);
 
-/// `p` must outlive it.
+/// `p` must outlive the result.
 [[nodiscard]] long_system long_system_of(const problem& p);
 
 }  // namespace contct

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int most_iterations = 500;
 constexpr int most_refinements = 40;
-constexpr long double good_enough = 1e-7L;  // of a refined answer, in the worst of cases
+constexpr long double good_enough = 1e-7L;  // the largest relative correction of an accepted answer
 constexpr long double finest = std::numeric_limits<long double>::epsilon();
 
-/// y = -K x.
+/// Sets y = -K x.
 void multiply_minus(const stiffness_matrix& k, const std::vector<long double>& x,
                     std::vector<long double>& y) {
   std::fill(y.begin(), y.end(), 0.0L);
@@ -49,10 +49,10 @@ class reference_solver::search {
 
   reference_answer solve(std::span<const double> load, const rigid_work& work) {
     take(load, work);
-    if (exists_ == false) return end(outcome::no_equilibrium, false);  // otherwise none is certain
+    if (exists_ == false) return end(outcome::no_equilibrium, false);
     reference_answer answer = from_here();
     if (answer.how == outcome::found) return answer;
-    // A start that is far from the answer may have spoilt it by rounding.
+    // Rounding may be too large if the start was far from the answer.
     start_undeformed();
     settle();
     answer = from_here();
@@ -60,7 +60,6 @@ class reference_solver::search {
     return answer;
   }
 
-  /// Start from the undeformed structure.
   void start_undeformed() {
     std::fill(u_.begin(), u_.end(), 0.0L);
     for (std::size_t i = 0; i < set_.size(); ++i) set_[i] = structure_.pairs[i].closed ? 1 : 0;
@@ -97,7 +96,7 @@ class reference_solver::search {
     settle();
   }
 
-  /// Prescribed displacements hold from the beginning: no search moves them.
+  /// Sets prescribed displacements, which the search does not change.
   void settle() {
     for (std::size_t dof = 0; dof < structure_.settles.size(); ++dof) {
       const int row = structure_.row_of(dof);
@@ -105,7 +104,7 @@ class reference_solver::search {
     }
   }
 
-  /// n (w - c) > 0; a pair within `tie` of its face keeps its state.
+  /// The pairs with n (w - c) > 0; a pair within `tie` of its face keeps its status.
   [[nodiscard]] pair_set pressed_at(const numbers& u, long double tie) const {
     pair_set set = set_;
     for (std::size_t i = 0; i < set.size(); ++i) {
@@ -120,8 +119,8 @@ class reference_solver::search {
     return structure_.held_by([&set](std::size_t i) { return set[i] != 0; });
   }
 
-  /// Do the supports and the pairs that press with more than the rounding of the load hold the structure?
-  /// Otherwise other places are as good: a structure lying on its faces without load, or balanced.
+  /// Do the supports and the pairs whose force exceeds the rounding of the load hold the structure? If not,
+  /// other displacements are equilibria too: the structure lies on its faces without load, or balances.
   [[nodiscard]] bool holds_firmly() const {
     constexpr long double rounding = 1e-12L;
     pair_set firm(set_.size());
@@ -133,22 +132,23 @@ class reference_solver::search {
     return structure_.is_held(held_by(firm));
   }
 
-  /// Does no separated pair stop this rigid-body motion?
+  /// True if no separated pair stops this rigid-body motion.
   [[nodiscard]] bool nothing_stops(const numbers& motion) const {
     for (std::size_t i = 0; i < pair_rows_.size(); ++i)
       if (set_[i] == 0 && structure_.pairs[i].surface * pair_rows_[i].stretch(motion) > 0.0L) return false;
     return true;
   }
 
-  /// p = a rigid-body motion.
+  /// Sets p to a rigid-body motion.
   void put(const free_motion& motion, numbers& p) const {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
     for (std::size_t i = 0; i < set_.size(); ++i)
-      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // the remainder is rounding
+      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // cancels rounding
   }
 
-  /// Springs without force at the present displacement, at as many dofs as are needed to hold the structure.
+  /// Adds springs without force at the present displacement, at as many dofs as are needed to hold the
+  /// structure.
   void add_holding_springs(rigid_rank& rank) {
     for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
       const int before = rank.rank();
@@ -186,14 +186,14 @@ class reference_solver::search {
       if (structure_.fixed[dof] != 0) r[structure_.row_of(dof)] = 0.0L;
   }
 
-  /// Solve for the point where the springs of the pressed pairs are in equilibrium. Returns the size of the
-  /// last correction, or a negative number when refinement does not converge. A point at which other pairs
-  /// are pressed, which is only a direction, is not refined to its last digit.
+  /// Solves for the point at which the springs of the pressed pairs are in equilibrium. Returns the size of
+  /// the last correction, or a negative number when refinement does not converge. A point at which other
+  /// pairs are pressed only gives a direction, so it is not refined to its last digit.
   long double refined_solve(numbers& u) {
     numbers r(u.size());
     std::vector<double> step(u.size());
     long double before = std::numeric_limits<long double>::infinity();
-    long double size = 0.0L;  // the largest that u has been, so that an answer of 0 is reached
+    long double size = 0.0L;  // the largest u so far, so that an answer of 0 is accepted
     for (std::size_t i = 0; i < u.size(); ++i) size = std::max(size, scale_[i] * std::abs(u[i]));
     for (int pass = 0; pass < most_refinements; ++pass) {
       residual(u, r);
@@ -218,14 +218,14 @@ class reference_solver::search {
     return -1.0L;
   }
 
-  /// The alpha > 0 at which E is least along u_ + alpha p: the slope of E is piecewise linear in alpha, with
-  /// a kink where a pair meets its face. Infinite if E decreases without limit.
+  /// The alpha > 0 at which E(u_ + alpha p) is least. The slope of E is piecewise linear in alpha, and kinks
+  /// where a pair meets its face. Infinite if E decreases without limit.
   [[nodiscard]] long double best_step(const numbers& p) const {
     numbers minus_kp(p.size());
     multiply_minus(stiffness_, p, minus_kp);
     return best_step(p, -dot(minus_kp, u_) - dot(load_, p), -dot(minus_kp, p));
   }
-  /// The same, from the slope at alpha = 0 and its growth without the pairs.
+  /// The same alpha. `slope`: of E at alpha = 0; `growth`: of the slope with alpha; both without the pairs.
   [[nodiscard]] long double best_step(const numbers& p, long double slope, long double growth) const {
     struct bend {
       long double at, slope, growth;
@@ -245,7 +245,7 @@ class reference_solver::search {
       const int sign = pressed ? -1 : 1;
       bends.push_back({at, sign * c.stiffness * dw * (w - c.face), sign * c.stiffness * dw * dw});
     }
-    // Pairs that meet their faces together are added up in their order, whoever's library sorts.
+    // The sort is stable, so sums do not depend on the standard library.
     std::stable_sort(bends.begin(), bends.end(), [](const bend& a, const bend& b) { return a.at < b.at; });
     for (const bend& b : bends) {
       if (slope + b.at * growth >= 0) break;
@@ -255,8 +255,8 @@ class reference_solver::search {
     return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
   }
 
-  /// E decreases without limit along p: there is no equilibrium, unless supports hold the structure or
-  /// numbers went out of range.
+  /// The outcome if E decreases without limit along p: there is no equilibrium, unless supports hold the
+  /// structure or numbers overflow.
   [[nodiscard]] outcome why_endless(const numbers& p) const {
     if (exists_ == true || structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
@@ -290,7 +290,7 @@ class reference_solver::search {
         for (std::size_t i = 0; i < p.size(); ++i) p[i] = target[i] - u_[i];
       } else {
         put(*driven, p);
-        // If an equilibrium exists, rounding has put a pair on the wrong side.
+        // If an equilibrium exists, rounding has led to wrong pairs.
         if (nothing_stops(p)) return end(exists_ == true ? outcome::not_found : outcome::none_seen, false);
       }
       const long double alpha = driven ? best_step(p, -driven->work, 0.0L) : best_step(p);
@@ -306,16 +306,16 @@ class reference_solver::search {
   const stiffness_matrix& stiffness_;
   std::vector<spring_at> pair_rows_;     // [pairs]
   numbers load_;                         // [rows]
-  std::vector<double> given_;            // the same load as passed by the caller [dofs]
-  rigid_work work_;                      // of the load on each rigid-body motion
-  std::optional<bool> exists_;           // an equilibrium; none: only rounding decides
-  std::vector<holding_spring> holding_;  // of this iteration only
-  long double largest_load_ = 0.0L;      // sum of all forces on deflections, the largest so far
+  std::vector<double> given_;            // the load as passed by the caller [dofs]
+  rigid_work work_;                      // work of the load on each rigid-body motion
+  std::optional<bool> exists_;           // has the load an equilibrium? empty: only rounding decides
+  std::vector<holding_spring> holding_;  // springs without force in this iteration
+  long double largest_load_ = 0.0L;      // the largest sum of the magnitudes of forces so far
   numbers u_;                            // the last answer [rows]
-  pair_set set_;                         // and its pressed pairs
+  pair_set set_;                         // the pairs pressed in the last answer
   stiffness_factor factor_;
-  std::optional<std::vector<spring_at>> in_factor_;  // its springs; empty if it failed
-  std::vector<double> scale_;                        // square roots of K's diagonal [rows]
+  std::optional<std::vector<spring_at>> in_factor_;  // the springs in the factor; empty if factoring failed
+  std::vector<double> scale_;                        // sqrt(K_ii) [rows]
   int factorisations_ = 0;
 };
 

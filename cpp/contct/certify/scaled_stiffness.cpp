@@ -11,7 +11,7 @@
 namespace contct {
 namespace {
 
-/// The power of two whose square brings a positive `x` between 1/8 and 1.
+/// The power of two whose square times a positive `x` is between 1/8 and 1.
 double root_scale(double x) {
   if (!(x > 0.0)) return 1.0;
   int exponent = 0;
@@ -37,7 +37,7 @@ scaled_stiffness::scaled_stiffness(const long_system& t, std::vector<int> row_of
   for (std::size_t dof = 0; dof < row_of_.size(); ++dof) dof_at_[row_of_[dof]] = static_cast<int>(dof);
 }
 
-/// Calls put(row, column, value) for every entry of the lower triangle that is not 0.
+/// Calls put(row, column, value) for every entry in the lower triangle of S K_A S - shift I.
 template <class Put>
 void scaled_stiffness::each_entry(double shift, const Put& put) const {
   for (int dof = 0; dof < static_cast<int>(system_.dofs()); ++dof) {
@@ -157,12 +157,13 @@ long_vector scaled_stiffness::times(std::span<const double_double> x, std::span<
   return y;
 }
 
-/// By inverse iteration: never too small, and near enough after a few.
+/// Estimates the least eigenvalue by inverse iteration. The estimate is never too small, and close enough
+/// after a few iterations.
 double scaled_stiffness::least_estimate() const {
   const std::size_t n = system_.dofs();
   std::vector<double> x(n);
   for (std::size_t row = 0; row < n; ++row) {
-    // In 4 bytes: libraries' sines differ in the last bit of 8.
+    // A float, because math libraries differ in the last bit of a double sine.
     const auto sine = static_cast<float>(std::sin(2.3 * static_cast<double>(row)));
     x[row] = system_.fixed[dof_at_[row]] != 0 ? 0.0 : 1.0 + 0.5 * sine;
   }
@@ -178,13 +179,13 @@ double scaled_stiffness::least_estimate() const {
   return std::min(estimate, 1.0);
 }
 
-/// The products of a narrow band are summed in 32 digits, which leaves more of the shift.
+/// For a narrow band, the error is summed in 32 digits, which makes its bound smaller.
 template <class Number>
 std::optional<double> scaled_stiffness::error_of_band(double shift) {
   constexpr int narrow = 16;
   band_of_numbers<Number> l = band<Number>(shift);
   if (!contct::factor(l)) return std::nullopt;
-  // NOLINTBEGIN(bugprone-branch-clone): in 32 digits both are one
+  // NOLINTBEGIN(bugprone-branch-clone): the calls are the same in 32 digits
   const double error = *subdiagonals_ <= narrow
                            ? largest_row_of_error(band<double_double>(shift), l, long_rounding)
                            : largest_row_of_error(band<Number>(shift), l, long_rounding);
@@ -197,7 +198,7 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   const sparse_columns a = columns(shift);
   const auto l = sparse_->likewise(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
-  std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double
+  std::size_t most = 0;  // the most entries in a row; each was at most 1 and rounded to a double
   for (const auto& row : system_.stiffness) most = std::max(most, row.size());
   const double rounding = static_cast<double>(most) * (0x1p-53 + long_rounding);
   return largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;
@@ -218,7 +219,7 @@ double scaled_stiffness::proved_below_estimate() {
                                                       : error_of_band<double>(shift);
     if (!error) continue;
     const double mu = (shift - *error) * (1 - 0x1p-50);
-    if (mu > 0.0) return mu;  // false for NaN
+    if (mu > 0.0) return mu;
     proof_.reset();
   }
   return 0.0;

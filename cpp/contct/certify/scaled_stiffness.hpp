@@ -1,5 +1,5 @@
-// K_A, the stiffness with the springs of some pairs: its factor, in doubles or in 32 digits if these are too
-// short, and a proof of its least eigenvalue (reference/certificate-proof.md).
+// K_A, the stiffness with the springs of some pairs: its factor in doubles, or in 32 digits if doubles are
+// not accurate enough, and a proof of a lower bound on its least eigenvalue (reference/certificate-proof.md).
 #pragma once
 
 #include <cmath>
@@ -17,55 +17,57 @@
 
 namespace contct {
 
-/// S K_A S - shift I is all but L L': what proves that S K_A S >= mu I.
+/// The proof that S K_A S >= mu I: a factor L of S K_A S - shift I up to rounding.
 struct stiffness_proof {
   std::vector<double> scale;  ///< S [dofs], powers of two
-  std::vector<int> row_of;    ///< the row of each dof in L [dofs], from 0
+  std::vector<int> row_of;    ///< row of each dof in L [dofs], from 0
   double shift = 0.0;
-  std::variant<band_matrix, long_band> factor;  ///< L, in 32 digits where doubles are too short for it
+  std::variant<band_matrix, long_band> factor;  ///< L, in 32 digits if doubles are not accurate enough
 };
 
-/// S K_A S, with powers of two in S such that the diagonal is between 1/8 and 1. Rows of fixed dofs are unit
+/// S K_A S, with powers of two in S so that the diagonal is between 1/8 and 1. Rows of fixed dofs are unit
 /// rows.
 class scaled_stiffness {
  public:
-  /// `row_of`: the row of each dof in a band of `subdiagonals`; without these, by sparse columns, which takes
-  /// CHOLMOD. `by_columns`: these are quicker than that band, and are taken unless a proof is kept. `t` must
-  /// outlive this object.
+  /// `row_of`: the row of each dof in a band with `subdiagonals`. Without `subdiagonals`, CHOLMOD factors
+  /// sparse columns. `by_columns`: sparse columns are faster than the band, and are used unless a proof is
+  /// kept. `t` must outlive this object.
   scaled_stiffness(const long_system& t, std::vector<int> row_of, std::optional<int> subdiagonals,
                    bool by_columns = false);
 
-  /// Take the springs of these pairs, from 0, into K_A, and factor it. False where a pivot is not positive.
+  /// Adds the springs of these pairs, from 0, to K and factors the sum, K_A. False if a pivot is not
+  /// positive.
   [[nodiscard]] bool factor(std::span<const int> pairs);
 
-  /// mu with S K_A S >= mu I; 0 where none can be proved. Takes a factorisation or more, and four solves.
+  /// Returns mu > 0 with S K_A S >= mu I, or 0 if none is proved. Takes at least one factorisation and four
+  /// solves.
   [[nodiscard]] double least_eigenvalue();
 
-  /// If 32 digits gave no factor either: displacements on which K_A may do negative work. Otherwise 0.
+  /// If factoring in 32 digits failed too: displacements on which K_A may do negative work. Otherwise 0.
   [[nodiscard]] std::vector<double> suspect() const;
 
-  /// Did the last factor take 32 digits?
+  /// Is the last factor in 32 digits?
   [[nodiscard]] bool has_32_digits() const { return long_.has_value(); }
 
-  /// K_A^-1 b, rounded to doubles, for b [dofs] that is 0 at fixed ones.
+  /// Replaces b [dofs], which is 0 at fixed dofs, by K_A^-1 b, rounded to doubles.
   void solve(std::span<double> b) const;
 
-  /// K_A x; `sizes` as long_system::add_product has them.
+  /// Returns K_A x. `sizes`: see long_system::add_product.
   [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
-  /// Keep the proof of the bound that least_eigenvalue finds, which takes one more band. No proof is kept for
-  /// sparse columns.
+  /// From now on least_eigenvalue keeps its proof, which takes the memory of one more band. No proof is kept
+  /// for sparse columns.
   void keep_proof() {
     keeps_proof_ = true;
     by_columns_ = !subdiagonals_;
   }
-  /// The proof for the last factor; empty before least_eigenvalue.
+  /// The proof for the last factor; empty before least_eigenvalue and for sparse columns.
   [[nodiscard]] const std::optional<stiffness_proof>& proof() const { return proof_; }
 
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
 
  private:
-  /// S K_A S - shift I, in rows of the band, or by columns.
+  /// S K_A S - shift I as a band or as sparse columns.
   template <class Number>
   [[nodiscard]] band_of_numbers<Number> band(double shift) const;
   [[nodiscard]] sparse_columns columns(double shift) const;
@@ -76,7 +78,7 @@ class scaled_stiffness {
   bool factor_in_32_digits();
   [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
-  /// The norm of L L' - (S K_A S - shift I); nothing if there is no factor.
+  /// A bound on the norm of L L' - (S K_A S - shift I); empty if there is no factor.
   template <class Number>
   [[nodiscard]] std::optional<double> error_of_band(double shift);
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
@@ -85,13 +87,13 @@ class scaled_stiffness {
   std::vector<int> row_of_, dof_at_;
   std::optional<int> subdiagonals_;
   bool by_columns_;
-  long_vector springs_;  // [dofs] of the pairs taken in
-  /// The off-diagonal entries of springs between two dofs, by both dofs.
+  long_vector springs_;  // diagonal entries of the springs of pairs [dofs]
+  /// The off-diagonal entries of springs between two dofs; the key has both dofs.
   std::map<std::pair<int, int>, double_double> beside_;
   std::vector<double> scale_;  // S [dofs]
   band_matrix factor_;
-  std::unique_ptr<sparse_factor> sparse_;  // in place of it
-  std::optional<long_band> long_;          // in place of both
+  std::unique_ptr<sparse_factor> sparse_;  // used instead of factor_
+  std::optional<long_band> long_;          // used instead of factor_ and sparse_
   bool keeps_proof_ = false;
   std::optional<stiffness_proof> proof_;
 };
