@@ -32,8 +32,8 @@ class certain_contacts {
   /// Sets A and rho in `b` for a state with a residual. A begins with all pairs beyond their faces; pairs
   /// that are not certainly beyond are removed. If nothing is proved, returns false and sets `b.not_proved`.
   bool find(std::span<const double_double> u, const long_residual& r, contact_set& b);
-  /// Proves a state that balances: the pairs of A leave rigid-body motions free, but the load does no work on
-  /// them. Springs without force hold the structure during the proof.
+  /// Proves a state that balances: the pairs of A do not stop some rigid-body motions, but the load does no
+  /// work on them. Springs without force hold the structure during the proof.
   bool find_balanced(int step, std::span<const double_double> u, const long_residual& r, contact_set& b);
 
   /// Factors K_A and returns true if it is certainly positive definite.

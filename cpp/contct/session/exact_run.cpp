@@ -22,7 +22,7 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
                     file, dofs(p.geometry), most_exact_dofs));
 }
 
-/// What `find` returns; what is wrong with its numbers is thrown with this name before it.
+/// Returns what `find` returns. If `find` throws, its message gets `name` at its start.
 template <class Find>
 auto naming(const std::string& name, const Find& find) {
   try {
@@ -34,8 +34,8 @@ auto naming(const std::string& name, const Find& find) {
   }
 }
 
-/// A matrix may be that of no structure, which the path's equations do not show. Those of beams
-/// and plates are sums of elements, each of which is semidefinite.
+/// Refuses a matrix that is not positive semidefinite, which the equations of the path would not show.
+/// Matrices of beams and plates are sums of semidefinite element matrices.
 void refuse_indefinite(const assembled& a, const problem& of, const exact_problem& p) {
   for (std::size_t dof = 0; dof < p.dofs(); ++dof)
     if (p.fixed[dof] == 0 && p.stiffness[dof].at(static_cast<int>(dof)) == 0)
@@ -57,8 +57,8 @@ void refuse_indefinite(const assembled& a, const problem& of, const exact_proble
       a.label_of(static_cast<int>(largest - motion.begin()))));
 }
 
-/// A path of the 1989 rule that nothing holds ends in a mechanism only where the load of its step, or of one
-/// before it, has no equilibrium.
+/// Changes the status `mechanism` of a path of the 1989 rule to `path_ended` where the corrected path shows
+/// an equilibrium.
 void tell_mechanisms(exact_path& path, const exact_problem& p) {
   if (std::ranges::count(path.steps, path_status::mechanism, &exact_step_end::status) == 0) return;
   const exact_path corrected = follow_corrected_path(p);
@@ -72,7 +72,6 @@ void tell_mechanisms(exact_path& path, const exact_problem& p) {
   }
 }
 
-/// The problem in rational numbers.
 exact_problem exactly_read(const problem& p, const std::string& file) {
   refuse_too_many_dofs(p, file);
   exact_problem e = naming(file, [&] { return exact_problem_of(p); });
@@ -80,7 +79,6 @@ exact_problem exactly_read(const problem& p, const std::string& file) {
   return e;
 }
 
-/// Its path by `rule`.
 exact_path follow_exactly(const exact_problem& p, const std::string& rule, const std::string& file,
                           const exact_progress& tell) {
   return naming(file, [&] {
@@ -98,11 +96,11 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
   });
 }
 
-/// The path that `contct run` takes with this kernel, and the numbers that it hands out, beside the exact
-/// ones.
+/// Follows the path with kernel `name` as `contct run` does, and compares its numbers with the exact ones.
 kernel_digits digits_of_kernel(const std::string& name, const problem& p, const linear_structure& s,
                                const exact_path& exactly, observer* shown) {
-  constexpr double rounding[] = {1e-9, 1e-4};  // of an event's share, in 8 and in 4 bytes
+  constexpr double rounding[] = {1e-9, 1e-4};  // rounding of an event's share, for kernels of 8 and of 4
+                                               // bytes
   const std::unique_ptr<kernel> leader = make_kernel(name);
   digit_counter counter(p, exactly);
   std::vector<observer*> all = {&counter, shown};

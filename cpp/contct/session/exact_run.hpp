@@ -1,5 +1,4 @@
-// The exact path of a problem as it was read, with kernels beside it; refused where it would take more than a
-// machine has.
+// The exact path of a problem, compared with kernels. Problems that take too much time or memory are refused.
 #pragma once
 
 #include <string>
@@ -13,22 +12,22 @@
 namespace contct {
 
 struct exact_request {
-  std::string file = {};                  ///< the problem's, as it was named
-  std::string rule = "corrected";         ///< or "1989"
-  std::vector<std::string> kernels = {};  ///< compared with it, each in free run
+  std::string file = {};                  ///< the path of the problem file as given
+  std::string rule = "corrected";         ///< "corrected" or "1989"
+  std::vector<std::string> kernels = {};  ///< kernels to compare with the exact path, each in a free run
 };
 
-/// All that is written of an exact path. The problem must outlive it.
+/// The results of an exact path. The problem must outlive them.
 struct exact_run {
   const problem& what;
   exact_problem exactly;
   exact_path path;
-  std::vector<kernel_digits> kernels;  ///< as `wanted` names them
+  std::vector<kernel_digits> kernels;  ///< in the order of exact_request::kernels
 };
 
-/// `tell` hears of the exact path's increments, and `shown` observes those of the kernels; both may be null.
-/// Throws std::invalid_argument, naming the file, for a problem that is too large, for a matrix that is not
-/// positive semidefinite, and where numbers become too long.
+/// `tell` is called for the increments of the exact path, `shown` observes those of the kernels; both may be
+/// null. Throws std::invalid_argument, naming the file, if the problem is too large, a matrix is not positive
+/// semidefinite, or numbers become too long.
 [[nodiscard]] exact_run run_exactly(const problem& p, const exact_request& wanted,
                                     const exact_progress& tell = nullptr, observer* shown = nullptr);
 

@@ -1,4 +1,4 @@
-// How a run ended, as results and the program's exit status have it.
+// The exit statuses of the program and the status names in results.
 #pragma once
 
 #include <string_view>
@@ -7,17 +7,17 @@
 
 namespace contct {
 
-/// Exit statuses of the program (what a CI job reads).
+/// The exit statuses of the program, which a CI job reads.
 enum class exit_status {
-  solved = 0,           ///< solved, and the kernels are equal
-  kernels_differ = 1,   ///< kernels disagree
+  solved = 0,  ///< solved, and the kernels agree
+  kernels_differ = 1,
   bad_input = 2,        ///< a file, an option or an output path is wrong
   uncertified = 3,      ///< solved but not certified, under --strict
   mechanism = 4,        ///< no equilibrium
-  iteration_limit = 5,  ///< a path that ended early, a cycle, or a limit of increments, time or memory
+  iteration_limit = 5,  ///< a path that ended early, a cycle, or a limit on increments, time or memory
 };
 
-/// What the program ends with after such a path.
+/// The exit status of a run whose path ended in `status`.
 constexpr exit_status status_of(path_status status, bool kernels_agree = true) {
   if (!kernels_agree) return exit_status::kernels_differ;
   constexpr exit_status statuses[] = {exit_status::solved,          exit_status::mechanism,
@@ -26,7 +26,7 @@ constexpr exit_status status_of(path_status status, bool kernels_agree = true) {
   return statuses[static_cast<int>(status)];  // in the order of path_status
 }
 
-/// As results have it.
+/// The name of `status` in results.
 constexpr std::string_view status_name(path_status status, bool kernels_agree = true) {
   if (!kernels_agree) return "kernels-disagree";
   if (status == path_status::solved) return "solved";

@@ -12,7 +12,7 @@
 namespace contct {
 namespace {
 
-/// How much there is to write: a list of scattered elements counts by its length.
+/// The number of parts of a load; each element of a scattered list is one part.
 std::size_t parts_of(const load& l) {
   std::size_t parts = l.points.size() + l.settlements.size() + l.placed.size() + l.moves.size();
   for (const distributed_load& d : l.distributed)
@@ -20,14 +20,15 @@ std::size_t parts_of(const load& l) {
   return parts;
 }
 
-/// A load in words, with its one number apart.
+/// A load in words, split at its number.
 struct load_words {
   std::string before;
   double value;
   std::string after{};
 };
 
-/// Of settlements alone, or moves of faces alone: the only one, or the largest.
+/// The words for a load that consists only of settlements or only of moves of faces: the only one in full, or
+/// the largest of several.
 load_words motion_words(const model& m, const std::string& verb, const std::vector<nodal_value>& all) {
   const auto amount = [](const nodal_value& g) { return product_of<double>(g.value, g.factor); };
   const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });
@@ -37,7 +38,7 @@ load_words motion_words(const model& m, const std::string& verb, const std::vect
   return {verb + name, amount(g), " at " + place_words(m, g.node)};
 }
 
-/// The words for a single load that need not follow the mesh.
+/// The words for a single load placed by coordinates.
 load_words words_for(const model& m, const placed_load& p) {
   const double value = values_of(p)[0];
   if (p.what == load_kind::point || p.what == load_kind::moment)
@@ -69,7 +70,7 @@ load_words words_for(const model& m, const load& l, const resultant& r) {
   return {of_matrix ? "sum " : "force ", r.force};
 }
 
-/// x, or 0 where it is nothing but the rounding of numbers of this size.
+/// x, or 0 if it is only the rounding of numbers of this size.
 double without_rounding(double x, double size) {
   return std::abs(x) <= 32 * std::numeric_limits<double>::epsilon() * size ? 0.0 : x;
 }

@@ -1,4 +1,4 @@
-// What a finer mesh would change: the same problem with every element halved, and the two results compared.
+// Estimates the effect of a finer mesh: halves every element of a problem, and compares the two results.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,7 +10,8 @@
 namespace contct {
 namespace {
 
-/// The numbers of nodes and elements on either mesh: of a beam, or of a plate row by row.
+/// Converts the numbers of nodes and elements between the two meshes. Nodes of a plate are numbered row by
+/// row.
 struct halved_grid {
   explicit halved_grid(const model& m)
       : columns(std::holds_alternative<plate>(m.kind) ? std::get<plate>(m.kind).columns() : nodes(m)),
@@ -19,7 +20,8 @@ struct halved_grid {
   [[nodiscard]] int node(int coarse) const {
     return 2 * (coarse / columns) * fine_columns() + 2 * (coarse % columns);
   }
-  /// The coarse nodes around a fine one: 2, or 4 in the middle of an element; itself where it was there.
+  /// The coarse nodes around a fine node: 2 on an edge, 4 in the middle of an element, or the node itself if
+  /// it is on both meshes.
   [[nodiscard]] std::vector<int> around(int fine) const {
     const int i = fine % fine_columns();
     const int j = fine / fine_columns();
@@ -41,7 +43,7 @@ struct halved_grid {
   int columns, rows;
 };
 
-/// The middle between two numbers of a file need not be one: it is made of them, as runs are.
+/// Every interval becomes a run of two elements: as a double, its middle would be rounded.
 void halve(std::vector<double>& x, std::vector<even_run>& runs) {
   for (std::size_t i = 1; i < x.size() && (i > 1 || runs.empty()); ++i) runs.push_back({x[i], 1});
   for (even_run& run : runs) run.elements *= 2;
@@ -101,7 +103,8 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
   }
 }
 
-/// The bed `b` of `p`. New faces are means, or values of the polynomial.
+/// Adds bed `b` of `p` to the finer problem. The face of a new node is the mean of its neighbours, or a value
+/// of the polynomial.
 void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& fine) {
   std::map<int, double> faces;
   for (std::size_t i = 0; i < b.share.size(); ++i)

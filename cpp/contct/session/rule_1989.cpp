@@ -13,12 +13,12 @@
 namespace contct {
 namespace {
 
-/// Factorises at each increment, as in 1989, if that takes about 0.1 s or less for the increments of the
-/// answer.
+/// The engine: a factorisation at each increment, as in 1989, if that takes at most about 0.1 s for the
+/// increments of the answer.
 std::string engine_beside(const run_result& answer, const run_request& wanted, bool calls_are_kept,
                           const kernel_facts& leader) {
   constexpr double most_work = 1e8;       // multiplications
-  constexpr double of_each_column = 200;  // what takes as long as so many, besides the factor's own
+  constexpr double of_each_column = 200;  // the other work on a column, as a number of multiplications
   if (!wanted.engine.empty() || calls_are_kept) return engine_for(leader, wanted.engine, answer.structure);
   const linear_structure& s = answer.structure;
   if (!s.stiffness.is_band()) return std::string(quickest_engine(s));
@@ -30,7 +30,7 @@ std::string engine_beside(const run_result& answer, const run_request& wanted, b
   return is_short ? "refactor" : std::string(quickest_engine(s));
 }
 
-/// Take the first of these events that is `e`, at about this share where one is given; its share.
+/// Removes the first event of `from` that equals `e`, at share `at` if that is given. Returns its share.
 std::optional<double> take_event(std::vector<timed_event>& from, const event& e, std::optional<double> at) {
   const auto found = std::find_if(from.begin(), from.end(), [&](const timed_event& t) {
     return t.what == e && (!at || std::abs(t.fraction - *at) <= same_share);
@@ -41,8 +41,8 @@ std::optional<double> take_event(std::vector<timed_event>& from, const event& e,
   return share;
 }
 
-/// The rows of a step, without the events of both, which are taken out of `others`; what is left of these
-/// goes to the increment that it came before. `limit`: the share of the step at which the 1989 path ended.
+/// The rows of a step. Events of both paths are removed from `others`; each event left there belongs to the
+/// next increment of the answer. `limit`: the share of the step at which the 1989 path ended.
 std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_event>& others, double limit) {
   std::vector<row_of_1989> rows(answer.increments.size());
   std::vector<std::pair<row_of_1989*, event>> alone;
@@ -70,7 +70,7 @@ void compare_events(const run_result& answer, rule_1989& r) {
     if (step < r.record.steps.size()) {
       for (const increment_record& i : r.record.steps[step].increments)
         for (const event& e : i.events) others.push_back({i.step, i.fraction, e});
-      limit = r.record.steps[step].end.fraction;  // less than 1 where the path ended
+      limit = r.record.steps[step].end.fraction;  // less than 1 if the path ended early
     }
     r.rows.push_back(rows_of(mine, others, limit));
     r.same_events = r.same_events && others.empty() && limit == 1.0;
@@ -79,13 +79,12 @@ void compare_events(const run_result& answer, rule_1989& r) {
   }
 }
 
-/// Finds the number that differs most.
 struct end_comparison {
   const by_quantity& allowed;
   state_difference worst;
 
   void take(quantity q, double value, double right, const auto& place) {
-    if (!allowed[q]) return;  // nothing is proved of these numbers: others may be as good
+    if (!allowed[q]) return;  // numbers without a bound may differ in another right answer
     const double share = share_of(std::abs(value - right), allowed[q]);
     if (share > worst.share) worst = {worst.step, q, place(), value, right, share};
   }
@@ -127,7 +126,7 @@ void compare_states(const run_result& answer, rule_1989& r) {
   }
 }
 
-/// Whether the load of a step has an equilibrium, as the answer knows it.
+/// Has the load of a step an equilibrium? Empty if the answer does not show it.
 std::optional<bool> has_equilibrium(const run_result& answer, int step) {
   if (step < answer.end.step || answer.end.status == path_status::solved) return true;
   return step == answer.end.step ? answer.end.has_equilibrium : std::nullopt;

@@ -71,7 +71,7 @@ void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
   all.push_back(&result.record);
   result.end = leader_ ? follow_leader(all) : result.judged.find_final_states(all);
   if (own_path_) own_path_->end = result.end;
-  leader_.reset();  // one FORTRAN kernel at a time has unit 26
+  leader_.reset();  // only one FORTRAN kernel at a time can use unit 26
   const bool has_answer = result.end.status != path_status::not_factored;
   if (wanted.both_rules && has_answer) follow_beside(shown);
   if (const lockstep_on_path* const calls = result.compared_calls()) {
@@ -80,7 +80,7 @@ void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
   }
 }
 
-/// Unit 26 and the trace, of the kernel whose calls they have.
+/// Adds the observers that write unit 26 and the trace of kernel `of`.
 void run::add_files_of_calls(const kernel_facts& of, std::vector<observer*>& all) {
   if (to.log != nullptr) all.push_back(&log_.emplace(*to.log));
   if (to.trace != nullptr)

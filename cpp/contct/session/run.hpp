@@ -1,5 +1,5 @@
-// A whole run: a problem's kernels, engine, path, comparison, certificate and outputs, put together here and
-// nowhere else.
+// A whole run: the only place where the kernels, engine, path, comparison, certificate and outputs of a
+// problem are put together.
 #pragma once
 
 #include <memory>
@@ -15,56 +15,58 @@
 namespace contct {
 
 struct run_request {
-  std::string file = {};  ///< the problem's, as it was named
-  std::vector<std::string> kernels =
-      {};                   ///< the leader first; none: only the ends of steps, by the reference solution
-  bool both_rules = false;  ///< instead of kernels: the corrected rule leads, that of 1989 runs beside it
-  std::string engine = {};  ///< empty: what suits the leader
-  bool free_run = false;    ///< each kernel runs free, see follow_alone
+  std::string file = {};                  ///< the path of the problem file as given
+  std::vector<std::string> kernels = {};  ///< the leader first; empty: only the ends of steps are computed,
+                                          ///< by the reference solution
+  bool both_rules = false;  ///< replaces `kernels`: the corrected rule leads, and the 1989 rule is compared
+                            ///< with it
+  std::string engine = {};  ///< empty: the default of the leading kernel
+  bool free_run = false;    ///< each kernel follows its own path, see follow_alone
   bool envelope = false;
-  bool pictures = false;   ///< states are kept, also where no output here needs them
-  int max_increments = 0;  ///< in a step; 0: the default limit
-  int watched = -1;        ///< the node of the table, from 0; -1: the one that deflects most
-  std::string date = {};   ///< of the page; may be empty
+  bool pictures = false;   ///< keep all states, even if no output of this run needs them
+  int max_increments = 0;  ///< limit for each step; 0: the default limit
+  int watched = -1;        ///< the node in the table, from 0; -1: the node with the largest deflection
+  std::string date = {};   ///< date for the page; may be empty
 };
 
-/// What else than the ends of steps is written.
+/// The parts of a result that are written besides the ends of steps.
 enum class result_parts {
   ends,
-  states,  ///< also the structure, states within steps, and all in words: what draws the run needs no more
-  report   ///< also the leader's calls and unit 26
+  states,  ///< the structure, states within steps, and texts: all that a drawing of the run needs
+  report   ///< `states`, the calls of the leader and unit 26
 };
 
-/// Null: not asked for.
+/// The files to write; null if not requested.
 struct run_outputs {
   output_file* result = nullptr;
-  result_parts parts = result_parts::ends;  ///< of the result
+  result_parts parts = result_parts::ends;  ///< the parts in `result`
   output_file *log = nullptr, *trace = nullptr, *proof = nullptr, *page = nullptr;
-  output_file *table = nullptr, *pairs = nullptr;      ///< of write_csv
-  output_file *states = nullptr, *envelope = nullptr;  ///< of write_states_csv and write_envelope_csv
+  output_file *table = nullptr, *pairs = nullptr;      ///< see write_csv
+  output_file *states = nullptr, *envelope = nullptr;  ///< see write_states_csv and write_envelope_csv
 };
 
 class run {
  public:
-  /// `p` and `s`, its structure, must outlive this object. Throws std::invalid_argument for kernels that
-  /// cannot be compared.
+  /// `p` and its structure `s` must outlive this object. Throws std::invalid_argument for kernels that cannot
+  /// be compared.
   run(const problem& p, const linear_structure& s, run_request request);
   run(const run&) = delete;
   run& operator=(const run&) = delete;
   ~run() = default;
 
-  /// Follow the leader's path, or find the ends of the steps. Log and trace are written meanwhile, the others
-  /// by write_outputs (contct/write/outputs.hpp).
-  /// `shown`, who shows how far the path has come, observes behind the comparison and the certificate.
+  /// Follows the leader's path, or finds the ends of the steps if there are no kernels. Writes log and trace
+  /// meanwhile; write_outputs (contct/write/outputs.hpp) writes the other files. The observers `shown`, which
+  /// show the progress, come after the comparison and the certificate.
   void go(const run_outputs& outputs, const std::vector<observer*>& shown = {});
 
-  /// Find the ends of the steps on half the element size, and how they differ.
+  /// Finds the ends of the steps with half the element size, and sets result.refined.
   void refine();
 
-  /// How the path of another kernel compares with the leader's, for the result too.
+  /// Follows the path of another kernel, and compares it with that of the leader. The comparison is also
+  /// added to the result.
   const compared_path& follow_alone(const std::string& name);
 
-  /// Of a run that need not be certified.
+  /// The exit status without --strict.
   [[nodiscard]] exit_status exit() const;
 
   const run_request wanted;
@@ -84,24 +86,25 @@ class run {
     output_file& out;
   };
 
-  std::unique_ptr<kernel> leader_;  // while it follows the path
+  std::unique_ptr<kernel> leader_;  // null after the path is followed
   kernel_facts leader_facts_ = {};
   std::optional<log_writer> log_;
   std::optional<trace_recorder> trace_;
-  std::optional<path_record> own_path_;  // of the leader, in free run
+  std::optional<path_record> own_path_;  // path of the leader, in a free run
 };
 
-/// Throws std::invalid_argument unless these are one or two kernels of the 1989 rule, whose lines the listing
-/// has, the first one built in.
+/// Throws std::invalid_argument unless `kernels` are one or two kernels of the 1989 rule, the first one built
+/// in: only lines of the listing can be explained.
 void refuse_other_rules(const std::vector<std::string>& kernels);
 
-/// A run that is explained as it goes on, line by line of the listing.
+/// A run that is explained line by line of the listing.
 struct explained_run {
-  /// `kernels` as refuse_other_rules has them; `to` is given the increments that are wanted. Throws
-  /// std::invalid_argument where the second cannot be compared with the first, and as make_kernel does.
+  /// `kernels`: see refuse_other_rules. `to` receives the increments selected by `wanted`. Throws
+  /// std::invalid_argument if the second kernel cannot be compared with the first, and the exceptions of
+  /// make_kernel.
   explained_run(const std::vector<std::string>& kernels, increments_wanted wanted, explained_path::sink to);
 
-  /// Follow the leader's path; `engine` may be empty or "auto". `shown` watches it too, and may be null.
+  /// Follows the leader's path. `engine` may be empty or "auto"; the observer `shown` may be null.
   path_end follow(const problem& p, const linear_structure& s, const std::string& engine,
                   observer* shown = nullptr);
 

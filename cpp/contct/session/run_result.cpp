@@ -11,7 +11,7 @@ namespace contct {
 
 namespace {
 
-/// The end of a step as the path tells it.
+/// The end of a step as reported by the path.
 structure_state state_of(const step_state& s) {
   structure_state end{.step = s.step,
                       .fraction = s.fraction,
@@ -32,7 +32,7 @@ void run_recorder::keep_call(const answered_call& c) {
   ++all_calls;
   const std::string_view text = c.text.value_or("");
   all_log += text.size();
-  // Whole calls only, so that no event's text is cut.
+  // Only whole calls are kept, so that no text is cut.
   if (log.size() + text.size() <= most_log && log.size() + text.size() == all_log) log += text;
   answers_ = calls.size() < most_calls;
   if (!answers_) return;

@@ -1,4 +1,4 @@
-// The result of a run, from which all outputs are made: what is recorded while it goes on, and how it ended.
+// The result of a run: what is recorded during the run, and how it ended. All outputs are made from it.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,58 +24,59 @@ namespace contct {
 
 /// The whole structure after an increment of a path, or at the end of a step.
 struct structure_state {
-  int step = 0;                             ///< from 1; 0: nothing is loaded yet
-  int number = 0;                           ///< of the increment in the step, from 1; 0: it ended without one
+  int step = 0;                             ///< from 1; 0: before the first step
+  int number = 0;                           ///< number of the increment in the step, from 1; 0: the step
+                                            ///< ended without an increment
   double fraction = 0.0;                    ///< share of the step's load consumed
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
-  std::vector<double> pair_forces = {};     ///< more accurate than by `displacement`; may be empty [pairs]
-  std::optional<end_numbers> numbers = {};  ///< likewise
+  std::vector<double> pair_forces = {};     ///< more accurate than from `displacement`; may be empty [pairs]
+  std::optional<end_numbers> numbers = {};  ///< more accurate than from `displacement`; may be empty
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };
 
-/// One increment of the path, and the last call before it.
+/// One increment of the path, with facts about the last call before it.
 struct increment_record {
   int step, number;
   double s, fraction;
   bool snaps;
   std::vector<event> events;
-  std::optional<double> smin = {};  ///< as the kernel gave it; none before the first call
-  bool equal = true;                ///< the kernels agreed in that call
-  // If states are asked for, as `increment` has them [pairs]:
+  std::optional<double> smin = {};  ///< SMIN of the last call; empty before the first call
+  bool equal = true;                ///< false: the kernels differed in the last call
+  // Empty unless states are recorded [pairs]; see `increment`:
   std::vector<double> d = {}, pair_force = {};
   std::vector<int> isep = {};
 };
 
-/// One call of the leader, and how the followers answered it.
+/// One call of the leader, and the answers of the followers.
 struct call_record {
-  int step = 0, number = 0;  ///< of the increment it led to; 0 and 0 when it led to none
+  int step = 0, number = 0;  ///< step and increment to which the call led; 0 and 0: it led to none
   double smin = 0.0;
-  std::vector<double> ss;                  ///< of the first pairs
-  std::vector<follower_answer> followers;  ///< none when nothing was compared
+  std::vector<double> ss;                  ///< only of the first most_ss pairs
+  std::vector<follower_answer> followers;  ///< empty if no kernels are compared
 };
 
-/// A step as far as the path went.
+/// A step, up to the point that the path reached.
 struct step_record {
   structure_state end;
   double rcond;
-  bool from_fallback, from_exact_path;  ///< as step_state has them
+  bool from_fallback, from_exact_path;  ///< see step_state
   std::vector<increment_record> increments;
 };
 
-/// What is recorded of a path beside its increments and the ends of its steps.
+/// The parts of a path that are recorded in addition to increments and ends of steps.
 struct recorded_parts {
-  bool calls = false;   ///< the first ones, and the beginning of the unit-26 text; what is beyond is counted
-  bool states = false;  ///< D, ISEP and the forces at the pairs after each increment
+  bool calls = false;   ///< the first calls and the beginning of unit 26; later ones are only counted
+  bool states = false;  ///< D, ISEP and pair forces after each increment
 };
 
-/// Observes a path and records it.
 class run_recorder final : public observer {
  public:
-  static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< calls, pairs, bytes
+  static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< units: calls, pairs,
+                                                                                    ///< bytes
 
-  /// `compared` is null for a kernel alone; it must outlive this object, and observe before it.
+  /// `compared` is null for a single kernel; it must outlive this object and be called before it.
   explicit run_recorder(const lockstep* compared = nullptr, recorded_parts parts = {})
       : compared_(compared), parts_(parts) {}
 
@@ -88,21 +89,21 @@ class run_recorder final : public observer {
   std::vector<step_record> steps;
   std::vector<call_record> calls;
   std::string log;
-  std::size_t all_calls = 0, all_log = 0;  ///< kept or not
+  std::size_t all_calls = 0, all_log = 0;  ///< calls and bytes of unit 26, whether kept or not
 
  private:
   void keep_call(const answered_call& c);
 
   const lockstep* compared_;
   recorded_parts parts_;
-  bool answers_ = false;                      // the last call kept has not led to an increment yet
-  std::optional<double> smin_;                // of the last call
-  std::vector<increment_record> increments_;  // of the current step
+  bool answers_ = false;                      // the last kept call has not led to an increment yet
+  std::optional<double> smin_;                // SMIN of the last call
+  std::vector<increment_record> increments_;  // increments of the current step
 };
 
 struct rule_1989;  // contct/session/rule_1989.hpp
 
-/// How another kernel's own path compares with the leader's.
+/// The comparison of the path of another kernel with that of the leader.
 struct compared_path {
   std::string kernel;
   free_run_difference difference;
@@ -110,16 +111,16 @@ struct compared_path {
   std::string distances;  ///< in words
 };
 
-/// How much the numbers of a kind change on a mesh of half the element size: see changes_between.
+/// The largest change of one kind of number if the element size is halved: see changes_between.
 struct mesh_change {
   std::string_view kind;
   double change = 0.0;
-  double of = 0.0;  ///< the largest of its kind on the finer mesh
+  double of = 0.0;  ///< the largest number of this kind on the finer mesh
 };
 
-/// All that is known of a run when it is over: every output is made from this.
+/// All results of a run; every output is made from them.
 struct run_result {
-  /// `p` and `s`, its structure, must outlive this object.
+  /// `p` and its structure `s` must outlive this object.
   run_result(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly = {})
       : what(p), structure(s), judged(p, s, std::move(exactly)) {}
 
@@ -129,44 +130,47 @@ struct run_result {
   run_recorder record;
   early_toggles early;
   path_end end;
-  std::string file;                  ///< the problem's, as it was named
-  std::vector<std::string> kernels;  ///< the leader first; in a run of both rules those of 1989 behind it
+  std::string file;                  ///< the path of the problem file as given
+  std::vector<std::string> kernels;  ///< the leader first; for both rules, the kernels of the 1989 rule come
+                                     ///< last
   std::string engine;
-  std::optional<lockstep_on_path> compared;  ///< none: no kernel was compared call by call
-  std::shared_ptr<const rule_1989> beside;   ///< of a run of both rules; null: of others, and without answer
+  std::optional<lockstep_on_path> compared;  ///< empty: no kernel was compared call by call
+  std::shared_ptr<const rule_1989> beside;   ///< the path of the 1989 rule in a run of both rules; null in
+                                             ///< other runs, or without an answer
   std::vector<compared_path> free_runs;
-  bool equal = true;                 ///< the kernels agreed
-  std::vector<mesh_change> refined;  ///< empty: not asked for, or not solved on both meshes
-  std::string comparison;            ///< how they did, in words; empty for a kernel alone
+  bool equal = true;
+  std::vector<mesh_change> refined;  ///< empty: not requested, or not solved on both meshes
+  std::string comparison;            ///< how far the kernels agree, in words; empty for a single kernel
   std::vector<std::string> facts;    ///< version, listing, floating point
-  std::string date;                  ///< of the run, in UTC; may be empty
-  bool envelope = false;             ///< it was asked for
+  std::string date;                  ///< date of the run in UTC; may be empty
+  bool envelope = false;             ///< an envelope is requested
 
-  /// As results have it: "solved", "kernels-disagree", ..
+  /// The status as written in results: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;
-  /// What compared kernels call by call, on the path or beside it; null: nothing did.
+  /// The call-by-call comparison of kernels, on the path or on that of the 1989 rule; null if there is none.
   [[nodiscard]] const lockstep_on_path* compared_calls() const;
-  /// What recorded the path whose calls the run has.
+  /// The record of the path whose calls were kept: that of the 1989 rule in a run of both rules.
   [[nodiscard]] const run_recorder& record_of_calls() const;
 };
 
-/// "8 calls, 64 values compared, 0 mismatches", of what compares the calls of a path.
+/// Formats the counts of a comparison: "8 calls, 64 values compared, 0 mismatches".
 template <class Comparing>
 [[nodiscard]] std::string counts_of(const Comparing& c) {
   return fmt::format("{}, {} compared, {}", counted(c.calls(), "call"), counted(c.compared().values, "value"),
                      counted(c.compared().mismatches, "mismatch"));
 }
 
-/// A title for people: the problem's, or its file's name.
+/// The problem's title, or the name of its file.
 [[nodiscard]] std::string title_of(const problem& p, const std::string& file);
 
-/// Every element of a beam in two, of a plate in four; loads, supports and [[contact]] stay where they are. A
-/// new node is on a bed where all of its neighbours are, or may be because they are fixed in w. On a plate a
-/// dof that is fixed at all of its neighbours is fixed there too, and settles by their mean.
+/// Divides every element of a beam in two, and of a plate in four. Loads, supports and [[contact]] keep their
+/// places. A new node is on a bed if each of its neighbours is on the bed or fixed in w, and at least one is
+/// on the bed. On a plate a dof of a new node is fixed if it is fixed at all of its neighbours; its
+/// settlement is the mean of theirs.
 [[nodiscard]] problem refined(const problem& p);
 
-/// How much the extremes ("w", "moment", "shear", "mx", ..), the contact forces of [[contact]] ("force"), the
-/// "pressure" of beds and a beam's reactions ("reaction") differ at most in any step.
+/// The largest difference, in any step, of the extremes ("w", "moment", "shear", "mx", ..), the contact
+/// forces of [[contact]] ("force"), the "pressure" of beds and the reactions of a beam ("reaction").
 [[nodiscard]] std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine);
 
 }  // namespace contct

@@ -15,7 +15,7 @@
 namespace contct {
 namespace {
 
-/// Of numbers that differ by rounding, the first is the largest.
+/// Of numbers that differ only by rounding, the first one counts as the largest.
 constexpr double above_ties = 1 + 1e-9;
 
 }  // namespace
@@ -190,14 +190,14 @@ std::string place_words(const model& m, const placed_value& at) {
 
 namespace {
 
-/// Keep the smaller one, or the larger one, of what is known and what a state has.
+/// Widens the range `known` by the range `now`.
 template <class Value>
 void take(envelope::range<Value>& known, const envelope::range<Value>& now, auto size_of) {
   if (size_of(now.least.value) < size_of(known.least.value)) known.least = now.least;
   if (size_of(now.most.value) > size_of(known.most.value)) known.most = now.most;
 }
 
-/// What a state has, as an envelope of it alone.
+/// The envelope of a single state.
 envelope of_one_state(const problem& p, const load& l, const structure_state& s) {
   const step_results r = results_of(p, l, s);
   envelope e;
@@ -225,7 +225,7 @@ void take(envelope& known, const envelope& now) {
     take(known.reactions[i], now.reactions[i], [](double v) { return v; });
 }
 
-/// Visits the states that an envelope is over, each with the load that acts then.
+/// Calls visit(state, load) for each state of the envelope.
 template <class Visit>
 void for_each_state_of_envelope(const run_result& r, const Visit& visit) {
   const load_path loads(r.what);
@@ -235,18 +235,18 @@ void for_each_state_of_envelope(const run_result& r, const Visit& visit) {
     if (of_combinations && (!m.is_end || m.step->end.fraction < 1.0)) continue;
     structure_state s = states.at(m);
     if (s.displacement.empty()) continue;
-    s.pair_forces.clear();  // all numbers of an envelope are those of the solved shape
+    s.pair_forces.clear();  // all numbers of an envelope are computed from the solved shape
     visit(s, loads.at(s.step, s.fraction));
   }
 }
 
-/// Into how many parts an element is divided.
+/// The number of parts into which an element is divided.
 int parts_of(const beam& b) {
   constexpr int enough = 480;
   return (enough + b.elements() - 1) / b.elements();
 }
 
-/// The places, with values that those of any state replace.
+/// The places, with infinite values that any state replaces.
 envelope_curves begun(const beam& b) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   envelope_curves all;
@@ -259,7 +259,7 @@ envelope_curves begun(const beam& b) {
   return all;
 }
 
-/// Takes the values of one state. Those at the ends of elements are not computed from the polynomials.
+/// Widens the curves by one state. Values at ends of elements are taken directly, not from the polynomials.
 void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s) {
   const int parts = parts_of(b);
   std::size_t place = 0;
