@@ -1,5 +1,5 @@
-// The curve of equilibria, piece by piece: the complementarity problem of the pairs at their faces decides
-// its direction, and the first pair to reach its face, or to come away from it, ends the piece.
+// Follows the equilibria piece by piece. The complementarity problem of the pairs at their faces decides the
+// direction of a piece; it ends when the first pair reaches its face or leaves it.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -9,10 +9,11 @@
 namespace contct {
 namespace {
 
-/// The response of the structure to the step's load on a ground of stiffness epsilon M, for epsilon to 0:
+/// The response of the structure to the step's load on a ground of stiffness epsilon M, as epsilon tends to
+/// 0:
 ///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
 /// With rigid-body motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later one
-/// has K y = what is left of the order before, and z'M y = 0.
+/// solves K y = the residual of the previous order, with z'M y = 0.
 class soft_ground {
  public:
   explicit soft_ground(const position& at) : at_(at) {
@@ -95,10 +96,10 @@ class corrected_path {
     return path_status::iteration_limit;
   }
 
-  /// Which of the pairs at their faces are in contact from here on: those statuses for which the response
-  /// moves every separated pair away from its face, and every pair in contact into it. All wrong ones are
-  /// toggled at once as long as their number falls (Judice and Pires 1994); otherwise the one of least index,
-  /// which visits no set of statuses twice (Murty 1974).
+  /// Decides which pairs at their faces are in contact on the next piece: the response must move every
+  /// separated pair away from its face, and every pair in contact into its face. All wrong statuses are
+  /// changed at once as long as their number falls (Judice and Pires 1994). Otherwise only the one of least
+  /// index is changed, which visits no set of statuses twice (Murty 1974).
   void settle_statuses() {
     std::vector<std::size_t> at_face;
     for (std::size_t i = 0; i < at_.closed.size(); ++i)
@@ -118,7 +119,7 @@ class corrected_path {
         seen.clear();
       } else if (patience > 0) {
         --patience;
-      } else if (!seen.insert(at_.closed).second) {  // pairs that the terms so far do not move decide it
+      } else if (!seen.insert(at_.closed).second) {  // the terms so far do not move some pairs that decide
         seen.clear();
         terms += 2;
         if (terms > most_terms)
@@ -134,7 +135,8 @@ class corrected_path {
     response_ = soft_ground(at_).response(terms);
   }
 
-  /// 1: towards its face; -1: away from it; 0: it rests. The first term that moves the pair counts.
+  /// 1: the response moves the pair towards its face; -1: away from it; 0: not at all. The first term that
+  /// moves the pair decides.
   [[nodiscard]] int moves(std::size_t pair) const {
     for (const rational_vector& term : response_)
       if (const rational towards = at_.approach(pair, term); towards != 0) return towards > 0 ? 1 : -1;
@@ -142,7 +144,7 @@ class corrected_path {
   }
 
   /// The distance along `v` to the first event: a separated pair reaches its face, or one in contact, which
-  /// no rigid-body motion moves, leaves it. Nothing if there is no event.
+  /// no rigid-body motion moves, leaves it. Empty if there is no event.
   [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
     std::optional<rational> way;
     for (std::size_t i = 0; i < at_.closed.size(); ++i) {
@@ -154,8 +156,7 @@ class corrected_path {
     return way;
   }
 
-  /// Move along the rigid-body motion that the load drives, to the first face. False if there is none on the
-  /// way.
+  /// Moves along the rigid-body motion that the load drives, up to the first face. False if no face stops it.
   bool snap() {
     fill_in();
     const rational_vector& motion = response_[0];
@@ -177,7 +178,7 @@ class corrected_path {
     path_.mechanism = std::move(proof);
   }
 
-  /// The load grows to the first event, or to the end of the step: then false.
+  /// Increases the load up to the first event or the end of the step. False at the end of the step.
   bool advance() {
     if (!at_.solver().free_motions().empty()) fill_in();
     const std::optional<rational> way = first_event_along(response_[1]);
@@ -188,8 +189,9 @@ class corrected_path {
     return goes_on;
   }
 
-  /// Uses the law of the springs if they hold the structure, so that numbers do not grow with the length of
-  /// the path; only at the pairs until all of u is requested.
+  /// Advances the share of the step by `way`. If the springs hold the structure, u is computed from the start
+  /// of the step, so that numbers do not become longer along the path. It is computed only at the pairs until
+  /// fill_in() is called.
   void move_on(const rational& way) {
     at_.fraction += way;
     if (!at_.solver().free_motions().empty()) {
@@ -205,7 +207,7 @@ class corrected_path {
 
   void put_on_line(std::size_t dof) { at_.u[dof] = line_start_[dof] + at_.fraction * line_rate_[dof]; }
 
-  /// All of u.
+  /// Computes u at all dofs.
   void fill_in() {
     for (std::size_t dof = 0; dof < line_start_.size(); ++dof) put_on_line(dof);
     line_start_.clear();
@@ -217,7 +219,7 @@ class corrected_path {
   exact_path path_;
   std::vector<exact_increment> increments_;
   std::vector<rational_vector> response_;
-  rational_vector line_start_, line_rate_;  // u at the start of the step and its rate, on this piece
+  rational_vector line_start_, line_rate_;  // u at the start of the step, and its rate on this piece
 };
 
 }  // namespace

@@ -40,7 +40,7 @@ full_load_state state_of(const exact_step_end& end) {
   return s;
 }
 
-/// Nothing if K does no negative work on the displacement.
+/// The work of K on `motion`; empty if it is not negative.
 std::optional<negative_work> work_on(const std::vector<double>& motion, const exact_problem& p) {
   negative_work w;
   for (const double x : motion) w.motion.push_back(binary_value(x));
@@ -49,7 +49,7 @@ std::optional<negative_work> work_on(const std::vector<double>& motion, const ex
   return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
 }
 
-/// Nothing if the problem is larger than that.
+/// Empty if the problem exceeds the limits for paths in doubles.
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
   try {
@@ -62,7 +62,7 @@ std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   }
 }
 
-/// The problem is converted, and its exact path followed, when that is first asked for.
+/// Converts the problem and follows its exact path at the first request.
 class problem_beside final : public exact_means {
  public:
   explicit problem_beside(const problem& p) : what_(p) {}
@@ -86,14 +86,14 @@ class problem_beside final : public exact_means {
     const exact_step& s = converted()->steps[step - 1];
     long_vector all;
     for (const rational& x : residual(*converted(), s, exactly(*converted(), s, u)))
-      all.push_back(long_rounded(x));  // infinite beyond doubles: no bound is proved by that
+      all.push_back(long_rounded(x));  // infinite beyond the range of doubles; nothing is then proved
     return all;
   }
 
   [[nodiscard]] bool is_semidefinite() override {
     try {
       return converted() && definiteness_of(what_, *converted()).semidefinite;
-    } catch (const std::runtime_error&) {  // K is indefinite modulo a prime, or numbers are too long
+    } catch (const std::runtime_error&) {  // K is indefinite, or numbers are too long
       return false;
     }
   }
@@ -104,7 +104,8 @@ class problem_beside final : public exact_means {
     return *problem_;
   }
 
-  /// The steps that go on from one another, this one among them: the first one, and the one after the last.
+  /// The first step of the chain that contains `step`, and the step after its last. Each step of a chain
+  /// starts from the state before, except the first.
   [[nodiscard]] std::pair<std::size_t, std::size_t> chain_of(std::size_t step) const {
     std::size_t first = step;
     while (first > 0 && !what_.steps[first].from_zero) --first;
@@ -127,7 +128,7 @@ class problem_beside final : public exact_means {
 
   const problem& what_;
   std::optional<std::optional<exact_problem>> problem_;
-  std::optional<exact_path> path_;  // of the steps from first_, counted from 0, that go on from one another
+  std::optional<exact_path> path_;  // of the chain that starts with first_
   std::size_t first_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Decisions in rational numbers for a path in doubles, and whether an external stiffness matrix is positive
+// Rational numbers for paths in doubles, and the test whether an external stiffness matrix is positive
 // semidefinite.
 #pragma once
 
@@ -10,31 +10,32 @@
 
 namespace contct {
 
-/// Limits on structures, bandwidths and lengths of numbers for the use of rational numbers on a path in
-/// doubles: beyond these it takes too long for a run in which exact numbers were not requested.
+/// Limits on rational numbers for a path in doubles: larger problems take too long for a run that did not
+/// request exact numbers.
 inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
 
-/// A displacement on which the matrix does negative work: no structure has such a matrix.
+/// A displacement on which a matrix does negative work, which no stiffness matrix of a structure does.
 struct negative_work {
-  rational_vector motion;  ///< [dofs], 0 at fixed ones
+  rational_vector motion;  ///< 0 at fixed dofs [dofs]
   rational work;           ///< motion' K motion
 };
 
-/// At most one of the two; neither where 32 digits do not decide it.
+/// The answer to whether K is semidefinite; neither member is set if 32 digits do not decide.
 struct definiteness {
-  bool semidefinite = false;  ///< on the dofs that are not fixed, for certain
+  bool semidefinite = false;  ///< proved on the dofs that are not fixed
   std::optional<negative_work> shown = {};
 };
 
-/// The dofs that rigid-body motions of K move are found modulo a prime, and the motions confirmed exactly. K
-/// is semidefinite if it is definite on the others, which the bound on its least eigenvalue proves. If the
-/// factorisation fails, it gives a displacement whose work is decided by an exact sum. Throws
-/// std::runtime_error as lifted_solver::factor does.
+/// Decides whether K is semidefinite. Finds one dof for each rigid-body motion of K modulo a prime, and
+/// confirms the motions exactly. K is semidefinite if it is definite on the other dofs, which a bound on its
+/// least eigenvalue proves. If the factorisation fails, it gives a displacement, and the work of K on it is
+/// an exact sum. Throws the std::runtime_error of lifted_solver::factor.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
-/// For a path in doubles; a problem that is too large gets no decision. `p` must outlive what is returned.
+/// Rational numbers for a path in doubles; a problem that is too large gets no answers. `p` must outlive the
+/// result.
 [[nodiscard]] std::unique_ptr<exact_means> exact_means_of(const problem& p);
 
 }  // namespace contct

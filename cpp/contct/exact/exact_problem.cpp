@@ -1,4 +1,4 @@
-// A problem in rational numbers.
+// Converts a problem to rational numbers.
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>

@@ -23,7 +23,7 @@ double digits_of(const rational& error, const rational& largest) {
   return largest == 0 ? 0.0 : digits_of(rounded(error / largest));
 }
 
-/// |x - exactly|; where x has overflowed, more than `largest`: no digit is right.
+/// |x - exactly|; more than `largest` if x is not finite, so that no digit is right.
 rational error_of(double x, const rational& exactly, const rational& largest) {
   return std::isfinite(x) ? rational(abs(binary_value(x) - exactly)) : rational(largest + 1);
 }
@@ -39,8 +39,8 @@ digit_counter::digit_counter(const problem& p, const exact_path& exactly)
     }
     for (const rational& force : s.force) largest_force_ = std::max(largest_force_, rational(abs(force)));
   }
-  // Numbers that vanish by symmetry have no size.
-  const double span = extent_of(p.geometry);  // 0 of a matrix, which has one kind of dof
+  // A kind whose numbers are all 0 by symmetry gets its size from the other kind.
+  const double span = extent_of(p.geometry);  // 0 for a matrix, which has one kind of dof
   const rational length = span > 0.0 ? binary_value(span) : rational(1);
   const rational slope_of_w = largest_[0] / length;
   for (std::size_t kind = 1; kind < largest_.size(); ++kind)
@@ -75,7 +75,8 @@ void digit_counter::step_ended(const step_state& s) {
   }
 }
 
-/// Without pairs that toggle and toggle back at one place, and without open questions.
+/// The events without those that the exact path leaves open, and without pairs of events that cancel at one
+/// place.
 digit_counter::event_list digit_counter::decided(const event_list& events, double tie) const {
   event_list kept;
   for (const placed_event& e : events) {
@@ -91,8 +92,8 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
   return kept;
 }
 
-/// Does the event happen at the end of a step, with its pair exactly at its face, without force? It may then
-/// belong to that step or to the next one, or be absent. The same holds for toggles at a mechanism.
+/// True if the exact path does not decide the event: it is at the end of a step, where its pair is exactly at
+/// its face without force, and may belong to that step, to the next one or to none; or it is at a mechanism.
 bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const {
   const auto at = std::min(exactly_.steps.size() - 1, static_cast<std::size_t>(e.place));
   const path_status status = exactly_.steps[at].status;
@@ -122,7 +123,7 @@ std::string digit_counter::words(const placed_event& e) {
          " in step " + std::to_string(static_cast<int>(step) + 1) + " at share " + share;
 }
 
-/// Events in their order; those of a tie, which may come in any order, by their pairs.
+/// Compares the events in their order; events within a tie are sorted by pairs first.
 void digit_counter::compare_events(kernel_digits& r, double tie) const {
   event_list exactly = decided(exact_events(), tie);
   event_list seen = decided(events_, tie);

@@ -1,4 +1,4 @@
-// The accuracy of a kernel's path, compared with the exact one: its events, and the number of correct digits.
+// Compares the path of a kernel with the exact path: its events, and its number of correct digits.
 #pragma once
 
 #include <string>
@@ -9,34 +9,33 @@
 
 namespace contct {
 
-/// The accuracy of one kernel's path.
 struct kernel_digits {
   std::string name;
   bool same_events = true;
-  std::string first_difference;  ///< of events or ends, as text; empty if there is none
-  /// Correct digits, 0 to 16, of the worst displacement, share of an event and force, at the ends of the
-  /// steps that both paths reached. Errors are relative to the largest of their kind on the path (a slope's
-  /// at least to the largest deflection over the structure's length). Shares are those of events that are the
-  /// same.
+  std::string first_difference;  ///< difference of events or ends, in words; empty if there is none
+  /// Correct digits, from 0 to 16, of the worst displacement, share of an event and force. Displacements and
+  /// forces are those at the ends of steps that both paths reached; shares are those of equal events. Errors
+  /// are relative to the largest number of their kind on the path, that of slopes at least the largest
+  /// deflection divided by the length of the structure.
   double digits = 16.0, event_digits = 16.0, force_digits = 16.0;
-  /// The number of compared ends of steps; if 0, digits and force_digits mean nothing.
+  /// The number of ends of steps that were compared; if 0, digits and force_digits have no meaning.
   std::size_t steps = 0;
 };
 
-/// Observes a kernel's path.
+/// Observes the path of a kernel.
 class digit_counter final : public observer {
  public:
-  /// Both must outlive this object.
+  /// Both arguments must outlive this object.
   digit_counter(const problem& p, const exact_path& exactly);
 
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
-  /// `tie`: events whose shares differ by less may come in any order.
+  /// `tie`: events whose shares differ by less than `tie` may come in any order.
   [[nodiscard]] kernel_digits result(const std::string& name, path_status ended, double tie) const;
 
  private:
-  /// An event on the whole path, at step number (from 0) + share.
+  /// An event. `place`: number of the step, from 0, plus share of the step.
   struct placed_event {
     double place;
     event what;
@@ -52,9 +51,9 @@ class digit_counter final : public observer {
   const problem& problem_;
   const exact_path& exactly_;
   event_list events_;
-  std::size_t steps_ = 0;          // that reached their load
-  std::vector<rational> largest_;  // of each kind of dof
-  std::vector<rational> error_;    // likewise
+  std::size_t steps_ = 0;          // number of steps that reached their full load
+  std::vector<rational> largest_;  // largest exact displacement of each kind of dof
+  std::vector<rational> error_;    // largest error of each kind of dof
   rational largest_force_, force_error_;
 };
 

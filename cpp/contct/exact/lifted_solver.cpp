@@ -7,15 +7,16 @@
 namespace contct {
 namespace {
 
-/// The largest primes below 2^61, for a matrix that is singular modulo one of them by chance.
+/// The largest primes below 2^61. A later one is used if the matrix is singular modulo an earlier one by
+/// chance.
 constexpr std::uint64_t two_to_61 = std::uint64_t{1} << 61U;
 constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31,  two_to_61 - 45,
                                                  two_to_61 - 229, two_to_61 - 259, two_to_61 - 283};
 
-// The innermost loops, by GMP's functions for single words if there are such.
+// The innermost loops use the functions of GMP for single words, if it is available.
 
 std::uint64_t residue_of(const integer& x, std::uint64_t p) {
-  const std::uint64_t r = boost::multiprecision::integer_modulus(x, p);  // of |x|
+  const std::uint64_t r = boost::multiprecision::integer_modulus(x, p);  // residue of |x|
   return x < 0 && r != 0 ? p - r : r;
 }
 
@@ -30,8 +31,8 @@ void subtract_product(integer& r, const integer& a, std::uint64_t x) {
   r -= a * x;
 }
 
-/// numerator/denominator = y modulo m, both at most `bound`; false if there is none. Euclid's algorithm,
-/// stopped halfway (Wang 1981).
+/// Finds numerator/denominator = y modulo m, both at most `bound`; false if there is none. Uses the algorithm
+/// of Euclid, stopped halfway (Wang 1981).
 bool fraction_of(const integer& y, const integer& m, const integer& bound, integer& denominator) {
   integer r0 = m;
   integer r1 = y;
@@ -69,7 +70,7 @@ bool lifted_solver::field::take(const rational& x, std::uint64_t& residue) const
   return true;
 }
 
-/// The digits of one solution, times a whole number, in the prime.
+/// Computes the digits of one solution, times an integer, to the base of the prime.
 class lifted_solver::lifting {
  public:
   lifting(const lifted_solver& of, const rational_vector& b) : of_(of), rest_(b.size()), sum_(b.size()) {
@@ -94,7 +95,7 @@ class lifted_solver::lifting {
   }
 
  private:
-  /// x mod p of the rest, and then the rest becomes (rest - A x) / p.
+  /// Computes the next digits x, with A x = rest modulo p, and replaces the rest by (rest - A x) / p.
   void next_digits() {
     const field& f = of_.field_;
     std::vector<std::uint64_t> x(rest_.size(), 0);
@@ -103,13 +104,13 @@ class lifted_solver::lifting {
     of_.solve_modulo(x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (const auto& [column, entry] : of_.whole_[i].entries) subtract_product(rest_[i], entry, x[column]);
-      rest_[i] /= f.prime();  // a multiple of it
+      rest_[i] /= f.prime();  // the remainder is 0
     }
     digits_.push_back(std::move(x));
   }
 
-  /// The number of which digits [from, to) of `dof` are the digits, by halves: long products are cheaper than
-  /// many short ones.
+  /// The number with the digits [from, to) of `dof`. It is computed by halves, because long products are
+  /// faster than many short ones.
   integer number(std::size_t dof, std::size_t from, std::size_t to) {
     constexpr std::size_t few = 16;
     integer n = 0;
@@ -129,7 +130,7 @@ class lifted_solver::lifting {
     return known;
   }
 
-  /// Add the digits since the last time to the numbers.
+  /// Adds the digits found since the last call to sum_.
   void gather() {
     for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += number(i, 0, digits_.size()) * modulus_;
     modulus_ *= power(digits_.size());
@@ -137,14 +138,14 @@ class lifted_solver::lifting {
     digits_.clear();
   }
 
-  /// The number nearest to 0 that is `y` modulo p^k.
+  /// The integer nearest to 0 that equals `y` modulo p^k.
   [[nodiscard]] integer nearest(const integer& y) const {
     integer r = y % modulus_;
     if (r * 2 > modulus_) r -= modulus_;
     return r;
   }
 
-  /// The x = n / d of which these are the digits, with one denominator for all; false if there is none yet.
+  /// Finds x = n / d with these digits and one denominator for all numbers; false if more digits are needed.
   bool reconstruct(rational_vector& x) const {
     const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
     integer denominator = 1;
@@ -175,12 +176,14 @@ class lifted_solver::lifting {
 
   const lifted_solver& of_;
   integer common_ = 1;                              // a multiple of all denominators of b
-  std::vector<integer> rest_, right_;               // of common_ b; that itself
-  std::vector<std::vector<std::uint64_t>> digits_;  // since the last gathering
-  std::vector<integer> sum_;                        // of the digits gathered
-  std::map<std::size_t, integer> powers_;           // of the prime
+  std::vector<integer> rest_, right_;               // the rest of common_ b after the digits so far; common_
+                                                    // b
+  std::vector<std::vector<std::uint64_t>> digits_;  // digits since the last gather()
+  std::vector<integer> sum_;                        // sum of the gathered digits, each times its power of the
+                                                    // prime
+  std::map<std::size_t, integer> powers_;           // powers of the prime, by exponent
   std::size_t gathered_ = 0;
-  integer modulus_ = 1;  // the prime to their number
+  integer modulus_ = 1;  // the prime to the power gathered_
 };
 
 lifted_solver::lifted_solver(const rational_rows& k, std::span<const char> fixed, std::span<const int> place,
@@ -242,7 +245,7 @@ bool lifted_solver::factor_modulo(std::uint64_t prime) {
     std::uint64_t* const column = &factor_[j * width];
     const std::size_t dof = dof_at_[j];
     if (fixed_[dof] != 0) continue;
-    if (column[0] == 0) {  // of a semidefinite matrix, the whole column is 0
+    if (column[0] == 0) {  // in a semidefinite matrix the whole column is 0
       if (std::any_of(column, column + width, [](std::uint64_t x) { return x != 0; })) return false;
       free_[dof] = 1;
       continue;
@@ -279,7 +282,7 @@ lifted_solver::whole_row lifted_solver::whole(std::size_t dof) const {
   return row;
 }
 
-/// Forward, diagonal and back, in the places of the band.
+/// Solves with L, D and L' in the order of the band.
 void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   const std::size_t n = x.size();
   const std::size_t width = band_ + 1;
@@ -295,7 +298,8 @@ void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   for (std::size_t j = 0; j < n; ++j) x[dof_at_[j]] = y[j];
 }
 
-/// One for each dof without a pivot, which it moves by 1. False where one of them is not free after all.
+/// Finds one motion for each dof without a pivot, which moves that dof by 1. False if K + springs resists one
+/// of them.
 bool lifted_solver::find_free_motions() {
   free_motions_.clear();
   for (std::size_t j = 0; j < free_.size(); ++j) {

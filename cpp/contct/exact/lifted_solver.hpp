@@ -1,5 +1,5 @@
-// Solves sparse symmetric equations exactly: one factorisation modulo a prime, then digit by digit in that
-// prime (Dixon 1982). Numbers are no longer than the solution needs.
+// Solves sparse symmetric equations exactly: factors the matrix once modulo a prime, and finds the digits of
+// the solution to the base of that prime (Dixon 1982). No number is longer than the solution needs.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,44 @@
 
 namespace contct {
 
-/// All entries of a symmetric matrix, row by row.
 using rational_rows = sparse_rows<rational>;
 
-/// A stiffness added to the diagonal at a dof; or a spring between two dofs, for which the matrix has an
-/// entry, possibly 0.
+/// A stiffness added to the diagonal at a dof; or a spring between two dofs, where the matrix must have an
+/// entry, which may be 0.
 struct added_spring {
   int dof;
   rational stiffness;
   int other = -1;
 };
 
-/// Factors K + springs, positive semidefinite, on the dofs that are not fixed, and solves with it.
+/// Factors K + springs on the dofs that are not fixed, and solves with the factor. K + springs must be
+/// positive semidefinite.
 class lifted_solver {
  public:
-  /// The longest that numerators and denominators may become.
+  /// The most bits of a numerator or denominator.
   static constexpr std::size_t most_bits = std::size_t{1} << 19;
 
-  /// `place`: the row of each dof in the factor, for a narrow band. All arguments must outlive this object.
+  /// `place`: the row of each dof in the factor, chosen for a narrow band. All arguments must outlive this
+  /// object.
   lifted_solver(const rational_rows& k, std::span<const char> fixed, std::span<const int> place,
                 std::size_t longest = most_bits);
 
-  /// Throws too_long, and std::runtime_error where the matrix is indefinite.
+  /// Throws too_long, and std::runtime_error if the matrix is indefinite.
   void factor(const std::vector<added_spring>& springs);
 
-  /// A basis of the motions that K + springs leaves free [motions][dofs]: exact, so their number is.
+  /// An exact basis of the motions that K + springs does not resist [motions][dofs].
   [[nodiscard]] const std::vector<rational_vector>& free_motions() const { return free_motions_; }
 
-  /// Is a dof neither fixed nor, by its missing pivot, the amount of a rigid-body motion? K + springs is
-  /// semidefinite if it is positive definite on these.
+  /// True if a dof is free and has a pivot. Each free dof without a pivot belongs to one rigid-body motion. K
+  /// + springs is semidefinite if it is positive definite on the dofs with pivots.
   [[nodiscard]] bool has_pivot(std::size_t dof) const { return fixed_[dof] == 0 && free_[dof] == 0; }
 
-  /// x with (K + springs) x = b at every dof that is not fixed, and x = 0 at those that are. With rigid-body
-  /// motions b must do no work on them, and one of the solutions is given. Throws too_long.
+  /// Solves (K + springs) x = b at every free dof, with x = 0 at fixed dofs. If there are rigid-body motions,
+  /// b must do no work on them; one of the solutions is returned. Throws too_long.
   [[nodiscard]] rational_vector solve(const rational_vector& b) const;
 
  private:
-  /// Arithmetic modulo 2^61 - c, a prime with a small c: 2^61 is c there.
+  /// Arithmetic modulo the prime 2^61 - c with a small c: 2^61 = c modulo the prime.
   class field {
    public:
     explicit field(std::uint64_t prime) : p_(prime), c_((std::uint64_t{1} << 61U) - prime) {}
@@ -64,7 +65,7 @@ class lifted_solver {
       return r >= p_ ? r - p_ : r;
     }
     [[nodiscard]] std::uint64_t inverse(std::uint64_t a) const;
-    /// The residue of any number; false if its denominator is a multiple of the prime.
+    /// Computes the residue of a rational number; false if its denominator is a multiple of the prime.
     bool take(const rational& x, std::uint64_t& residue) const;
 
    private:
@@ -74,7 +75,7 @@ class lifted_solver {
     std::uint64_t p_, c_;
   };
 
-  /// A row of the equations, times the least number that makes it whole.
+  /// A row of the equations, multiplied by the least number `scale` that makes all its entries integers.
   struct whole_row {
     std::vector<std::pair<int, integer>> entries;
     integer scale;
@@ -92,15 +93,15 @@ class lifted_solver {
   std::span<const int> place_;
   std::size_t longest_;
   std::vector<int> dof_at_;                         // the inverse of place_
-  std::size_t band_ = 0;                            // subdiagonals
-  rational_vector spring_;                          // on the diagonal [dofs]
-  std::map<std::pair<int, int>, rational> beside_;  // of springs between two dofs, by both
-  field field_;                                     // of the last factorisation
+  std::size_t band_ = 0;                            // number of subdiagonals
+  rational_vector spring_;                          // springs on the diagonal [dofs]
+  std::map<std::pair<int, int>, rational> beside_;  // off-diagonal entries of springs; the key has both dofs
+  field field_;                                     // field of the last factorisation
   std::vector<std::uint64_t> factor_;               // L and D of L D L' modulo the prime, as a band
-  std::vector<std::uint64_t> inverse_;              // of D; 0 without a pivot
-  std::vector<char> free_;                          // dofs without a pivot
-  std::vector<whole_row> whole_;                    // [dofs]; empty without a pivot
-  std::vector<std::uint64_t> unscale_;              // 1 / scale of each
+  std::vector<std::uint64_t> inverse_;              // inverses of D; 0 without a pivot
+  std::vector<char> free_;                          // 1: a free dof without a pivot [dofs]
+  std::vector<whole_row> whole_;                    // rows of the equations [dofs]; empty without a pivot
+  std::vector<std::uint64_t> unscale_;              // 1 / scale of each row, modulo the prime
   std::vector<rational_vector> free_motions_;
 };
 

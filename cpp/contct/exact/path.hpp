@@ -1,4 +1,4 @@
-// A problem in rational numbers, its true path, and its path under the 1989 rule.
+// A problem in rational numbers, with its paths under the corrected and the 1989 rule.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,8 @@
 
 namespace contct {
 
-/// More dofs than this would take more than a machine has: their numbers grow with them.
+/// The most dofs of an exact problem. Time and memory grow fast with dofs, because the numbers become longer
+/// too.
 inline constexpr int most_exact_dofs = 50'000;
 
 using exact_pair = pair_in<rational>;
@@ -22,98 +23,101 @@ using exact_pair = pair_in<rational>;
 using exact_step = loads_in<rational>;
 
 struct exact_problem : equations<rational> {
-  std::vector<int> place;  ///< of each dof in a narrow band
+  std::vector<int> place;  ///< row of each dof in a narrow band [dofs]
   std::vector<exact_step> steps;
-  /// Weights of the squares of displacements by which rigid-body motions are measured, at dofs that hold all
-  /// of them: those that the load does not drive keep what they have, and it drives others the steepest way.
-  /// Of beams and plates w at the ends and hinges, or corners, as the corrected rule in doubles.
+  /// M, a diagonal matrix that measures rigid-body motions and is positive on all of them: motions that the
+  /// load does not drive keep their amount, and the load drives the others along the steepest descent in M.
+  /// In beams M acts on w at the ends and hinges, in plates on w at the corners, as the corrected rule in
+  /// doubles does.
   std::vector<added_spring> ground;
 
-  /// The longest that numbers of its path may become, in bits.
+  /// The most bits of a number on its path.
   std::size_t longest = lifted_solver::most_bits;
 };
 
-/// Every number is the shortest decimal of its double. Coordinates that the problem has as runs of equal
-/// parts are exact parts. The stiffness of a bed's pair is its modulus times an exact share of the structure,
-/// its face that of the exact polynomial, and a plate's D comes from E, nu and thickness exactly.
+/// Converts a problem exactly. Every number is the shortest decimal of its double. Coordinates given as runs
+/// of equal parts are divided exactly. The stiffness of a bed's pair is its modulus times the exact tributary
+/// length or area, and its face is the value of the exact polynomial. The D of a plate is computed exactly
+/// from E, nu and thickness.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p);
 
-/// Of its band.
+/// The number of subdiagonals of the band.
 [[nodiscard]] int subdiagonals(const exact_problem& p);
 
-/// The events at one share of a step's load.
+/// The events at one share of a step.
 struct exact_increment {
   rational fraction;
-  std::vector<event> events;  ///< in order of pairs; none at the end of a step
-  bool snaps = false;         ///< a rigid-body motion to the next face, at constant load, came after them
+  std::vector<event> events;  ///< in order of pairs; empty at the end of a step
+  bool snaps = false;         ///< after the events, a rigid-body motion to the next face at constant load
 };
 
 /// The final state of a step, or of the path.
 struct exact_step_end {
   std::vector<exact_increment> increments;
-  rational fraction;             ///< of the step's load
+  rational fraction;             ///< share of the step
   rational_vector displacement;  ///< [dofs]
   std::vector<char> closed;      ///< [pairs]
-  rational_vector gap, force;    ///< as gap_of and force_of say [pairs]
-  rational_vector reactions;     ///< forces on the structure by the supports, in their order
+  rational_vector gap, force;    ///< see gap_of and force_of [pairs]
+  rational_vector reactions;     ///< forces of the supports on the structure [supports]
   path_status status = path_status::solved;
 };
 
-/// Why there is no equilibrium under the full load of a step: K and the pairs in contact leave this motion
-/// free, no other pair stops it, and the load does work on it.
+/// The proof that the full load of a step has no equilibrium: K and the pairs in contact do not resist this
+/// motion, no other pair stops it, and the load does work on it.
 struct mechanism_proof {
-  rational_vector motion;  ///< its largest number 1 or -1 [dofs]
-  rational work;           ///< of the step's full load, positive
+  rational_vector motion;  ///< its largest number is 1 or -1 [dofs]
+  rational work;           ///< work of the step's full load on the motion; positive
 };
 
 struct exact_path {
-  path_status status = path_status::solved;  ///< of the first step that is not solved
-  /// After a step that is not solved, only steps from zero and their continuations follow.
+  path_status status = path_status::solved;  ///< status of the first step that is not solved
+  /// After a step that is not solved, the path continues only if the next step starts from zero.
   std::vector<exact_step_end> steps;
-  std::optional<mechanism_proof> mechanism;  ///< of the true path's first step that ends in one
+  std::optional<mechanism_proof> mechanism;  ///< corrected path: proof for the first step without an
+                                             ///< equilibrium
 
-  /// Takes in the end of one more step.
+  /// Adds the end of one more step.
   void take(exact_step_end end) {
     if (status == path_status::solved) status = end.status;
     steps.push_back(std::move(end));
   }
 };
 
-/// Does the path continue with step `number`, from 0, after these?
+/// True if step `number`, from 0, can follow the steps of `path`.
 [[nodiscard]] inline bool goes_on(const exact_path& path, const exact_problem& p, std::size_t number) {
   return number < p.steps.size() &&
          (path.steps.empty() || path.steps.back().status == path_status::solved || p.steps[number].from_zero);
 }
 
-/// Called before every increment: the step and the increment, from 1, and the share reached.
+/// Called before every increment, with the step and the increment, from 1, and the share of the step reached.
 using exact_progress = std::function<void(int step, int increment, const rational& fraction)>;
 
-/// The curve of equilibria u(t) under the loads, event by event (reference/corrected-rule.md). Events exactly
-/// at the full load of a step are left to the next one. Where equilibria are not unique, the path is the
-/// limit of those on a ground that gets ever softer. Throws too_long.
+/// Follows the equilibria u(t) under the loads, event by event (reference/corrected-rule.md). Events exactly
+/// at the full load of a step belong to the next step. If equilibria are not unique, the path is the limit of
+/// those on an elastic ground whose stiffness tends to 0. Throws too_long.
 [[nodiscard]] exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell = {});
 
-/// The path of the listing's statements in exact arithmetic, with its constants as the printed decimals, in
-/// the 1989 driver: springs gather their forces increment by increment. Throws too_long.
+/// Follows the 1989 path: the statements of the listing in exact arithmetic, with its constants as printed,
+/// in the 1989 driver, where springs add up their forces increment by increment. Throws too_long.
 [[nodiscard]] exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell = {});
 
-/// The inputs of CONTCT for a pair.
+/// The inputs of CONTCT for one pair.
 struct listing_pair {
   rational c;       ///< position of its face
-  rational d;       ///< D there
-  rational d_star;  ///< d* there
-  bool closed;      ///< in contact
-  int surface;      ///< face_above or face_below
+  rational d;       ///< D at the pair
+  rational d_star;  ///< d* at the pair
+  bool closed;
+  int surface;  ///< face_above or face_below
 };
 
 /// The outputs of CONTCT.
 struct listing_answer {
   rational_vector s;         ///< SS [pairs]
   rational s_min = 1;        ///< SMIN
-  std::vector<int> toggled;  ///< pairs from 0, in their order
+  std::vector<int> toggled;  ///< pairs from 0, in ascending order
 };
 
-/// One call of CONTCT without rounding. EPSGAP, DELTA and EPSMUL are the decimals that are printed.
+/// One call of CONTCT without rounding, with EPSGAP, DELTA and EPSMUL as printed.
 [[nodiscard]] listing_answer answer_exactly(std::span<const listing_pair> pairs);
 
 }  // namespace contct

@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-// The constants as they are printed: 1.E-20, 1.E-10 and .390625E-02.
+// The constants as printed: 1.E-20, 1.E-10 and .390625E-02 = 1/256.
 const rational& delta() {
   static const rational value(integer(1), boost::multiprecision::pow(integer(10), 20U));
   return value;
@@ -21,7 +21,7 @@ const rational& epsmul() {
   return value;
 }
 
-/// DO 10: s of one pair.
+/// DO 10: the s of one pair.
 rational scale_factor(const listing_pair& p) {
   const rational gap = p.c - p.d;
   if (p.d_star == 0) return 1;
@@ -44,11 +44,11 @@ class path_1989 {
   exact_increment next();
 
   position at_;
-  std::vector<exact_increment> increments_;  // of the step
-  rational s_min_ = 1;                       // of the last call; 1: it ended a step
+  std::vector<exact_increment> increments_;  // increments of the current step
+  rational s_min_ = 1;                       // SMIN of the last call; 1: the call ended a step
 };
 
-/// One call of CONTCT: toggles statuses. Returns SMIN.
+/// Calls CONTCT and toggles its pairs. Returns SMIN.
 rational path_1989::ask(const rational_vector& d_star) {
   std::vector<listing_pair> pairs;
   for (std::size_t i = 0; i < at_.closed.size(); ++i) {
@@ -63,10 +63,10 @@ rational path_1989::ask(const rational_vector& d_star) {
   return std::move(answer.s_min);
 }
 
-/// Call CONTCT once more and apply its answer.
+/// Calls CONTCT once and applies its answer.
 exact_increment path_1989::next() {
   rational_vector d_star = at_.response();
-  for (rational& d : d_star) d *= 1 - at_.fraction;  // under the residual load
+  for (rational& d : d_star) d *= 1 - at_.fraction;  // for the rest of the load
   const std::vector<char> before = at_.closed;
   s_min_ = ask(d_star);
   for (std::size_t dof = 0; dof < d_star.size(); ++dof) at_.u[dof] += s_min_ * d_star[dof];

@@ -19,15 +19,16 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Text that may be no UTF-8, as JSON.
+/// `text` as JSON, even if it is not valid UTF-8.
 std::string as_json(const std::string& text) {
   return json_text(json(text));
 }
 
-/// The error, with the place that its message begins with, if any: "pb.toml:12:3: ..", or without the column.
+/// The error as JSON, with the place at the start of its message if it has one: "pb.toml:12:3: ..", or
+/// without the column.
 std::string error_json(std::string_view message) {
   json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
-  const auto number_at = [message](std::size_t from) {  // 0 if there is no number followed by a colon
+  const auto number_at = [message](std::size_t from) {  // the number before a colon; 0 if there is none
     const std::size_t end = message.find_first_not_of("0123456789", from);
     if (end == std::string_view::npos || message[end] != ':') return 0;
     return number_in<int>(message.substr(from, end - from)).value_or(0);
@@ -44,7 +45,8 @@ std::string error_json(std::string_view message) {
   return json_text(error);
 }
 
-/// Results are written as text, and stay so: reading them again would cost more than the path.
+/// The answer as text. The result is already text, and is not parsed again because that would take longer
+/// than the path.
 std::string text_of(const served_answer& a, const std::optional<std::string>& error) {
   const auto exit = error ? exit_status::bad_input : a.exit;
   std::string text =
@@ -59,7 +61,7 @@ std::string text_of(const served_answer& a, const std::optional<std::string>& er
   return text + "}";
 }
 
-/// A refused value is written by recursion, which unlimited nesting would overflow.
+/// Refused values are written recursively, so unlimited depth could overflow the stack.
 void refuse_deep(int depth) {
   constexpr int deepest = 16;
   if (depth > deepest)
@@ -77,7 +79,7 @@ request::request(const char* text, std::initializer_list<std::string_view> known
       return true;
     });
   } catch (const nlohmann::json::exception& e) {
-    constexpr std::size_t longest = 300;  // it quotes a whole text of the options
+    constexpr std::size_t longest = 300;  // the message quotes the text of the options
     throw std::invalid_argument(
         fmt::format("options: found no JSON: {}; allowed: an object", printable(e.what(), longest)));
   }

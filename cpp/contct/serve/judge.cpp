@@ -1,4 +1,4 @@
-// contct_judge: a function of the caller's, put the calls and problems of contct fuzz.
+// contct_judge: sends the calls and problems of contct fuzz to a function of the caller.
 #include <stdexcept>
 
 #include "contct/kernel/child_kernel.hpp"

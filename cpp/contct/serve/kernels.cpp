@@ -1,4 +1,4 @@
-// contct_about, contct_call and contct_replay: the kernels, without a problem.
+// contct_about, contct_call and contct_replay: functions that need kernels but no problem.
 #include <fmt/format.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// contct_run, contct_check, contct_exact, contct_explain and contct_certify: what can be asked of a problem.
+// contct_run, contct_check, contct_exact, contct_explain and contct_certify: functions that take a problem.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void refuse_unknown_engine(const std::string& name) {
       fmt::format("options: engine: found \"{}\"; allowed: auto, {}", name, fmt::join(names, ", ")));
 }
 
-/// The outputs besides the result that an option of this name requests.
+/// Options that request further outputs, and these outputs.
 constexpr std::pair<const char*, output_file * run_outputs::*> further_outputs[] = {
     {"page", &run_outputs::page},
     {"log", &run_outputs::log},
@@ -44,7 +44,7 @@ constexpr std::pair<const char*, output_file * run_outputs::*> further_outputs[]
     {"proof", &run_outputs::proof}};
 
 run_request read_run_request(const request& r) {
-  // One by one: g++ 12 destroys the members of an aggregate twice where a later one throws.
+  // Members are set one by one, because g++ 12 destroys members of an aggregate twice if a later one throws.
   run_request wanted;
   wanted.file = r.file();
   wanted.kernels = r.texts("kernels", {});
@@ -93,7 +93,7 @@ void run_path(const char* text, const char* options, served_answer& a) {
   a.tell(end_messages(run.result));
 }
 
-/// Every number of the file with its place, every node, and the keys of the pairs' numbers.
+/// Adds every number of the file with its place, and the pairs with the keys of their numbers.
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
   const toml::table document = parse_toml(text, file);
   json& numbers = out["numbers"] = json::array();
@@ -180,13 +180,13 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   a.exit = status_of(end.status, run.equal());
 }
 
-/// The states of a request, each with its pairs' statuses.
+/// The states of a request, with the statuses of their pairs.
 struct given_states {
   std::vector<std::vector<double>> displacement;  // [states][dofs]
   std::vector<std::vector<int>> isep;             // [states][pairs]
 };
 
-/// Without a list, a pair whose face the state touches or enters is in contact.
+/// The statuses if the request lists none: a pair is in contact if the state touches or enters its face.
 std::vector<int> statuses_at(const problem& p, const load& l, const linear_structure& s,
                              std::span<const double> displacement) {
   std::vector<int> isep(p.pairs.size(), separated);
@@ -202,7 +202,7 @@ std::vector<int> statuses_at(const problem& p, const load& l, const linear_struc
 std::vector<int> statuses_in(const problem& p, const std::vector<double>& closed) {
   std::vector<int> isep(p.pairs.size(), separated);
   for (const double number : closed) {
-    // Compared before it is converted: a double beyond the integers has no integer to convert to.
+    // Compared before the conversion, because a double may exceed every integer.
     if (!(number >= 1 && number <= static_cast<double>(p.pairs.size())) || std::floor(number) != number)
       throw std::invalid_argument(
           fmt::format("options: closed: found {}; allowed: pairs from 1 to {}", number, p.pairs.size()));

@@ -1,31 +1,31 @@
-/* The program as functions: texts in, texts out. For other languages, and for a page.
+/* The program as C functions with texts as arguments and results, for other languages and for a web page.
  *
  * `problem` is the text of a problem file (reference/problem-file.md), in UTF-8, ended by a zero. `options`
- * is a JSON object, or null for none; an option that is not known is refused. Every function returns a JSON
- * object
+ * is a JSON object, or null for none; an unknown option is refused. Every function with `options`, and
+ * contct_about and contct_call, return a JSON object with these keys and those that the options request:
  *
  *   "format"    "contct-answer-1"
- *   "exit"      0: as the program's exit status (reference/running.md)
- *   "messages"  []: warnings, and what the program prints on standard error, a text each
- *   "error"     null, or { "message": "..", "file": "problem", "line": 12, "column": 3 }; the last three are
- *               null where the message has no place
- *   "result"    as the function says; null where there is an error
+ *   "exit"      the exit status that the program would have (reference/running.md)
+ *   "messages"  a list of texts: warnings, and what the program prints on standard error
+ *   "error"     null, or { "message": "..", "file": "problem", "line": 12, "column": 3 }; "file", "line" and
+ *               "column" are null if the message has no place
+ *   "result"    described at each function; null if there is an error
  *
- * and what the options ask for, as a text that is the caller's, who frees it by contct_free. Null is returned
- * where memory does not suffice for an answer. Nothing is printed, no exception leaves, and no file is
- * written; files are read only where a problem names them (stiffness = "K.mtx"), in `folder`.
+ * The caller must free the returned text by contct_free. A function returns null if there is no memory for
+ * an answer. Functions print nothing, throw nothing and write no files. They read a file only if the problem
+ * names it (stiffness = "K.mtx").
  *
- * Any function may be called from any thread. What calls the 1989 code waits for its turn, since COMMON /DOF/
- * and unit 26 belong to the whole process; contct_check, contct_certify and contct_exact without kernels do
- * not.
+ * Any function may be called from any thread. Functions that call kernels wait for each other, because
+ * COMMON /DOF/ and unit 26 of the 1989 code belong to the whole process. contct_check, contct_certify and
+ * contct_exact without kernels do not wait.
  *
- * Options that all functions with a problem have:
- *   "file"    its name in messages and pages: "problem"
- *   "folder"  in front of that name where it does not begin with "/", and where files that the problem names
- *             are looked for; "": where the process runs
+ * Options of all functions with a problem, each with its default:
+ *   "file"    "problem": the name of the problem in messages and pages
+ *   "folder"  "": the working directory. The folder of the problem, unless "file" begins with "/". The files
+ *             that the problem names are searched there
  *   "allow_outside"
- *             false: a problem that names files which are not below that folder is refused, since a problem
- *             from a stranger must not read what its user can; true: any file */
+ *             false: a problem that names files outside its folder is refused, so that a problem from a
+ *             stranger cannot read other files of the user. true: any file */
 #ifndef CONTCT_SERVE_SERVE_H
 #define CONTCT_SERVE_SERVE_H
 
@@ -39,9 +39,10 @@
 extern "C" {
 #endif
 
-/* clang-format off: lists stay lists */
+/* Formatting would join the lines of lists. */
+/* clang-format off */
 
-/* The version of this interface. It changes when anything declared here does. */
+/* The version of this interface. It changes if any declaration in this file changes. */
 #define CONTCT_SERVE_VERSION 1
 CONTCT_SERVE_EXPORT int contct_serve_version(void);
 
@@ -49,70 +50,73 @@ CONTCT_SERVE_EXPORT int contct_serve_version(void);
  *   "real_bytes", "rule", "language", "compiler", "flags" }], "engines": ["auto", ..] }. */
 CONTCT_SERVE_EXPORT char* contct_about(void);
 
-/* contct run: follow the path of a problem. "result" is what --json writes (reference/result-file.md).
- *   "kernels"         the first leads; without it, "corrected" gives the answer, beside the 1989 path
- *   "engine"          as --engine; without it, what suits the leader
- *   "final_only"      false; true: no path, the equilibrium under each step's load
- *   "envelope"        false
- *   "max_increments"  0, the program's own limit
+/* contct run: follows the path of a problem. "result" is what --json writes (reference/result-file.md).
+ *   "kernels"         a list, the leader first. Without it "corrected" gives the answer, and the 1989 path is
+ *                     compared with it
+ *   "engine"          as --engine; without it, the default engine of the leader
+ *   "final_only"      false; true: no path, only the equilibrium under the load of each step
+ *   "envelope"        false; true: the result contains the envelope
+ *   "max_increments"  0: the default limit
  *   "page", "log", "trace", "proof"
- *                     false; true: the answer has what --html, --log, --trace and --proof write, as a text
- *                     under the same key
- *   "states"          false; true: the result has the structure, and states within steps, for a picture */
+ *                     false; true: the answer contains the text that --html, --log, --trace or --proof
+ *                     writes, under the same key
+ *   "states"          false; true: the result also contains the structure and states within steps */
 CONTCT_SERVE_EXPORT char* contct_run(const char* problem, const char* options);
 
-/* contct check: read a problem, solve nothing. "result": { "title", "kind": "beam" | "plate" | "matrix",
+/* contct check: reads a problem. "result": { "title", "kind": "beam" | "plate" | "matrix",
  *   "nodes", "dofs", "elements", "pairs", "steps": [names], "units": null or { "length", "force" },
- *   "x", "y": of every node of a plate; a beam has "x" alone }.
- *   "places"  false; true: the result has where what is written too: "numbers": [{ "key": "contact[1].face",
- *             "value", "whole", "line", "column", "length" }], with "pair_list" */
+ *   "x", "y": coordinates of every node of a plate; of a beam only "x" }.
+ *   "places"  false; true: the result also contains "pair_list" and the place of each number in the text:
+ *             "numbers": [{ "key": "contact[1].face", "value", "whole", "line", "column", "length" }] */
 CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options);
 
-/* contct exact: the path in rational arithmetic. "result" is what contct exact --json writes.
- *   "rule"     "corrected" or "1989"
- *   "kernels"  [], compared with it */
+/* contct exact: follows the path in rational arithmetic. "result" is what contct exact --json writes.
+ *   "rule"     "corrected"; or "1989"
+ *   "kernels"  kernels whose paths are compared with the exact path; without it, none */
 CONTCT_SERVE_EXPORT char* contct_exact(const char* problem, const char* options);
 
-/* contct explain: what each line of the listing did. "result" is what contct explain --json writes.
- *   "kernels"          ["fortran", "cpp"], one or two of the 1989 rule
+/* contct explain: the effect of each line of the listing. "result" is what contct explain --json writes.
+ *   "kernels"          ["fortran", "cpp"]; one or two kernels of the 1989 rule
  *   "engine"           "refactor"
- *   "step", "increment"  all of them; or one, from 1 */
+ *   "step", "increment"  the number, from 1, of the only one to explain; without them, all are explained */
 CONTCT_SERVE_EXPORT char* contct_explain(const char* problem, const char* options);
 
-/* Bounds on the errors of states from elsewhere. "result" is as contct_run's, without increments: `w`,
- * `pairs`, `error` and `certificate` of each state as it was given.
- *   "displacement"  [[..], ..]: a state for each of the first steps, every dof, under the step's whole load.
- * A pair counts as closed where the state touches or enters its face "closed"        [[..], ..]: the pairs
- * that are closed instead, from 1 */
+/* Bounds the errors of given states. "result" is that of contct_run without increments: `w`, `pairs`,
+ * `error` and `certificate` of each state as it was given.
+ *   "displacement"  [[..], ..]: a list of displacements at all dofs for each of the first steps, under the
+ *                   full load of the step
+ *   "closed"        [[..], ..]: for each of these states the pairs in contact, from 1. Without it, a pair is
+ *                   in contact if the state touches or enters its face */
 CONTCT_SERVE_EXPORT char* contct_certify(const char* problem, const char* options);
 
-/* One call of a kernel: the arguments of contct_kernel (contct/kernel/plugin.h), behind the kernel's name.
- * "result": { "text": what it wrote to unit 26 }. A call whose id or dimensions lead outside the arrays is
- * refused. */
+/* One call of a kernel: its name, followed by the arguments of contct_kernel (contct/kernel/plugin.h).
+ * "result": { "text": what the call wrote to unit 26 }. A call whose id or dimensions lead outside the arrays
+ * is refused. */
 CONTCT_SERVE_EXPORT char* contct_call(const char* kernel, const double dd[], const double dtest[],
                                       const double cc[], double ss[], double* smin, const int id[],
                                       int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof);
 
-/* A kernel of the caller's, as contct_kernel of contct/kernel/plugin.h. It is called in this process. */
+/* A kernel of the caller, declared like contct_kernel of contct/kernel/plugin.h. It runs in this process. */
 /* NOLINTNEXTLINE(modernize-use-using): this is C */
 typedef void contct_kernel_function(const double dd[], const double dtest[], const double cc[], double ss[],
                                     double* smin, const int id[], int isep[], const int isurf[], int nc,
                                     int indof, int ndofpn, int ndof);
 
-/* contct fuzz: put random and adversarial calls and whole problems to a kernel of the caller's, and compare
- * it with the 1989 code. "result" is what contct fuzz --json writes; "exit" is 1 where the two differ.
+/* contct fuzz: sends random and adversarial calls and whole problems to a kernel of the caller, and compares
+ * it with a leading kernel. "result" is what contct fuzz --json writes; "exit" is 1 if the two differ.
  *   "leader"  "fortran"
- *   "name"    "function"
+ *   "name"    "function": the name of the caller's kernel
  *   "calls"   20000; "problems" 40; "seed" 1989 */
 CONTCT_SERVE_EXPORT char* contct_judge(contct_kernel_function* kernel, const char* options);
 
-/* contct replay: a recorded trace, as a text, put to a kernel. "result": { "kernel", "calls",
- *   "values_compared", "mismatches", "first": null or words }.
- *   "file"    "trace"
- *   "kernel"  the 1989 code in the trace's precision */
+/* contct replay: sends the calls of a trace to a kernel. "result": { "kernel", "calls", "values_compared",
+ *   "mismatches", "first": the first mismatch in words, or null }.
+ *   "file"    "trace": the name of the trace in messages
+ *   "kernel"  a kernel; without it "fortran", "fortran-r4" or "corrected", by the rule and precision of the
+ *             trace */
 CONTCT_SERVE_EXPORT char* contct_replay(const char* trace, const char* options);
 
-/* Free what any of these returned; null is allowed. */
+/* Frees the text that one of these functions returned; null is allowed. */
 CONTCT_SERVE_EXPORT void contct_free(char* text);
 
 /* clang-format on */
