@@ -17,7 +17,7 @@ json fractions(const rational_vector& numbers) {
   return list_of(numbers, [](const rational& x) { return fraction_words(x); });
 }
 
-/// Of numbers at all dofs, those of the nodes' deflections.
+/// The deflections of all nodes, from numbers at all dofs.
 rational_vector deflections_in(const problem& p, const rational_vector& u) {
   const auto per_node = static_cast<std::size_t>(dofs_per_node(p.geometry));
   rational_vector w;
@@ -41,7 +41,6 @@ json kernel_json(const kernel_digits& k) {
   return entry;
 }
 
-/// Prints one path.
 class exact_printer {
  public:
   exact_printer(const exact_run& r, int digits, const terminal& t) : r_(r), digits_(digits), terminal_(t) {}
@@ -59,7 +58,7 @@ class exact_printer {
  private:
   [[nodiscard]] std::string number(const rational& x) const { return short_words(x, digits_); }
 
-  /// The sum of the loads on deflections at the end of a step, from 1; 0 before the first.
+  /// The sum of the loads on deflections at the end of a step, from 1; 0 for step 0.
   [[nodiscard]] rational total_load(std::size_t step) const {
     rational sum;
     if (step == 0) return sum;
@@ -104,7 +103,7 @@ class exact_printer {
     }
   }
 
-  /// The rigid-body motion by the deflections of its nodes.
+  /// Prints the rigid-body motion as the deflections of its nodes.
   void print_mechanism(const mechanism_proof& proof) {
     const auto at = std::ranges::find(r_.path.steps, path_status::mechanism, &exact_step_end::status);
     const std::string where =

@@ -1,5 +1,5 @@
-// An explained run, for people and as JSON: what the listing did in each call, every sentence with the line
-// of fortran/contct.f that did it.
+// An explained run as text and as JSON: the effect of the listing in each call. Every sentence refers to a
+// line of fortran/contct.f.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace contct {
 
-/// What an explanation is about.
+/// The problem and the kernels that are explained.
 struct explained_kernels {
-  const problem& what;             ///< must outlive what is written of it
-  std::vector<std::string> names;  ///< of one kernel or two
+  const problem& what;             ///< must outlive the outputs
+  std::vector<std::string> names;  ///< one kernel or two
   int real_bytes;
-  int pair;  ///< the only one wanted, from 1, or 0
+  int pair;  ///< the only pair to explain, from 1; 0: all pairs
   load_path loads{what};
 
   [[nodiscard]] bool wants(const explained_pair& p) const { return pair == 0 || pair == p.pair + 1; }
@@ -27,48 +27,48 @@ struct explained_kernels {
 
 /// A sentence about a line of fortran/contct.f.
 struct sentence {
-  listing_line at;  ///< number 0: no line
+  listing_line at;  ///< its number is 0 if there is no line
   std::string words;
-  std::string equation{};  ///< of the paper: "(4)", "lemma 2"; or empty
+  std::string equation{};  ///< equation of the paper: "(4)", "lemma 2"; may be empty
 };
 inline constexpr listing_line no_line{0, {}};
 
-/// "advancing", "receding", "stationary" or "no response".
+/// Returns "advancing", "receding", "stationary" or "no response".
 [[nodiscard]] std::string_view kind_name(listing_branch way, bool is_separated);
 [[nodiscard]] inline std::string_view kind_name(const explained_pair& p) {
   return kind_name(p.way, p.isep_before == separated);
 }
-/// "winner", "too early", ..
+/// Returns "winner", "too early", ..
 [[nodiscard]] std::string_view name_of(why_toggled why);
 
-/// How a pair came to its s: the body of the DO 10 loop.
+/// How the s of a pair is computed: the body of the DO 10 loop.
 [[nodiscard]] std::vector<sentence> scale_factor_story(const explained_pair& p);
 
-/// Which pair won, and by how much: from SMIN to the IF that returns.
+/// Which pair has the smallest s, and how much smaller it is than the next: from SMIN to the IF that returns.
 [[nodiscard]] std::vector<sentence> winner_story(const explained_call& c);
 
-/// Whether a pair was toggled, and why: the body of the DO 30 loop. The call had an event.
+/// Whether and why a pair is toggled: the body of the DO 30 loop. The call must have an event.
 [[nodiscard]] std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p);
 
-/// How far two numbers of kernels of `real_bytes` are apart in ULP.
+/// The difference in ULP between two numbers of kernels of `real_bytes`.
 [[nodiscard]] std::uint64_t ulps_apart(double first, double second, int real_bytes);
 
-/// "fortran and cpp are equal to the bit", or by how many ULP they differ.
+/// Returns "fortran and cpp are equal to the bit", or their difference in ULP.
 [[nodiscard]] std::string side_by_side_words(const explained_kernels& of, double first, double second);
 
 inline constexpr std::size_t most_told_in_full = 20;
 
-/// Tells increments, one at a time: the lines of the listing in the left margin, the paper's equations at
-/// the right. A summary is a line an increment; memory does not grow with their number.
+/// Formats increments one by one: lines of the listing in the left margin, equations of the paper at the
+/// right. In a summary each increment is one line, and memory does not grow with their number.
 class explain_text {
  public:
-  /// Without `all`, a run of more than most_told_in_full increments has a line for each.
+  /// Without `all`, a run of more than most_told_in_full increments becomes a summary.
   explain_text(explained_kernels of, const terminal& t, bool all = true);
 
-  /// What can be printed now.
+  /// Adds an increment; returns the text that can be printed now.
   [[nodiscard]] std::string add(const explained_increment& i);
 
-  /// Behind the last increment: what was kept, or the end of the summary.
+  /// Returns the rest of the text after the last increment.
   [[nodiscard]] std::string finish();
 
  private:
@@ -76,12 +76,12 @@ class explain_text {
   terminal terminal_;
   bool all_;
   std::size_t increments_ = 0;
-  std::string in_full_;  // kept until it is known how many increments there are
-  std::string summary_;  // its lines that are not printed yet
+  std::string in_full_;  // kept until the number of increments is known
+  std::string summary_;  // lines of the summary that are not printed yet
 };
 
-/// Writes increments as they come, format "contct-explain-1" (reference/explain-format.md): memory does not
-/// grow with them. The file appears with `finish`.
+/// Writes increments one by one as JSON, format "contct-explain-1" (reference/explain-format.md). Memory does
+/// not grow with their number.
 class explain_json {
  public:
   /// `out` must outlive this object.
@@ -89,7 +89,7 @@ class explain_json {
 
   void write(const explained_increment& i);
 
-  /// Close the document.
+  /// Writes the end of the document, and finishes the file.
   void finish(std::string_view status, const explained_path& path);
 
  private:

@@ -8,12 +8,12 @@
 namespace contct {
 namespace {
 
-/// Nine digits, enough to compare by eye; the bits are given separately.
+/// A number with nine digits, to be compared by eye; its bits are given elsewhere.
 std::string number(double x) {
   return fmt::format("{:.9g}", x);
 }
 
-/// A share of a load in per cent, never rounded to all of it.
+/// A share of a load in per cent; a share below 1 is not rounded to 100 %.
 std::string per_cent(double share) {
   const std::string text = fmt::format("{:.4g}", 100.0 * share);
   return share < 1.0 && text == "100" ? "nearly 100 %" : text + " %";
@@ -23,7 +23,7 @@ bool is_separated(const explained_pair& p) {
   return p.isep_before == separated;
 }
 
-/// What the load does to a pair at its face, from the sign of SSCHK.
+/// The effect of the load on a pair at its face, from the sign of SSCHK.
 sentence check_of_sign(const explained_pair& p) {
   const bool open = is_separated(p);
   if (p.way == listing_branch::stationary_event)
@@ -51,7 +51,7 @@ std::string meaning_of_s(const explained_pair& p) {
   return fmt::format("More than 1: the residual load ends before it {}.", advances);
 }
 
-/// Whether the pair becomes the one to beat.
+/// Whether the s of the pair becomes SMIN.
 sentence competition(const explained_pair& p) {
   if (!p.at(branch::s_positive).outcome)
     return {listing::smallest, "s is not greater than 0: not a candidate.", "(6)"};
@@ -62,7 +62,7 @@ sentence competition(const explained_pair& p) {
           "(9)"};
 }
 
-/// The sentence about the candidate behind the winner.
+/// The sentence about the pair with the next larger s.
 std::string runner_up(const explained_call& c) {
   if (c.next < 0) return "No other pair has an event ahead of it.";
   if (c.ulps_ahead == 0) return fmt::format("Pair {} has the same s, to the bit.", c.next + 1);
@@ -74,7 +74,7 @@ std::string runner_up(const explained_call& c) {
                          : fmt::format("{:.4g} times the load", next / c.smin));
 }
 
-/// Why a pair that is not the winner was toggled; nothing of others.
+/// The reason why a pair other than the winner was toggled; otherwise empty.
 std::string reason_for_toggle(const explained_pair& p) {
   if (p.why == why_toggled::too_early)
     return fmt::format(

@@ -24,7 +24,7 @@ std::string side_by_side_words(const explained_kernels& of, double first, double
 
 namespace {
 
-/// The text of one increment.
+/// Formats the text of one increment.
 class increment_printer {
  public:
   increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i)
@@ -57,8 +57,8 @@ class increment_printer {
     for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
-  /// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
-  /// number.
+  /// Adds a sentence as "  38  s = GAP / d* = 0.25.                 (4)". On a wide terminal the statement
+  /// follows its number.
   void say(const sentence& t, bool loud = false) {
     constexpr int margin = 6;
     constexpr int statement_width = 49;
@@ -159,7 +159,7 @@ class increment_printer {
   std::string out_;
 };
 
-/// "1, 3" for the pairs that were toggled for this reason.
+/// Returns "1, 3": the pairs that were toggled for this reason.
 std::string pairs_toggled(const explained_call& c, why_toggled why) {
   std::vector<int> pairs;
   for (const explained_pair& p : c.pairs)
@@ -167,7 +167,8 @@ std::string pairs_toggled(const explained_call& c, why_toggled why) {
   return fmt::format("{}", fmt::join(pairs, ", "));
 }
 
-/// "make 1, break 3", "too early: 3": the events of an increment, and those that came at the wrong place.
+/// Returns "make 1, break 3", "too early: 3": the events of an increment, and its pairs that were toggled
+/// away from their faces.
 std::vector<std::string> summary_words(const explained_increment& i) {
   constexpr std::size_t most_named = 12;
   const std::span<const event> events = i.what.events;
@@ -182,13 +183,13 @@ std::vector<std::string> summary_words(const explained_increment& i) {
   return words;
 }
 
-/// What stands above the lines of a summary: the problem's title, which may be empty, and the columns.
+/// The lines above a summary: the title of the problem, which may be empty, and the headings of the columns.
 std::string summary_head(const terminal& t, const std::string& title) {
   return (title.empty() ? "" : painted(t, paint::strong, title) + "\n") +
          painted(t, paint::strong, fmt::format("{:>6}  {:<9}  {}", "incr", "share", "events")) + "\n";
 }
 
-/// An increment with its share of the step, its events, and which of these were too early.
+/// One increment of a summary: its share of the step, its events, and the pairs toggled too early.
 std::string summary_line(const terminal& t, const explained_increment& i) {
   constexpr int indent = 6 + 2 + 9 + 2;
   std::string text;

@@ -13,14 +13,14 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// "all", "2..9", or a list; from 1.
+/// Returns "all", "2..9", or a list of numbers from 1.
 json elements_json(const std::vector<int>& elements) {
   if (elements.empty()) return "all";
   if (!is_run(elements)) return numbered(elements);
   return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
 }
 
-/// Numbers from 1; null where there is none.
+/// The number counted from 1; null if it is negative.
 json number_of(int from_0) {
   return from_0 < 0 ? json(nullptr) : json(from_0 + 1);
 }
@@ -46,7 +46,7 @@ void put_kind(json& out, const plate& p) {
   if (p.E != 0) out.update({{"E", p.E}, {"thickness", p.thickness}});
 }
 
-/// Of a matrix whose dofs have no places the labels alone.
+/// For a matrix whose dofs have no places, only their labels.
 void put_kind(json& out, const assembled& a) {
   out["kind"] = "matrix";
   out["matrix"] = a.name;
@@ -151,7 +151,7 @@ void put_values(json& entry, const std::vector<double>& polynomial) {
   entry[constant ? "value" : "polynomial"] = constant ? json(polynomial[0]) : json(polynomial);
 }
 
-/// Among the lists of a load: as the problem file has it.
+/// Adds a load to the lists of loads, in the form of the problem file.
 void put_placed(json& out, const model& m, const placed_load& p) {
   const std::vector<double> values = values_of(p);
   if (p.what == load_kind::point || p.what == load_kind::moment) {
@@ -276,12 +276,12 @@ json structure_json(const problem& p) {
 
 namespace {
 
-/// Sums of two doubles each.
+/// Each number as a pair of doubles whose sum it is.
 json sums(const std::vector<double_double>& all) {
   return list_of(all, [](const double_double& x) -> json { return {x.hi, x.lo}; });
 }
 
-/// Rows of L, each from its first entry in the band to its diagonal.
+/// The rows of L, each from the first column of its band to the diagonal.
 template <class Band, class Number>
 json rows_of(const Band& l, const Number& number) {
   json rows = json::array();
@@ -307,7 +307,7 @@ json step_json(const step_proof& s) {
   json step = {{"force", s.numbers.pair_forces},
                {"reactions", s.numbers.reactions},
                {"elements", s.numbers.element_values}};
-  if (!s.of_stiffness) return step;  // it may stand anywhere: its displacements and statuses are not claimed
+  if (!s.of_stiffness) return step;  // neither displacements nor statuses are proved
   step["displacement"] = s.displacement;
   step["state"] = list_of(s.isep, state_name);
   step["u"] = sums(s.state);

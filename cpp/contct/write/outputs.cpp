@@ -10,14 +10,14 @@
 
 namespace contct {
 
-// Files of report/ and reference/parallel-edition.html, built in: embed.cmake writes them.
+// The files of report/ and reference/parallel-edition.html, which embed.cmake compiles in.
 extern const std::string_view report_html, report_css, result_js, picture_js, report_js,
     parallel_edition_html;
 
 namespace {
 
-/// The result as text of an HTML script element, where only "<" can begin anything: whatever its strings
-/// hold, none of it is markup.
+/// The result as text of an HTML script element. It contains no "<", so none of its strings can act as
+/// markup.
 std::string script_text(const run_result& r) {
   std::string text;
   output_file out(&text);
@@ -32,7 +32,7 @@ std::string script_text(const run_result& r) {
   }
 }
 
-/// The one section of the parallel edition, whose file is a page of its own.
+/// The only section of the parallel edition, which is an HTML page.
 std::string_view edition_section() {
   constexpr std::string_view last = "</section>\n";
   const std::size_t from = parallel_edition_html.find("<section");
@@ -41,7 +41,8 @@ std::string_view edition_section() {
 
 }  // namespace
 
-/// The template's places are filled from its beginning to its end, so what is filled in is not looked at.
+/// Fills the placeholders of the template from its beginning to its end, so that inserted texts are not
+/// searched.
 std::string run_page(const run_result& r) {
   const std::string title = markup_text(title_of(r.what, r.file));
   const std::pair<std::string_view, std::string> fillings[] = {

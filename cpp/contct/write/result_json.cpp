@@ -24,7 +24,7 @@ json value_json(const model& m, const placed_value& at) {
   json entry = {{"value", at.value}};
   if (std::holds_alternative<assembled>(m.kind)) {
     put_place(entry, m, at.node);
-    entry["x"] = nullptr;  // as far as the structure itself goes
+    entry["x"] = nullptr;  // a matrix has no x
     return entry;
   }
   entry["x"] = at.x;
@@ -42,14 +42,14 @@ json extremes_json(const model& m, const std::vector<value_range>& ranges) {
   return out;
 }
 
-/// `entry` and the increment that had it.
+/// Adds to `entry` the step and increment that had the value.
 template <class Value>
 json timed(json entry, const envelope::reached<Value>& at) {
   entry.update({{"step", at.step}, {"increment", at.increment}});
   return entry;
 }
 
-/// At each x the least and the largest value, and the steps that have them.
+/// The least and the largest value at each x, with their steps.
 json curves_json(const envelope_curves& all) {
   json out = {{"x", all.x}};
   for (const envelope_curves::curve& c : all.curves) {
@@ -88,7 +88,7 @@ json piece_json(const element_line& line) {
           {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
 }
 
-/// `m` is null if the places are written elsewhere.
+/// `m` is null if another part of the file has the places.
 json element_json(const model* m, const step_results& results, std::size_t e) {
   json entry = {{"element", e + 1}};
   if (m != nullptr) {
@@ -105,7 +105,7 @@ json element_json(const model* m, const step_results& results, std::size_t e) {
   return entry;
 }
 
-/// The errors of a state, that of stresses among them where there are any.
+/// The errors of a state; with that of stresses if there are any.
 json errors_json(const problem& p, const std::optional<certificate>& c, const step_results& read) {
   json out = error_json(p, c);
   if (read.stresses.names.empty()) return out;
@@ -146,8 +146,8 @@ json rule_1989_json(const run_result& r) {
           {"wrong_steps", wrong}};
 }
 
-/// Of combinations that are too many for a page, those whose states it leaves out, from 0: not those that the
-/// envelope names or that failed, and of the others evenly as many as there is room for.
+/// The combinations, from 0, whose states the page leaves out if there are too many for a page. It keeps
+/// those that the envelope names or that failed, and every n-th of the others.
 std::set<std::size_t> ends_left_out(const run_result& r) {
   const std::vector<step_record>& steps = r.record.steps;
   const std::size_t room = std::clamp<std::size_t>(2'000'000 / bytes_of_state(r.what), 4, most_pictures);
@@ -168,8 +168,8 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
   return out;
 }
 
-/// Of the states within steps, those that are written: evenly chosen, so that all together take not too many
-/// bytes.
+/// The states within steps that are written: every n-th, so that all together take at most about
+/// `most_bytes`.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
   std::vector<path_moment> within = moments_of(r);
   std::erase_if(within, [](const path_moment& m) { return m.is_end; });
@@ -214,7 +214,7 @@ class result_writer {
     return members;
   }
 
-  /// What a terminal says when the run is over.
+  /// The words that a terminal prints at the end of the run.
   [[nodiscard]] json words() const {
     return {{"end", joined(end_lines(r_.what, r_.end), ". ")},
             {"comparison", r_.comparison},
@@ -236,7 +236,7 @@ class result_writer {
     return results_of(r_.what, loads_.at(s.step, s.fraction), s);
   }
 
-  /// `read` and `s` must outlive these lists. The ends of steps alone have the places of elements.
+  /// `read` and `s` must outlive these lists. Places of elements are only included at ends of steps.
   [[nodiscard]] std::vector<json_document::list> lists(const step_results& read, const structure_state& s,
                                                        bool is_end = false) const {
     const problem& p = r_.what;
@@ -390,9 +390,9 @@ class result_writer {
   const run_result& r_;
   result_parts parts_;
   load_path loads_{r_.what};
-  std::set<std::size_t> left_out_;  // steps, from 0, of which the page has only what is largest
+  std::set<std::size_t> left_out_;  // steps, from 0, of which the page has only the extremes
   std::map<const increment_record*, path_moment> within_;
-  std::optional<path_states> states_;  // where they were recorded
+  std::optional<path_states> states_;  // empty unless states were recorded
   json_document document_;
 };
 

@@ -14,7 +14,7 @@
 namespace contct {
 
 std::string csv_field(std::string_view raw) {
-  // Spreadsheets take a cell that begins so for a formula.
+  // Spreadsheets read a cell with these beginnings as a formula.
   constexpr std::string_view beginnings[] = {"=",  "+",      "-",      "@",      "\t",
                                              "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20"};
   const std::string_view behind_blanks = raw.substr(std::min(raw.find_first_not_of(" \n"), raw.size()));
@@ -29,13 +29,13 @@ std::string csv_field(std::string_view raw) {
 
 namespace {
 
-/// Fields that need no quotes, or have them.
+/// A row of fields, which must be quoted already if necessary.
 template <class... Fields>
 std::string row_of(const Fields&... fields) {
   return fmt::format("{}\r\n", fmt::join(std::forward_as_tuple(fields...), ","));
 }
 
-/// The row of a moment. A step that ends without an increment has none of its numbers.
+/// The row of a moment. The fields of an increment are empty if the step ended without one.
 std::string csv_row(const run_result& r, const load_path& loads, const path_moment& m,
                     const std::vector<pair_reading>& pairs, int watched, std::optional<double> w) {
   const increment_record* const i = m.increment;
@@ -58,13 +58,13 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
                 csv_field(r.what.steps[step - 1].name));
 }
 
-/// Within a step by the path's own D.
+/// The readings of all pairs; within a step from the D of the path.
 std::vector<pair_reading> readings_at(const problem& p, const load& l, const path_moment& m) {
   const std::vector<contact_pair> now = pairs_under(p, l);
   std::vector<pair_reading> all;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const contact_pair& at = now[i];
-    // D is counted from moving faces.
+    // D is relative to moving faces.
     all.push_back(m.is_end ? reading_of(at, at.seen_in(m.step->end.displacement, dofs_per_node(p.geometry)),
                                         m.step->end.closed(i))
                            : reading_of(at, m.increment->d[i] + (at.face - p.pairs[i].face),
@@ -74,7 +74,7 @@ std::vector<pair_reading> readings_at(const problem& p, const load& l, const pat
   return all;
 }
 
-/// Columns at the ends of steps.
+/// Only the ends of steps count.
 int node_that_deflects_most(const run_result& r) {
   double most = 0.0;
   int at = 0;
@@ -88,7 +88,7 @@ int node_that_deflects_most(const run_result& r) {
   return at;
 }
 
-/// A state at the end of a step, and what is read off it.
+/// A state at the end of a step, with its results.
 struct end_of_step {
   const problem& what;
   const structure_state& state;
@@ -103,7 +103,7 @@ struct end_of_step {
   }
 };
 
-/// What stands behind the columns that every beam or plate has.
+/// The heading of the last column; empty if stresses are unknown.
 std::string_view stress_column(const beam& b) {
   return b.sections.empty() || b.sections.front().W == 0.0 ? "" : ",stress";
 }
@@ -137,13 +137,13 @@ std::string rows_of(const beam& b, const end_of_step& s) {
       for (const double t : extreme_places(at)) add_inside(e, at, at.left + t * at.h, t);
       if (&at != &pieces.back()) add_inside(e, at, at.right, 1.0);
     }
-    // At a hinge the node's slope is that on its right.
+    // The slope of a node with a hinge is that on its right.
     add_end(e, 1, b.has_hinge(e + 1) ? polynomial_at(pieces.back().slope, 1.0) : s.u(2 * e + 3));
   }
   return rows;
 }
 
-/// At each node the largest of its elements, which may differ there.
+/// The largest value at each node, because its elements may differ there.
 std::vector<double> von_mises_at_nodes(const model& m, const element_results& stresses) {
   std::vector<double> most(nodes(m));
   for (std::size_t e = 0; e < stresses.elements(); ++e)

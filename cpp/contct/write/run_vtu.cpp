@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
 
-/// The nodes of each element, from 0; of a structure given by its matrix those of its edges.
+/// The nodes of each element, from 0; for a matrix those of its edges.
 std::vector<std::vector<int>> elements_of(const model& m) {
   std::vector<std::vector<int>> list;
   if (const auto* a = std::get_if<assembled>(&m.kind))
@@ -27,7 +27,7 @@ std::string section(std::string_view name, std::string_view attributes, std::str
   return fmt::format("      <{0}{1}>\n{2}      </{0}>\n", name, attributes, arrays);
 }
 
-/// Numbers at all points, or all cells.
+/// An array of numbers at all points or cells.
 template <class Number>
 std::string data_array(std::string_view name, std::size_t components, const std::vector<Number>& values) {
   constexpr std::string_view type = std::is_same_v<Number, double> ? "Float64"
@@ -39,21 +39,21 @@ std::string data_array(std::string_view name, std::size_t components, const std:
       type, markup_text(name), components, fmt::join(values, " "));
 }
 
-/// A state and what is read off it.
+/// A state and its results.
 struct read_state {
   const problem& what;
   const structure_state& state;
   step_results read = results_of(what, load_path(what).at(state.step, state.fraction), state);
 };
 
-/// A pair that has a cell, from 0, and where it is; and the node of its other dof, -1 where there is none.
+/// A pair with a cell, from 0, its place, and the node of its other dof; -1: it has no other dof.
 struct pair_cell {
   std::size_t pair;
   placed_dof at;
   int other = -1;
 };
 
-/// All pairs, but for those of a matrix whose dof has no place.
+/// All pairs, except those of a matrix whose dof has no place.
 std::vector<pair_cell> pair_cells(const problem& p) {
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
   std::vector<pair_cell> list;
@@ -66,7 +66,7 @@ std::vector<pair_cell> pair_cells(const problem& p) {
   return list;
 }
 
-/// The places of all points, three numbers each.
+/// The coordinates of all points, three numbers each.
 std::vector<double> points_of(const problem& p) {
   std::vector<double> at;
   if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) {
@@ -80,7 +80,7 @@ std::vector<double> points_of(const problem& p) {
   return at;
 }
 
-/// The reaction at each dof; 0 where nothing holds it.
+/// The reaction at each dof; 0 at dofs without support.
 std::vector<double> reactions_at_dofs(const read_state& r) {
   std::vector<double> at(r.state.displacement.size());
   for (std::size_t i = 0; i < r.read.reactions.size(); ++i) {
@@ -90,13 +90,13 @@ std::vector<double> reactions_at_dofs(const read_state& r) {
   return at;
 }
 
-/// What the points have, and which of it a viewer shows first.
+/// The arrays at points, and attributes that name the array to show first.
 struct point_arrays {
   std::string_view attributes;
   std::string arrays;
 };
 
-/// Displacements and reactions, and rotations where there are any: 0 along an axis where a node has no dof.
+/// Displacements, reactions and, if there are any, rotations. Components without a dof are 0.
 point_arrays mesh_point_data(const placed_nodes& places, const read_state& r) {
   const std::vector<double> reacting = reactions_at_dofs(r);
   std::vector<double> displacement(3 * places.nodes.size());
@@ -134,8 +134,8 @@ point_arrays point_data(const read_state& r) {
   return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
 
-/// A column has a number for each element, the same for all, then one for each pair; then comes what the
-/// elements read, with zeros for the pairs behind them.
+/// The arrays at cells, elements first, then pairs. Each of the first arrays has the same number for all
+/// elements; the results of elements follow, with zeros for pairs.
 std::string cell_data(const read_state& r, std::size_t elements, const std::vector<pair_cell>& cells) {
   const auto column = [&](const char* name, auto of_elements, auto of_pair) {
     std::vector<decltype(of_elements)> values(elements, of_elements);
@@ -189,7 +189,7 @@ std::string field_data(const problem& p, const structure_state& s) {
         type, name, value);
   };
   std::string name;
-  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // a text is its bytes, and 0
+  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // the bytes of a text, and 0
     for (const char c : p.steps[s.step - 1].name) name += fmt::format("{} ", static_cast<unsigned char>(c));
     name = one("name", "String", name + "0");
   }
@@ -197,7 +197,7 @@ std::string field_data(const problem& p, const structure_state& s) {
          one("share", "Float64", s.fraction) + name + "    </FieldData>\n";
 }
 
-/// A file of VTK's, with what is in its one part.
+/// A VTK file with one part, which contains `content`.
 std::string file_of(std::string_view type, std::string_view content) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

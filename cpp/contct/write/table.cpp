@@ -18,31 +18,31 @@ namespace contct {
 
 namespace {
 
-// increment, share and s, each with the blanks behind it: what every row has.
+// The columns increment, share and s of every row, each with the blanks after it.
 constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2;
-constexpr int kernels_width = 7 + 2;  // where there are two or more, or both rules
+constexpr int kernels_width = 7 + 2;  // only with two or more kernels, or both rules
 constexpr int load_width_at_most = 24;
 constexpr int load_width_at_least = 12;
 constexpr int events_width_at_least = 22;
 constexpr std::size_t most_events_shown = 12;
-/// Of more steps the extremes are in tables of their own below the steps.
+/// A run of more steps has its extremes in separate tables below the steps.
 constexpr std::size_t few_steps = 6;
-/// More combinations than this have a row each, instead of one for each increment.
+/// If there are more combinations, each has one row instead of one for each increment.
 constexpr std::size_t most_combinations_in_full = 12;
 constexpr std::size_t name_width_at_most = 24;
 
-/// "node 3 below", of a pair from 0.
+/// Returns "node 3 below" for a pair, from 0.
 std::string face_words(const problem& p, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
   return fmt::format("{} {}", place_words(p.geometry, at.node), surface_name(at.surface));
 }
 
-/// "make 1: node 3 below".
+/// Returns "make 1: node 3 below"; `pair` counts from 0.
 std::string event_words(const problem& p, change what, int pair) {
   return fmt::format("{} {}: {}", change_name(what), pair + 1, face_words(p, pair));
 }
 
-/// Columns that any one event of a problem may take.
+/// The columns that the longest event of a problem takes.
 int widest_event(const problem& p) {
   std::size_t widest = events_width_at_least;
   for (std::size_t i = 0; i < p.pairs.size(); ++i)
@@ -50,18 +50,18 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// The largest of each quantity on a path so far, by name: what is nothing but rounding of it is printed as
-/// 0.
+/// The largest size of each quantity so far, by name. Values that are only rounding compared with it are
+/// printed as 0.
 using sizes_so_far = std::map<std::string, double, std::less<>>;
 
-/// `value`, or 0 where it is nothing but the rounding of larger ones of its name.
+/// `value`, or 0 if it is only the rounding of larger values of this name.
 double without_rounding(std::string_view name, double value, sizes_so_far& sizes) {
   double& size = sizes[std::string(name)];
   size = std::max(size, std::abs(value));
   return std::abs(value) <= 1e-12 * size ? 0.0 : value;
 }
 
-/// The quantity whose extremes stand for the bending of the structure; null where nothing bends.
+/// The moments with the largest value; null if the structure has no moments.
 const value_range* bending(const std::vector<value_range>& ranges) {
   const value_range* most = nullptr;
   for (const value_range& r : ranges) {
@@ -73,9 +73,9 @@ const value_range* bending(const std::vector<value_range>& ranges) {
   return most;
 }
 
-/// The largest deflection, moment, contact force and reaction with their places, a line each, of at most
-/// `width` columns where that is 60 or more. `all`: shears too, and the other extreme below each
-/// where it is not 0.
+/// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
+/// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and below each line the other
+/// extreme if it is not 0.
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
                                        sizes_so_far& sizes, bool all) {
   std::vector<std::string> lines;
@@ -87,7 +87,7 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
     lines.push_back(std::move(line));
   };
   const auto add_range = [&](std::string_view name, const value_range& v) {
-    const bool is_least = -v.least.value > (1 + 1e-9) * v.most.value;  // of ties the positive one
+    const bool is_least = -v.least.value > (1 + 1e-9) * v.most.value;  // of equal sizes the positive value
     const placed_value& first = is_least ? v.least : v.most;
     const placed_value& other = is_least ? v.most : v.least;
     const double most = without_rounding(name, first.value, sizes);
@@ -123,7 +123,7 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
   return lines;
 }
 
-/// The three sums of forces, and what each bed does.
+/// The sums of loads, reactions and contact forces, and the results of each bed.
 std::vector<std::string> sum_lines(const problem& p, const load& acting, const structure_state& s,
                                    const step_results& r, sizes_so_far& sizes) {
   std::vector<std::string> lines;
@@ -143,7 +143,7 @@ std::vector<std::string> sum_lines(const problem& p, const load& acting, const s
   return lines;
 }
 
-/// " 2.5" or " 2.5, 1": where a node of a beam or plate is, for the end of a row.
+/// Returns " 2.5" or " 2.5, 1", the place of a node of a beam or plate, for the end of a row.
 std::string place_column(const model& m, int node) {
   if (std::holds_alternative<assembled>(m.kind)) return "";
   const place at = place_of_node(m, node);
@@ -192,7 +192,7 @@ std::string detail_tables(const problem& p, const structure_state& s, const step
   return text;
 }
 
-/// "1989: make 3 at 0.51", "1989: no make 3".
+/// Returns "1989: make 3 at 0.51", "1989: no make 3".
 std::vector<std::string> words_of_1989(const row_of_1989& row) {
   std::vector<std::string> words;
   for (const other_event& e : row.otherwise) {
@@ -206,7 +206,6 @@ std::vector<std::string> words_of_1989(const row_of_1989& row) {
   return words;
 }
 
-/// Prints the rows of a run.
 class table_printer {
  public:
   table_printer(const run_result& r, const terminal& t, bool detail)
@@ -239,12 +238,12 @@ class table_printer {
  private:
   using increments = std::span<const increment_record>;
 
-  /// What the column about the kernels is called; empty where there is none.
+  /// The heading of the column about the kernels; empty if there is no such column.
   [[nodiscard]] std::string_view column() const {
     return run_.beside ? "1989" : run_.compared ? "kernels" : "";
   }
 
-  /// Increments at which the step's load has only begun share a row.
+  /// Prints a step. Increments at its very beginning share one row.
   void print_step(std::size_t number) {
     const step_record& s = run_.record.steps[number];
     const increments all = s.increments;
@@ -261,8 +260,8 @@ class table_printer {
     print_end(s, run_.judged.steps()[number]);
   }
 
-  /// Of both rules' runs, increments without a share of their own are one row: which pair comes first is
-  /// rounding of the solver. `i` moves behind them.
+  /// Merges the increments from `i` on that have no load between them into one row, in a run of both rules,
+  /// because only rounding decides which of their pairs comes first. Moves `i` past them.
   [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const {
     constexpr double no_share = 1e-12;
     increment_record row = all[i++];
@@ -289,7 +288,8 @@ class table_printer {
     return events;
   }
 
-  /// One such increment with a few events has a row as any other.
+  /// Prints the increments at the beginning of a step. A single increment with few events is printed like any
+  /// other.
   void print_first_load(increments begun, const row_of_1989& other) {
     std::set<int> makes;
     std::set<int> breaks;
@@ -317,7 +317,7 @@ class table_printer {
     return line.erase(line.find_last_not_of(' ') + 1);
   }
 
-  /// What the 1989 rule did in these increments of a step.
+  /// The differences of the 1989 rule in these increments of a step.
   [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const {
     row_of_1989 all;
     if (!run_.beside) return all;
@@ -328,7 +328,7 @@ class table_printer {
     return all;
   }
 
-  /// Seven columns, or nothing.
+  /// The cell about the kernels, of seven columns; empty without that column.
   [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const {
     if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
     if (!run_.compared) return "";
@@ -352,7 +352,7 @@ class table_printer {
   }
 
   void print_end(const step_record& s, const std::optional<certificate>& judged) {
-    // If the path ends as a pair separates, the pair keeps its status, without force.
+    // A pair that separates at the end of a path keeps its status, without force, and is not counted.
     auto closed = std::ranges::count(s.end.isep, in_contact);
     if (!s.increments.empty())
       for (const event& e : s.increments.back().events)
@@ -402,7 +402,7 @@ class table_printer {
 
   void print_heading(std::string_view words) { text_ += painted(terminal_, paint::strong, words) + '\n'; }
 
-  /// Combinations one a row.
+  /// Prints one row for each combination.
   void print_combinations() {
     std::size_t width = 11;
     for (const load& l : problem_.steps) width = std::max(width, std::min(l.name.size(), name_width_at_most));
@@ -432,7 +432,8 @@ class table_printer {
     }
   }
 
-  /// The least and largest of all combinations, a line each, with their names.
+  /// Prints the least and largest values of all combinations, one line each, with the names of their
+  /// combinations.
   void print_envelope() {
     const envelope e = envelope_of(run_);
     std::string lines;
@@ -457,7 +458,7 @@ class table_printer {
     text_ += lines;
   }
 
-  /// A table for each quantity, a step a row.
+  /// Prints a table for each quantity, with one row for each step.
   void print_extremes() {
     for (const auto& [number, of_steps] : extremes_) {
       text_ += '\n';
@@ -476,12 +477,12 @@ class table_printer {
   const terminal& terminal_;
   bool detail_;
   bool whole_ends_;
-  int load_width_ = 0;                     // 0: no room for loads
-  int indent_ = 0;                         // of the events
-  bool events_below_ = false;              // on a narrow terminal they stand on lines of their own
-  bool headed_ = false, snapped_ = false;  // what the rows so far have shown
+  int load_width_ = 0;                     // 0: there is no room for loads
+  int indent_ = 0;                         // indent of the events
+  bool events_below_ = false;              // on a narrow terminal events have separate lines
+  bool headed_ = false, snapped_ = false;  // the rows so far include a heading, a snap
   sizes_so_far sizes_;
-  /// Of each quantity, by its place among the ranges: the number of a step, and its range.
+  /// For each quantity, by its index in step_results::ranges: steps and their ranges.
   std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;
   std::string text_;
 };

@@ -13,15 +13,15 @@
 namespace contct {
 namespace {
 
-/// Correct digits at a relative error. Above ten they depend on the LAPACK in use.
+/// The number of correct digits at a relative error. Beyond ten digits it depends on the LAPACK in use.
 std::string digits_words(double error) {
   constexpr int enough = 10;
   const int digits = error > 0.0 ? static_cast<int>(-std::log10(error)) : enough;
   return digits >= enough ? fmt::format("{} digits or more", enough) : fmt::format("{} digits", digits);
 }
 
-/// The toggle farthest from its face, up to the end of a step, in words; nothing when all were at theirs, but
-/// for the rounding of the step's deflections.
+/// The event that was farthest from the face of its pair, up to the end of a step, in words; empty if all
+/// were at their faces up to the rounding of the step's deflections.
 std::string worst_until(int step, const certificate& c, const problem& p, const early_toggles& early) {
   const double deflection = c.allowed[quantity::w].value_or(0.0) / certified_share;
   const early_toggle* worst = nullptr;
@@ -36,7 +36,7 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
       worst->distance, unit_words(p, "w"), percent_words(worst->share));
 }
 
-/// Of hundreds of combinations no more are named.
+/// Shortens the list: there may be hundreds of combinations.
 std::vector<std::string> first_of(std::vector<std::string> lines) {
   constexpr std::size_t most = 12;
   if (lines.size() <= most) return lines;
@@ -46,7 +46,7 @@ std::vector<std::string> first_of(std::vector<std::string> lines) {
   return lines;
 }
 
-/// The pair in contact that pulls most, in words; nothing where none does.
+/// The pair in contact that pulls most, in words; empty if none pulls.
 std::string pull_words(const certificate& c, const problem& p) {
   if (c.pulling < 0) return "";
   return fmt::format("; {} pulls with {:.3g}{}", pair_words(p, c.pulling), c.pull, unit_words(p, "force"));
@@ -156,7 +156,7 @@ std::string mechanism_words(const problem& p, const path_end& end) {
          " separated, the structure became a mechanism";
 }
 
-/// Why nothing holds the structure, of which no proof says that there is no equilibrium.
+/// The reason why nothing holds the structure, if it is not proved that there is no equilibrium.
 std::string loose_words(const problem& p, const path_end& end) {
   if (!end.pairs.empty())
     return "when " + words_of_pairs(p, end.pairs) + " separated, nothing held the structure";
@@ -166,7 +166,7 @@ std::string loose_words(const problem& p, const path_end& end) {
              : "the supports and the pairs in contact do not hold the structure";
 }
 
-/// Whether there is an equilibrium that the path did not reach, and what reaches it.
+/// Whether an equilibrium exists that the path did not reach, and which rule reaches it.
 std::string verdict_words(const path_end& end, bool is_answer) {
   if (!end.has_equilibrium)
     return ". Whether there is an equilibrium under the load of this step is not decided";
@@ -233,9 +233,9 @@ std::string passage_warning(const problem& p, std::span<const step_record> steps
 
 namespace {
 
-/// What acts at `node` of a plate alone: moments are infinite there, but at a corner, where a force makes
-/// twisting moments of half its size. Pairs of beds do not: each stands for an area. Empty where nothing
-/// acts.
+/// The concentrated force on `node` of a plate, in words; empty if there is none. Moments are infinite at
+/// such a node, except at a corner, where a force causes twisting moments of half its size. Pairs of beds do
+/// not count, because each represents an area.
 std::string concentrated_at(const problem& p, const load& l, const step_results& r, int node) {
   const auto& on = std::get<plate>(p.geometry.kind);
   const place at = place_of_node(p.geometry, node);
@@ -281,10 +281,10 @@ std::string concentration_warning(const problem& p, std::span<const step_record>
 }
 
 std::string digit_warning(std::span<const step_record> steps) {
-  int fewest = 5;  // a state with as many needs no warning
+  int fewest = 5;  // a state with 5 digits needs no warning
   const step_record* worst = nullptr;
   for (const step_record& s : steps) {
-    // Refined states, and those of the exact path, keep their digits.
+    // Refined states and those of the exact path do not lose digits.
     if (s.end.numbers || s.from_exact_path || digits_left(s.rcond) >= fewest) continue;
     fewest = digits_left(s.rcond);
     worst = &s;
@@ -301,10 +301,11 @@ std::string digit_warning(std::span<const step_record> steps) {
 
 namespace {
 
-/// The stiffest of the pairs, as a share of the structure's own stiffness at its dof, where the rounding of w
-/// there may come to more than the force of the pair; empty where all are softer.
+/// Advice on the pair whose stiffness is the largest share of the structure's own stiffness at its dof, if
+/// the rounding of w there may change its force by more than the force itself; otherwise empty.
 std::string stiffness_advice(const run_result& r) {
-  constexpr double rigid = 1e8;  // as a share: a stiffer pair gives nearly the same digits
+  constexpr double rigid = 1e8;  // share of the structure's stiffness: a stiffer pair gives nearly the same
+                                 // digits
   constexpr double too_stiff = 1e12;
   double most = too_stiff;
   std::string words;
@@ -333,7 +334,7 @@ std::vector<std::string> complaints_of(const run_result& r) {
     lines.push_back(of_stiffness);
     return lines;
   }
-  // Without any proved bounds, the other rule may have none either.
+  // If no bounds are proved, the corrected rule may have none either.
   const bool is_bounded =
       std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });
   if (!lines.empty() && is_bounded && !r.kernels.empty() &&
@@ -366,7 +367,7 @@ std::vector<std::string> end_messages(const run_result& r) {
 std::vector<std::string> warnings_of(const run_result& r) {
   std::vector<std::string> lines = r.what.warnings;
   const std::string begin = (r.file == "-" ? "standard input" : r.file) + ":";
-  for (std::string& line : lines)  // a result is the same wherever its problem stands
+  for (std::string& line : lines)  // a result does not depend on the folder of its problem
     if (line.starts_with(begin)) line.erase(0, line.find(": ", begin.size()) + 2);
   std::ranges::move(state_warnings(r), std::back_inserter(lines));
   return lines;
@@ -389,7 +390,7 @@ std::vector<std::string> refinement_words(const run_result& r) {
 
 namespace {
 
-/// "1.2 kN, 4 % of the largest of its kind".
+/// Returns "1.2 kN, 4 % of the largest of its kind".
 std::string size_words(const run_result& r, const state_difference& d) {
   return fmt::format("{:.3g}{}, {} of the largest of its kind", std::abs(d.value - d.right),
                      unit_of(r.what, d.what), percent_words(d.share));
@@ -402,9 +403,9 @@ std::string wrong_words(const run_result& r, const state_difference& d) {
       name_of_kind(d.what), d.at, d.value, unit, d.right, unit, size_words(r, d));
 }
 
-/// How closely states agree, none of which is wrong; `all` is not empty.
+/// The words for states that agree, with their largest difference; `all` is not empty.
 std::string agreement_words(const run_result& r, std::span<const state_difference> all) {
-  constexpr double ten_digits = 1e-10;  // what lies below depends on the LAPACK in use
+  constexpr double ten_digits = 1e-10;  // smaller differences depend on the LAPACK in use
   const auto worst = std::ranges::max_element(all, {}, &state_difference::share);
   const std::string start = fmt::format("the 1989 rule comes to the same states{}",
                                         r.beside->same_events ? "" : " by other events");

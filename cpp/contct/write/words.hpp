@@ -1,5 +1,5 @@
-// The words for statuses, events, certificates and the end of a run, the same on the terminal, on the page
-// and in every file.
+// Words for statuses, events, certificates and the end of a run. They are the same on the terminal, on the
+// page and in every file.
 #pragma once
 
 #include <fmt/format.h>
@@ -31,78 +31,78 @@ constexpr std::string_view state_name(int isep) {
   return isep == in_contact ? "contact" : "separated";
 }
 
-/// "make 1, break 3".
+/// Returns the events as "make 1, break 3".
 [[nodiscard]] std::string event_names(std::span<const event> events);
 
-/// "pair 3 (node 4, below)", of pair 2 from 0.
+/// Returns "pair 3 (node 4, below)" for pair 2, counted from 0.
 [[nodiscard]] std::string pair_words(const problem& p, std::size_t pair);
 
-/// As --csv has it.
+/// The state of a pair as --csv writes it.
 constexpr std::string_view look_name(pair_state look) {
   constexpr std::string_view names[] = {"open", "closed", "at its face"};
   return names[static_cast<std::size_t>(look)];
 }
 
-/// Why a path ended where it did.
+/// The reason for the end of a path.
 constexpr std::string_view end_reason(path_status status) {
   constexpr std::string_view reasons[] = {"all load applied", "mechanism",    "cycle",
                                           "iteration limit",  "not factored", "path ended"};
   return reasons[static_cast<std::size_t>(status)];
 }
 
-/// A share in at most nine columns, with as many digits as fit. What is less than 1 is never shown as 1,
-/// which means the whole load: "1-3e-09".
+/// A share in at most nine columns, with as many digits as fit. A share below 1 is never shown as 1, which
+/// means the whole load, but as "1-3e-09".
 [[nodiscard]] std::string share_words(double x);
 
-/// "7 digits" of every number of a state, as proved; "10+ digits" where there are more, which depend on the
-/// LAPACK in use.
+/// "7 digits": the proved digits of every number of a state. From 10 digits on "10+ digits", because further
+/// digits depend on the LAPACK in use.
 [[nodiscard]] std::string digits_words(const certificate& c);
 
-/// "step 3", or "combination \"ULS 1\"" of one that starts from zero; from 1.
+/// "step 3", or "combination \"ULS 1\"" if steps start from zero. `step` counts from 1.
 [[nodiscard]] std::string step_words(const problem& p, int step);
 
-/// One line for a whole run, in parts: that it is certified and how closely, or the first step that is not.
-/// A path that is not `solved` is not certified as a whole: the steps that are, are named.
+/// One line for a whole run, in parts: the run is certified and how closely, or the first step that is not
+/// certified. A run that is not `solved` is not certified; its certified steps are named.
 [[nodiscard]] std::vector<std::string> certificate_summary(const run_result& r, bool solved);
 
-/// For every step that is not certified a line that says what is wrong, how far off, and which
-/// increment toggled which pair away from its face before.
+/// One line for every step that is not certified: the error, its size, and the earlier increment in which a
+/// pair made or broke contact farthest from its face.
 [[nodiscard]] std::vector<std::string> certificate_complaints(const run_result& r);
 
-/// Why a path did not reach its end: step, share of the step, and the pairs that had to do with
-/// it. Empty for a path that did.
-/// `is_answer`: nothing else leads to an equilibrium that it did not reach.
+/// The reason why a path ended early: step, share of the step, and the pairs involved; empty if it did not.
+/// `is_answer`: the path is the answer of the run; then the text recommends the corrected rule if the 1989
+/// rule missed an equilibrium.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end, bool is_answer = true);
 
-/// Of a run of both rules: whether the 1989 rule comes to the states of the answer, and what is wrong with
-/// those that differ, a line each. Empty for other runs.
+/// For a run of both rules: whether the 1989 rule reaches the states of the answer, and one line for each
+/// wrong state. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
 
-/// The same for every step that was not solved, a line each; of very many the first ones.
+/// One line of end_words for every step that was not solved; of many lines only the first ones.
 [[nodiscard]] std::vector<std::string> end_lines(const problem& p, const path_end& end);
 
-/// A warning where too few digits of the end of a step are left to rely on; empty otherwise.
+/// A warning if the end of a step has too few reliable digits; otherwise empty.
 [[nodiscard]] std::string digit_warning(std::span<const step_record> steps);
 
-/// A warning where, at the end of a step, a beam passes through a face between pairs, and its remedy; empty
-/// where it does not.
+/// A warning, with a remedy, if a beam passes through a face between two pairs at the end of a step;
+/// otherwise empty.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
-/// A warning where a plate's largest stress or moment is where a point load or a [[contact]] pair acts; empty
-/// where it is not.
+/// A warning if the largest stress or moment of a plate is at a point load or a [[contact]] pair; otherwise
+/// empty.
 [[nodiscard]] std::string concentration_warning(const problem& p, std::span<const step_record> steps);
 
-/// Of the problem, without file and line, and of the states that the run came to.
+/// The warnings of the problem, without file and line, and those of the states of the run.
 [[nodiscard]] std::vector<std::string> warnings_of(const run_result& r);
 
-/// What half the element size changes, in parts; empty where it was not asked for, or not solved.
+/// The changes if the element size is halved, in parts; empty if this was not requested or not solved.
 [[nodiscard]] std::vector<std::string> refinement_words(const run_result& r);
 
-/// What is wrong with the ends of steps, and where the 1989 rule leads the command that follows the
-/// problem by the corrected one.
+/// The errors at the ends of steps and, if the 1989 rule leads, the command for a run with the corrected
+/// rule.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
-/// The same, why the path ended, and warnings but for the problem's.
+/// `complaints_of`, the reason for the end of the path, and the warnings of the states.
 [[nodiscard]] std::vector<std::string> end_messages(const run_result& r);
 
 }  // namespace contct
