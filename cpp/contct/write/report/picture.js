@@ -1,23 +1,23 @@
-// The picture of the structure in one state of a result: nodes where they have gone, with pairs, supports and loads, whatever
-// the structure is. A beam has its moments and shears below, a plate the colours of a quantity. The playground draws with it, too.
+// Draws the structure in one state of a result: moved nodes, with pairs, supports and loads. Below a beam are its
+// moments and shears; a plate has the colours of a quantity. The playground uses this file too.
 "use strict";
 
 // ---- words and numbers ----
 
 const minus = (text) => text.replace(/-/g, "\u2212");
 const digits = (x, count) => minus(String(Number(x.toPrecision(count))));
-// Seven digits for people; the whole number stands in the title and in data-value.
+// Seven digits; the whole number is in the title and in data-value.
 const short = (x) => (x === null || x === undefined ? "–" : digits(x, 7));
 const rough = (x) => digits(x, 4);
 const counted = (n, what) => `${n.toLocaleString("en")} ${what}${n === 1 ? "" : "s"}`;
 const sentence = (text) => text[0].toUpperCase() + text.slice(1) + ".";
-// What moves and how it is named: "deflection w of node 3", "displacement of dof 6.y".
+// The name of what moves: "deflection w of node 3", "displacement of dof 6.y".
 const moves = () => (ofMatrix ? "displacement" : "deflection");
 const unitOf = () => (ofMatrix ? "dof" : "node");
 const placed = (name) => `${unitOf()} ${name}`;
 
-// A unit, by its powers of force and length; none where the problem names none. A plate's moments are per length.
-// What a bed of a beam has is per length, not per area.
+// The unit of a quantity, from its powers of force and length; empty if the problem names no units. Moments of a plate
+// are per length. Loads and beds of a beam are per length, not per area.
 const powers = { w: [0, 1], force: [1, 0], moment: [1, 1], shear: [1, 0], load: [1, -2], pressure: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2],
   area: [0, 2], stress: [1, -2], von_mises: [1, -2], s1: [1, -2], s2: [1, -2] };
 function unit(quantity) {
@@ -31,19 +31,19 @@ function unit(quantity) {
 }
 const inUnit = (name, quantity) => name + (unit(quantity) ? ` [${unit(quantity)}]` : "");
 
-// Where a value of the extremes is: at a node, or between two of a beam's.
+// The place of an extreme value: a node, or a place between two nodes of a beam.
 function placeOf(v) {
   if (v.dof !== undefined) return placed(v.dof);
   const node = structure.nodes.find((n) => n.x === v.x && (v.y === undefined || n.y === v.y));
   return node === undefined ? `x = ${rough(v.x)}` : placed(node.node);
 }
-// The larger of both values by magnitude, then the other one where its sign differs.
+// The larger of both values by magnitude, followed by the other one if their signs differ.
 function toldOf({ min, max }) {
   const [first, second] = -min.value > max.value ? [min, max] : [max, min];
   return second.value * first.value < -1e-9 * first.value ** 2 ? [first, second] : [first];
 }
 const largestOf = (range) => toldOf(range)[0];
-// The largest deflection, inside a beam's elements too.
+// The largest deflection, which may be inside an element of a beam.
 const mostOf = (f) => (f.extremes.w ? largestOf(f.extremes.w) : { value: 0, ...(ofMatrix ? structure.dofs[0] : structure.nodes[0]) });
 
 const looks = { o: "separated", c: "in contact", f: "at its face" };
@@ -60,7 +60,7 @@ function allEventWords(events, most = 8) {
   return named.join("; ");
 }
 
-// A state in words, read aloud when it changes.
+// A state in words. Screen readers read it aloud when it changes.
 function stateWords(f) {
   const [open, closed, atFace] = ["o", "c", "f"].map((look) => f.pairs.filter((p) => p.look === look).length);
   const place = f.step === 0 ? "Before any load."
@@ -75,11 +75,12 @@ function stateWords(f) {
   return `${place}${event}${fallback}${pairs} Largest ${moves()} ${short(mostOf(f).value)} at ${placeOf(mostOf(f))}.`;
 }
 
-// ---- of very many things some are drawn ----
+// ---- a selection of many things ----
 
-const cuts = new Set();  // what the page leaves out, in words
+const cuts = new Set();  // sentences about what the page leaves out
 
-// `count` numbers from 0 to `all` - 1, evenly, the first and the last among them; all if there are not more than `count`.
+// `count` evenly chosen numbers from 0 to `all` - 1, with the first and the last; all numbers if there are at most
+// `count`.
 const evenly = (all, count) => Array.from({ length: Math.min(all, count) }, (_, i) => (all <= count ? i : Math.floor((i * (all - 1)) / (count - 1))));
 
 function some(what, all, most) {
@@ -105,7 +106,7 @@ const panelTitle = (x, y, words) => label(x, y, words, { class: "panel-title" })
 const shape = (d, kind, more = {}) => svg("path", { d, class: kind, ...more });
 const lineTo = (points) => "M" + points.map(([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`).join("L");
 const path = (points, kind, end = "") => shape(lineTo(points) + end, kind);
-// Shapes that tell what they are when the pointer is over them.
+// Shapes that show `words` when the pointer is over them.
 const titled = (words, ...shapes) => svg("g", {}, svg("title", {}, words), ...shapes);
 
 function canvas(holder, width, height, title) {
@@ -114,25 +115,25 @@ function canvas(holder, width, height, title) {
   return root;
 }
 
-// On paper pictures have a width of their own, at which their words are as large as the text around.
+// On paper, pictures have a fixed width at which their words are as large as the text.
 let printing = false;
 const widthOf = (holder) => (printing ? 940 : Math.max(320, holder.clientWidth));
 
-// One of these digits times a power of ten, not above x.
+// The largest of `leading` times a power of ten that is not above x.
 function roundDown(x, leading = [1, 2, 5]) {
   const power = 10 ** Math.floor(Math.log10(x));
   return Number((Math.max(...leading.filter((d) => d * power <= x * (1 + 1e-12)), 1) * power).toPrecision(3));
 }
-// 1, 2 or 5 times a power of ten, not below x.
+// The least of 1, 2 or 5 times a power of ten that is not below x.
 function roundUp(x) {
   const power = 10 ** Math.floor(Math.log10(x));
   return Number(([1, 2, 5, 10].find((d) => d * power >= x * (1 - 1e-12)) * power).toPrecision(3));
 }
-// How many times larger than they are displacements of `most` can be drawn in `room`.
+// The magnification with which displacements of `most` fit into `room`.
 const magnificationFor = (most, room) => (most > 0 && room > 0 ? roundDown(room / most, [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8]) : 1);
 const timesWords = (factor) => `× ${factor.toLocaleString("en", { maximumSignificantDigits: 3 })}`;
 
-// Round numbers from one to the other: at most so many and one, but never fewer than three.
+// Round numbers from `from` to `to`: about `most`, but at least three.
 function ticks(from, to, most) {
   if (!(to > from) || !isFinite(to - from)) return [];
   const multiples = (step) => {
@@ -145,7 +146,7 @@ function ticks(from, to, most) {
   return multiples(step);
 }
 
-// Grid lines with their numbers: up the left side of what is drawn, and along its bottom.
+// Grid lines with their numbers on the left (scaleUp) and at the bottom (scaleAlong).
 function scaleUp(root, values, Y, left, right, away = 16) {
   for (const v of values) {
     root.append(line(left, Y(v), right, Y(v), v === 0 ? "zero" : "grid"),
@@ -169,7 +170,8 @@ function arrow(x, y, dx, dy, kind) {
     shape(`M${x + dx} ${y + dy}L${bx - uy * 4} ${by + ux * 4}L${bx + uy * 4} ${by - ux * 4}Z`, "", { "stroke-width": 0 }));
 }
 
-// The looks differ in shape: open is a ring, closed a square, at its face a diamond, full when in contact.
+// A separated pair is a ring, a pair in contact a square, and a pair at its face a diamond, which is filled if the pair
+// is in contact.
 function pairMark(look, x, y, r, closed = false) {
   if (look === "o") return svg("circle", { cx: x, cy: y, r, class: "pair-open" });
   if (look === "c") return svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "pair-closed" });
@@ -177,7 +179,7 @@ function pairMark(look, x, y, r, closed = false) {
   return shape(`M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, closed ? "pair-face in-contact" : "pair-face");
 }
 
-// A word where no other stands, and inside the picture, to the right of `left`; otherwise none.
+// Returns a function that writes a word if its place in the picture, to the right of `left`, is free.
 function wordsInFreePlaces(root, width, height, left = 2) {
   const boxes = [];
   return (at, y, words, kind) => {
@@ -194,14 +196,15 @@ function wordsInFreePlaces(root, width, height, left = 2) {
 
 // ---- pairs, supports and loads ----
 //
-// `on` says where they are on the page. spot(p): where the node is now. along(p): the dof's positive direction, of
-// length 1; null where it has none on the page. pixels(p): pixels for a displacement of 1 in that direction. say: see
-// wordsInFreePlaces. r, half: sizes of marks and of half a face. limit: how far from its node's first place a face is drawn.
+// `on` gives their places on the page. spot(p): the place of the moved node. along(p): the positive direction of the
+// dof, of length 1; null if it is perpendicular to the page. pixels(p): pixels for a displacement of 1 in that
+// direction. say: see wordsInFreePlaces. r, half: sizes of marks and of half a face. limit: the largest distance at
+// which a face is drawn from its undeformed node.
 
 let drawnPairs = [], drawnSupports = [];
 const pairsOf = (f) => drawnPairs.map((i) => f.pairs[i]).filter((p) => p.at >= 0);
 
-// Several pairs may stand at one node: their marks are drawn one over another, the one that carries most last.
+// A node may have several pairs. The mark of the pair with the largest force is drawn last, on top.
 const drawingOrder = { o: 0, f: 1, c: 2 };
 const leastLoadedFirst = (pairs) => [...pairs].sort((a, b) => drawingOrder[a.look] - drawingOrder[b.look] || Math.abs(a.force) - Math.abs(b.force));
 
@@ -219,9 +222,9 @@ function drawPairs(root, pairs, on) {
   root.append(...marks);
 }
 
-// The face stands across the pair's direction, as far from where the node was as c is, hatched on the far side; dashed
-// where that is farther than is drawn. A face in contact is where the node is: its spring is pressed, from where the face
-// stood before. From it the contact force.
+// Draws the face of a pair across the direction of its dof, at distance c from the undeformed node, hatched on the far
+// side; dashed if it is too far away to be drawn there. A face in contact is drawn at the node, with a line for its
+// spring from the undeformed place, and an arrow for the contact force.
 function drawFace(root, p, [x, y], t, on, numbered) {
   const node = on.pixels(p) * p.w;
   const along = on.pixels(p) * p.face;
@@ -231,7 +234,7 @@ function drawFace(root, p, [x, y], t, on, numbered) {
   root.append(line(...at(face, -half), ...at(face, half), "face-line" + (p.closed || face === along ? "" : " far")));
   if (half >= 5) for (let k = -half + 2; k < half; k += 6) root.append(line(...at(face, k), ...at(face + p.side * 6, k - 4), "hatch"));
   if (p.closed && Math.abs(along - node) > 3) root.append(line(...at(along, -half), ...at(along, half), "spring"), line(...at(along), x, y, "spring"));
-  // Beyond the face's hatches and the node's mark.
+  // The arrow starts outside the hatches and the mark of the node.
   const tip = p.side > 0 ? Math.max(face + 10, node + on.r + 3) : Math.min(face - 10, node - on.r - 3);
   const length = scene.force > 0 ? (36 * Math.abs(p.force)) / scene.force : 0;
   const start = tip + p.side * length;
@@ -249,7 +252,7 @@ function supportMark([x, y], t, spring) {
   return shape(`M${at(2, 0)}L${at(4, 5)}L${at(8, -5)}L${at(12, 5)}L${at(16, -5)}L${at(18, 0)}M${at(18, 8)}L${at(18, -8)}`, "thin");
 }
 
-// A support along no direction of the page, as that of a slope, is a box around its node.
+// A support without a direction on the page, such as that of a slope, is a box around its node.
 function drawSupports(root, f, on) {
   for (const s of drawnSupports.filter(({ at }) => at >= 0)) {
     const [[x, y], t] = [on.spot(s), on.along(s)];
@@ -261,7 +264,7 @@ function drawSupports(root, f, on) {
   }
 }
 
-// Concentrated loads as arrows; about an axis as arcs, and as rings where they point at the eye.
+// Draws concentrated forces as arrows and moments as arcs; forces perpendicular to the page are rings.
 function drawPoints(root, f, on) {
   const loads = pointsOf(f).filter(({ at, value }) => at >= 0 && value !== 0);
   for (const p of some("loads", loads.length, 1000).map((i) => loads[i])) {
@@ -282,11 +285,11 @@ function drawPoints(root, f, on) {
   }
 }
 
-// ---- what a beam has besides ----
+// ---- beams ----
 
 const isBeam = () => structure.kind === "beam";
 
-// Places along the beam, nodes and places between: [element, share].
+// Places along the beam: nodes and places between them, as [element, share].
 function placesAlong() {
   const stations = scene.lines[0];
   const pieces = stations.length < structure.nodes.length ? 1 : Math.ceil(240 / stations.length);
@@ -298,7 +301,7 @@ function xAt([e, share]) {
   return share === 1 ? to : from + share * (to - from);
 }
 
-// The distributed load above or below the beam, as large as it is there.
+// Draws the distributed load above or below the beam, to scale.
 function drawLineLoad(root, f, { X, Y, ends }) {
   const load = lineLoadOf(f);
   if (load === null || scene.lineLoad === 0) return;
@@ -322,7 +325,8 @@ function drawLineLoad(root, f, { X, Y, ends }) {
   }
 }
 
-// The scale and the words of a strip under the beam: its title and, on the right, the values that are `told`.
+// Draws the scale of a strip below the beam, its title and, on the right, the values `told`; returns the vertical
+// scale.
 function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high], told) {
   const height = 126;
   const Y = (v) => top + 24 + ((high - v) / (high - low || 1)) * (height - 34);
@@ -333,7 +337,7 @@ function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high]
   return Y;
 }
 
-// What the beds of a beam press by, at each node.
+// Draws the pressure of beds on a beam, at each node.
 function drawPressure(root, f, page, top) {
   const at = atNodes(f, "pressure");
   const nodes = structure.nodes.map(({ x }, i) => ({ x, value: at[i] }));
@@ -343,7 +347,7 @@ function drawPressure(root, f, page, top) {
   root.append(path([[points[0][0], Y(0)], ...points, [points[points.length - 1][0], Y(0)]], "pressure-area", "Z"), path(points, "pressure"));
 }
 
-// A strip under the beam with a quantity that may jump at the nodes.
+// Draws a quantity along the beam that may jump at the nodes.
 function drawStrip(root, f, page, top, name, title) {
   const { X, ends: [x0, x1] } = page;
   const range = f.extremes[name] || { min: { value: 0, x: x0 }, max: { value: 0, x: x0 } };
@@ -353,7 +357,7 @@ function drawStrip(root, f, page, top, name, title) {
     const here = [X(xAt([e, a])), Y(forceAt(f, name, [e, a]))];
     return i === 0 || a !== 0 ? [here] : [[here[0], Y(forceAt(f, name, [e - 1, 1]))], here];
   });
-  // Loads inside elements, and the least and the largest value, may be between these places.
+  // Jumps inside elements, and the extremes, may be between these places.
   const jumps = besidePieces(f, name);
   const known = new Set([...structure.nodes.map((n) => n.x), ...jumps.map(([x]) => x)]);
   for (const [at, value] of [...jumps, ...[range.min, range.max].filter((v) => !known.has(v.x)).map((v) => [v.x, v.value])]) {
@@ -381,7 +385,7 @@ function drawBeam(root, f, page, isSketch) {
   if (hasBed()) drawPressure(root, f, page, bottom + 316);
 }
 
-// Values of distributed loads, in the middle of where they are.
+// Writes the values of distributed loads at the middle of each.
 function sayLineLoads(f, { X, Y }, say) {
   const { nodes } = structure;
   for (const { value, elements, from, to } of (f.load.uniform || []).filter((part) => part.value)) {
@@ -391,12 +395,12 @@ function sayLineLoads(f, { X, Y }, say) {
   }
 }
 
-// ---- what a plate has besides ----
+// ---- plates ----
 
-let fields = [];    // what can be shown of a plate
-let field = null;   // what is shown
+let fields = [];    // the quantities of a plate that can be shown
+let field = null;   // the quantity that is shown
 
-// With levels that are the same in all states.
+// The quantities of a plate, with levels that are the same in all states.
 function fieldsOf() {
   const known = { w: "deflection w", mx: "moment mx", my: "moment my", mxy: "twisting moment mxy" };
   if (hasBed()) known.pressure = "foundation pressure";
@@ -408,7 +412,7 @@ function fieldsOf() {
   });
 }
 
-// A quantity at each node: moments are the mean of what the elements have there, pressures what beds press by.
+// A quantity at each node: the mean of the moments of its elements, or the pressure of its beds.
 function atNodes(f, name) {
   if (name === "w") return structure.nodes.map((_, i) => f.u[3 * i]);
   const [sum, met] = [0, 0].map(() => structure.nodes.map(() => 0));
@@ -422,7 +426,8 @@ function atNodes(f, name) {
   return sum.map((s, i) => (met[i] > 0 ? (name === "pressure" ? s : s / met[i]) : 0));
 }
 
-// From deep brown, the lowest, to pale, the highest; light changes all along, so that grey prints tell too.
+// The colour of a level, from dark brown (lowest) to pale (highest). Brightness increases steadily, so that levels can
+// be read in grey print.
 function bandColour(i) {
   const share = field.bands > 1 ? i / (field.bands - 1) : 0.5;
   const stops = [[132, 74, 28], [186, 118, 58], [219, 165, 104], [238, 209, 163], [252, 246, 230]];
@@ -431,7 +436,7 @@ function bandColour(i) {
   return `rgb(${stops[k].map((c, j) => Math.round(c + (stops[k + 1][j] - c) * (at - k))).join(",")})`;
 }
 
-// Each mesh of the drawn grid in small parts of one colour, bilinear between its corners.
+// Colours each cell of the drawn grid in small parts of one colour, by bilinear interpolation.
 function drawColours(root, f, spots) {
   const [columns, rows] = scene.lines;
   const values = atNodes(f, field.name);
@@ -459,23 +464,23 @@ function drawScaleOfColours(root, x, y, width) {
   for (let i = 0; i <= bands; i += every) root.append(axisWord(x + (width * i) / bands, y + 30, rough(field.level(i))));
 }
 
-// ---- whatever it is ----
+// ---- all structures ----
 
-// Directions of view: unit vectors in space that point right and up on the page.
+// Views: the unit vectors in space that point right and up on the page.
 const views = [
   { words: "x to the right, y up", right: [1, 0, 0], up: [0, 1, 0] },
   { words: "x to the right, z up", right: [1, 0, 0], up: [0, 0, 1] },
   { words: "y to the right, z up", right: [0, 1, 0], up: [0, 0, 1] },
-  // The eye is at (3, -6, 3), nearly: right and up are at right angles, and of length 1.
+  // Seen approximately from (3, -6, 3).
   { words: "oblique, z up", right: [0.8944, 0.4472, 0], up: [-0.1826, 0.3651, 0.9129] },
 ];
 let view = 0;
-let scene = null;  // what the pictures of all states have in common; null where no node has a place
-let held = null;   // a frame that is kept while the playground's user drags something
+let scene = null;  // common to the pictures of all states; null if no node has a place
+let held = null;   // the frame to keep while the user of the playground drags something
 
 function sceneOf() {
   const at = structure.nodes.map(({ x, y = 0, z = 0 }) => [x, y, z]);
-  const along = at.map(() => [-1, -1, -1]);  // the dof of a node along each axis
+  const along = at.map(() => [-1, -1, -1]);  // [node][axis] the dof along that axis; -1: none
   places.dofs.forEach((d, u) => { if (d.at >= 0 && d.direction >= 1 && d.direction <= 3) along[d.at][d.direction - 1] = u; });
   const met = new Set(places.dofs.map((d) => d.at));
   const lines = linesOf();
@@ -490,7 +495,7 @@ function sceneOf() {
   };
 }
 
-// The nodes of a beam, or the columns and rows of a plate, that are drawn; null of a matrix.
+// The drawn nodes of a beam, or columns and rows of a plate; null for a matrix.
 function linesOf() {
   const { kind, nodes, columns } = structure;
   if (isBeam()) return [some("nodes", nodes.length, 1000), [0]];
@@ -503,7 +508,7 @@ function edgesBetween([columns, rows]) {
     ...(i > 0 ? [[node(j, i - 1), node(j, i)]] : []), ...(j > 0 ? [[node(j - 1, i), node(j, i)]] : [])]));
 }
 
-// Of very many edges those of the fewest elements, which are the outer ones of a solid.
+// If there are too many edges, only those with the fewest elements, which are the outer edges of a solid.
 function drawnEdges(most = 20_000) {
   const { edges } = structure;
   if (edges.length <= most) return edges;
@@ -513,14 +518,14 @@ function drawnEdges(most = 20_000) {
   return order.slice(0, most).map(([e]) => e);
 }
 
-// Straight on where one coordinate is the same for all nodes and none of them can leave that plane, else oblique.
+// The view along an axis in which all nodes have the same coordinate and no dof; otherwise oblique.
 function fittingView() {
   const flat = (axis) => scene.at.every((at, i) => scene.along[i][axis] < 0 && at[axis] === scene.at[0][axis]);
   const found = [2, 1, 0].findIndex(flat);
   return found < 0 ? 3 : found;
 }
 
-// Right and up on the page, in units of length.
+// The coordinates of a place on the page, to the right and up, in units of length.
 function projected(at) {
   const { right, up } = views[view];
   return [right, up].map((to) => to[0] * at[0] + to[1] * at[1] + to[2] * at[2]);
@@ -529,8 +534,8 @@ function projected(at) {
 const movedTo = (f, i, times) => scene.at[i].map((x, axis) => x + (scene.along[i][axis] < 0 ? 0 : times * f.u[scene.along[i][axis]]));
 const faceAt = (p, times) => scene.at[p.at].map((x, axis) => x + (axis === p.direction - 1 ? times * p.face : 0));
 
-// How many times as large displacements are drawn, and the room that the structure takes in all states: the same in all of
-// them. Faces that are much farther away than the structure moves have no room. While something is dragged the enlargement `kept` stays.
+// Finds the magnification of displacements and the box around the structure, common to all states. Faces much farther
+// away than the structure moves are outside the box. `kept`: the magnification during a drag.
 function frameScene(kept) {
   const was = scene.drawn.map((i) => projected(scene.at[i]));
   const size = Math.max(...[0, 1].map((k) => { const [low, high] = spread(was.map((at) => at[k])); return high - low; }));
@@ -546,7 +551,7 @@ function frameScene(kept) {
   return { times, size, most, box };
 }
 
-// Room beside the structure is for numbers, above and below it for loads and the forces of pairs.
+// Leaves room for numbers beside the structure, and for loads and contact forces above and below it.
 function pageOf(width) {
   const { box: [x0, x1, y0, y1], times } = scene;
   const [left, right, top] = [74, 30, 100];
@@ -557,7 +562,7 @@ function pageOf(width) {
   return { width, scale, X, Y: (w) => height(times * w), height, ends: [x0, x1], heights: [y0, y1], bottom: height(y0) + 96, spot: ([x, y]) => [X(x), height(y)] };
 }
 
-// A direction on the page, of length 1, and how long it is there; nothing where it points at the eye.
+// The projection of a direction as a vector of length 1, and its length; null if it is perpendicular to the page.
 function onPage(direction) {
   if (direction < 1 || direction > 3) return null;
   const { right, up } = views[view];
@@ -566,7 +571,7 @@ function onPage(direction) {
   return length < 0.1 ? null : { t: [x / length, y / length], length };
 }
 
-// Small marks of one kind at many nodes, as one path.
+// Equal small marks at many nodes, as one path.
 const marksAt = (numbers, spots, mark, kind) => shape(numbers.map((i) => `M${spots[i][0].toFixed(1)} ${spots[i][1].toFixed(1)}${mark}`).join(""), kind);
 
 function drawEdges(root, spots, kind) {
@@ -575,7 +580,7 @@ function drawEdges(root, spots, kind) {
     : shape(scene.edges.map(([from, to]) => `M${at(from)}L${at(to)}`).join(""), scene.edges.length > 400 || field ? `${kind} many` : kind));
 }
 
-// Where the axes point, and how long a length is.
+// Draws the directions of the axes and a scale of length.
 function drawAxes(root, { width, bottom, scale }) {
   const [x, y] = [40, bottom - 8];
   const { right, up } = views[view];
@@ -589,7 +594,7 @@ function drawAxes(root, { width, bottom, scale }) {
   root.append(path([[to - bar, y - 4], [to - bar, y], [to, y], [to, y - 4]], "thin"), axisWord(to, y + 18, `length ${rough(length)}`, "end"));
 }
 
-// Where marks stand on a page, see above. Marks are smaller where there are many.
+// The object `on` of drawPairs, described above. Marks are smaller if there are many.
 function marksOn(root, page, spots, f) {
   const count = places.pairs.length;
   const apart = (scene.size * page.scale) / (isBeam() ? count : Math.sqrt(count));
@@ -601,9 +606,9 @@ function marksOn(root, page, spots, f) {
   };
 }
 
-let page = null;  // of the last picture
+let page = null;  // the page of the last picture
 
-// A sketch has the undeformed structure alone, with what holds and loads it.
+// Draws a state; a sketch shows only the undeformed structure with supports, pairs and loads.
 function drawPicture(f, holder, isSketch = false) {
   if (scene === null) return;
   page = pageOf(widthOf(holder));
@@ -630,8 +635,8 @@ function drawPicture(f, holder, isSketch = false) {
   if (colours) drawScaleOfColours(root, 62, bottom + 40, width - 86);
 }
 
-// A picture as a file of its own: with the page's rules for pictures, in the colours of light. Not every program that draws SVG
-// knows variables.
+// A picture as a separate SVG file, with the style rules of pictures and the light colours. Variables are replaced,
+// because not every SVG program supports them.
 function fileOf(picture) {
   const copy = picture.cloneNode(true);
   const [root, ...rules] = [...document.styleSheets].flatMap((s) => [...s.cssRules]).filter((r) => /^(:root|svg)/.test(r.selectorText));
@@ -646,7 +651,7 @@ function savePicture() {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-// What the pictures of all states have in common, once the result is read.
+// Prepares what the pictures of all states have in common, after a result was read.
 function preparePicture() {
   cuts.clear();
   drawnPairs = some("pairs", places.pairs.length, isBeam() ? 300 : 1000);

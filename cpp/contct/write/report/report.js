@@ -1,20 +1,20 @@
-// The report of a run: its tables and words, and the way through its states. The playground has it in its page, too.
+// The report of a run: its tables, its words and the controls for its states. The playground uses this file too.
 "use strict";
 
 const known = { fortran: "FORTRAN", cpp: "C++", "fortran-r4": "FORTRAN (4-byte REAL)", "cpp-r4": "C++ (4-byte REAL)" };
 const kernelNames = () => result.kernels.map((name) => known[name] || name);
-const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // of both rules the calls are those of 1989
+const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // both rules: calls of 1989
 const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
 
 // ---- load against deflection ----
 
-let byForce = true;  // the load is told by its sum; else by the number of steps
-let followed = null; // the dof whose path is drawn: of all deflections the one that moves most
+let byForce = true;  // true: the axis is the sum of loads; false: the number of steps
+let followed = null; // the dof of the chart: the deflection that moves most
 
 const sumOf = (f) => f.load.force ?? f.load.sum ?? 0;
 const measure = (f) => (byForce ? sumOf(f) : f.step === 0 ? 0 : f.step - 1 + f.fraction);
 
-// Of a matrix, deflections are the dofs that are known to be lengths; all, where none is known.
+// The deflections. In a matrix the dofs that are known to be lengths, or all dofs if none is known.
 function deflections() {
   const paired = new Set(places.pairs.map((p) => p.u));
   const all = places.dofs.map((d, u) => ({ ...d, u }));
@@ -54,7 +54,7 @@ function drawChart(f) {
   root.append(svg("circle", { cx: x, cy: y, r: 9, class: "here" }));
 }
 
-// The path, or a path for each combination: each begins with the unloaded structure.
+// The path, or one path for each combination; each begins with the unloaded structure.
 const tracks = () => (!startsFromZero() ? [frames]
   : [...new Set(frames.slice(1).map((f) => f.step))].map((step) => [frames[0], ...frames.filter((f) => f.step === step)]));
 
@@ -73,13 +73,13 @@ function chartMark(f, x, y) {
 
 // ---- sections and tables ----
 
-// Fills a section of the page, which is hidden where it has no content.
+// Fills a section of the page; a section without content is hidden.
 function fill(id, heading, words, ...content) {
   byId(id).replaceChildren(element("h2", { id: `${id}-heading` }, heading), element("p", { class: "quiet" }, words), ...content);
   byId(id).hidden = content.length === 0;
 }
 
-// A cell is a text, a number, an element, or a list of numbers, each with where it is; null is a dash.
+// A cell for a text, a number, an element, or a list of { number, at: place }; a dash for null.
 function cellOf(value, words) {
   const numeral = (tag, x) => element(tag, { "data-value": String(x), title: String(x) }, short(x));
   if (typeof value === "number") return numeral("td", value);
@@ -87,8 +87,9 @@ function cellOf(value, words) {
   return element("td", {}, ...value.flatMap(({ number, at }) => [numeral("span", number), ...(at ? [element("small", {}, at)] : [])]));
 }
 
-// Texts are to the left, as their headings are; the first cell of a row is its head. Of very many rows there are the first,
-// or those of the largest size; what is cut is told in the title and at the end of the page.
+// A table. Texts and their headings are left-aligned; the first cell of a row is its heading. If there are more than
+// `most` rows, it keeps the first ones, or those with the largest `sizeOf`; the title and the end of the page say which
+// rows are missing.
 function tableOf(title, names, rows, most = Infinity, sizeOf = null) {
   if (rows.length === 0) return [];
   const how = `${sizeOf ? "largest" : "first"} ${most} of ${rows.length}`;
@@ -107,7 +108,7 @@ const inLength = (name) => inUnit(name, "w");
 const placeHead = () => (ofMatrix ? ["Dof"] : structure.kind === "plate" ? ["Node", inLength("x"), inLength("y")] : ["Node", inLength("x")]);
 const placeCells = (p) => (ofMatrix ? [p.name] : structure.kind === "plate" ? [String(p.name), p.x, p.y] : [String(p.name), p.x]);
 
-// ---- what changes with the state, or is there once for each increment ----
+// ---- the state, increments and calls ----
 
 function showPairs(f) {
   fill("pairs", "Pairs in this state", `State ${where(f)}. A gap is that of a separated pair. A contact force is positive when it pushes the structure off the face; ` +
@@ -161,10 +162,11 @@ const fibre = (name) => (name === "stress" ? "Stress, lower fibre (upper: other 
 const quantityHead = (name) => inUnit(fibre(name) ?? (/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
-const mostReactions = 1000;  // a spring at every node makes more
+const mostReactions = 1000;  // there are more if every node has a spring
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
-// The ends of so many steps, in their order: those with the largest values, of each quantity relative to the largest of all.
+// The ends of at most `most` steps, in their order: those with the largest values, relative to the largest value of
+// each quantity.
 function endsOf(what, most, steps = result.steps) {
   if (steps.length <= most) return steps;
   cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
@@ -202,7 +204,7 @@ function endTables() {
 const pairCells = (p) => [String(p.pair), ...placeCells(p), p.surface];
 const forceOrGap = (p) => (p.state === "separated" ? [{ number: p.gap, at: "gap" }] : p.force);
 
-// The ends of steps as columns, six in each table.
+// Tables with the ends of steps as columns, six in each table.
 function besideEachOther(steps, title, names, begins, read, most = Infinity) {
   const tables = [];
   for (let from = 0; from < steps.length; from += 6) {
@@ -232,7 +234,7 @@ function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
   ];
 }
 
-// The curves of the envelope, one quantity above another.
+// Draws the curves of the envelope, one quantity below another.
 function drawEnvelope() {
   const holder = byId("curves");
   if (!holder) return;
@@ -274,7 +276,7 @@ function structureRows() {
     ...(E ? [[inUnit("Young's modulus E", "stress"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
 }
 
-// "1.35 G + 1.5 Q", and of a train its place.
+// Returns "1.35 G + 1.5 Q"; a train also has its place.
 const termWords = ({ terms = {}, train }) => [...Object.entries(terms), ...(train ? [[`${train.name} at ${short(train.at)}`, train.factor]] : [])]
   .map(([name, factor]) => `${short(factor)} ${name}`).join(" + ");
 
@@ -294,10 +296,11 @@ const inputTables = () => [
 const modulus = (p) => p.stiffness / p.bed;
 const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 
-// "1 to 9, 12"
+// Returns "1 to 9, 12".
 const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
 
-// What differs by its place alone is one row where there is much of it: [the first one, cells of all places, all].
+// Merges entries that differ only by their place, if there are at least `fewest`. A row is [first entry, cells of the
+// places, all entries].
 function gathered(list, keyOf, fewest = 13) {
   const groups = new Map();
   for (const one of list) groups.set(keyOf(one), [...(groups.get(keyOf(one)) || []), one]);
@@ -317,7 +320,7 @@ function loadRows(s) {
   return rows.length > 0 ? rows : [[stepName(s), "resultant of all loads", "", sumOf(s)]];
 }
 
-// Elements of a load, of a beam with their places.
+// The elements of a load in words; in a beam with their places.
 function elementsWords(elements) {
   if (elements === "all") return "all elements";
   const numbers = Array.isArray(elements) ? numbersWords(elements) : elements.replace("..", " to ");
@@ -326,7 +329,7 @@ function elementsWords(elements) {
   return `elements ${numbers}, x = ${short(structure.nodes[first - 1].x)} to ${short(structure.nodes[last].x)}`;
 }
 
-// ---- what stands still: head, certificate, unit 26, legend ----
+// ---- head, certificate, unit 26, legend ----
 
 function verdicts() {
   const { words, lockstep } = result;
@@ -358,7 +361,7 @@ function showHead() {
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
 }
 
-// The boxes in the margins of paper have no text of the page, so that the title goes into their rule.
+// Puts the title into the CSS rule of the margin boxes of printed pages, which cannot contain text of the page.
 function showTitleOnSheets(title) {
   const inCss = title.replace(/[^\p{L}\p{N} .,:;()+-]/gu, (c) => `\\${c.codePointAt(0).toString(16)} `);
   byId("sheets")?.remove();
@@ -440,7 +443,7 @@ function showLegend() {
   byId("picture-words").textContent = pictureWords[scene ? structure.kind : "none"];
 }
 
-// Of a plate the quantity that is shown can be chosen.
+// Shows the choice of the quantity of a plate.
 function offerFields() {
   byId("field-label").hidden = byId("field").hidden = fields.length === 0;
   byId("field").replaceChildren(...fields.map(({ name, words }) => element("option", { value: name }, words)));
@@ -448,11 +451,11 @@ function offerFields() {
   byId("save").hidden = scene === null;
 }
 
-// ---- where we are ----
+// ---- the shown state ----
 
 let current = 0;
 
-// What else is done when a state was drawn: the playground has handles on the picture.
+// Called after a state is drawn; the playground adds handles to the picture.
 let afterDrawing = () => {};
 
 function draw() {
@@ -491,7 +494,8 @@ function listen() {
   addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
 }
 
-// On paper there is the final state. Before it are the input, with a sketch; behind it the ends of steps, of a plate in each quantity.
+// Prepares the printed page: the input with a sketch, the final state, and the ends of steps, for a plate in each
+// quantity.
 function drawSheets() {
   byId("structure").before(byId("input"));
   if (scene === null) return;
@@ -513,10 +517,10 @@ function drawSheets() {
   showCuts();
 }
 
-// The state with the largest deflection.
+// The number of the state with the largest deflection.
 const mostMoved = () => frames.reduce((best, f, i) => (Math.abs(mostOf(f).value) > Math.abs(mostOf(frames[best]).value) ? i : best), frames.length - 1);
 
-// Draw a result, at this state of its path. What a report has more is in showRest.
+// Draws a result at this state of its path. showRest adds the parts that only a report has.
 function load(given, state = null) {
   read(given);
   preparePicture();

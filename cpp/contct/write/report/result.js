@@ -1,5 +1,5 @@
-// Reads a result in the format contct-result-1 that has the structure and states, for a page that draws it. Numbers come
-// from the result; nothing is computed here but where a pair is, and which pairs are at their faces.
+// Reads a result in the format contct-result-1 with structure and states, for a page that draws it. All numbers come
+// from the result, except the places of pairs and whether they are at their faces.
 "use strict";
 
 const byId = (id) => document.getElementById(id);
@@ -11,10 +11,12 @@ function element(name, attributes = {}, ...children) {
   return e;
 }
 
-// The result, and what read() makes of it: dofs, pairs and supports with their places, and all states of the path.
+// The result, and the data that read() derives from it: dofs, pairs and supports with their places, and all states of
+// the path.
 let result, structure, places, frames, increments, ofMatrix;
 
-// What stands at each node, with its direction: 1 to 3 along x, y and z, 4 to 6 about them. The picture of a beam has w along y.
+// The dofs of each node with their directions: 1 to 3 along x, y and z, 4 to 6 about these axes. The picture of a beam
+// has w along y.
 const dofsOfNode = { beam: { w: 2, theta: 6 }, plate: { w: 3, wx: 5, wy: 4 } };
 
 function read(given) {
@@ -26,12 +28,12 @@ function read(given) {
   increments = result.steps.flatMap((s) => s.increments.map((i) => ({ ...i, step: s.step, number: i.increment })));
 }
 
-// A step by its number, with its name where it has one.
+// The number of a step, followed by its name if it has one.
 const stepName = (s) => (s.name ? `${s.step}, ${s.name}` : String(s.step));
 const nameOfStep = (number) => stepName(result.steps.find((s) => s.step === number) ?? { step: number });
 const startsFromZero = () => result.steps.some((s) => s.start === "zero");
 
-// The name of a node, or of a dof where each dof has a name.
+// The name of a node, or of a dof in a matrix.
 const nameOf = (entry) => entry.node ?? entry.dof;
 
 function dofsOf() {
@@ -40,7 +42,7 @@ function dofsOf() {
   return structure.nodes.flatMap((n, at) => own.map(([dof, direction]) => ({ name: n.node, dof, at, direction })));
 }
 
-// `at` is the number of the node, from 0; -1 where it has no place. `u` is the number of the dof.
+// `at`: the node, from 0; -1 if the dof has no place. `u`: the dof, from 0.
 function placesOf() {
   const dofs = dofsOf();
   const numbers = new Map(dofs.map((d, u) => [ofMatrix ? d.name : `${d.name} ${d.dof}`, u]));
@@ -49,7 +51,7 @@ function placesOf() {
     const { x = null, y = null } = structure.nodes[dofs[u].at] || {};
     return { ...entry, ...dofs[u], u, x, y };
   };
-  // The dof of a matrix that has the face of a pair; and where that is.
+  // The dof that carries the face of a pair, and its node; -1: none.
   const otherOf = ({ other }) => (other === undefined ? { otherU: -1, otherAt: -1 } : { otherU: numbers.get(other), otherAt: dofs[numbers.get(other)].at });
   return {
     dofs, locate,
@@ -58,10 +60,10 @@ function placesOf() {
   };
 }
 
-// Whether a step ends where its increment number `n`, from 0, does: the state is the step's then.
+// True if the step ends with its increment `n`, from 0: both have the same state.
 const endsAt = ({ increments: all, fraction, ended_by }, n) => n >= 0 && n === all.length - 1 && all[n].fraction === fraction && ended_by !== "oracle";
 
-// The unloaded structure, then every state of the path that the result has.
+// All states: the unloaded structure, and every state of the path in the result.
 function framesOf() {
   const found = [];
   const add = (state, how) => found.push({
@@ -70,8 +72,8 @@ function framesOf() {
     pairs: places.pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
       const other = p.otherU < 0 ? 0 : state.displacement[p.otherU];
-      const face = (state.pairs[i].face ?? p.face) + other;  // where it is now: a step may have moved it
-      const look = Math.abs(face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // the listing's EPSGAP
+      const face = (state.pairs[i].face ?? p.face) + other;  // the present place: a step may have moved the face
+      const look = Math.abs(face - w) < 1e-10 ? "f" : closed ? "c" : "o";  // EPSGAP of the listing
       return { ...p, face, w, closed, look, gap: state.pairs[i].gap, force: state.pairs[i].force };
     }),
   });
@@ -94,35 +96,36 @@ function framesOf() {
   return found;
 }
 
-// The number of the element of a beam that has x, from 0.
+// The element of a beam at x, from 0.
 const elementAt = (x) => Math.max(0, Math.min(structure.nodes.length - 2, structure.nodes.findLastIndex((n) => n.x <= x)));
 
 const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
 
-// Element e of a beam at x, or its piece there where loads begin, end or stand inside.
+// Element e of a beam, or its piece at x if loads begin, end or act inside the element.
 function pieceAt(f, e, x) {
   const { moment, shear, pieces } = f.elements[e];
   if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
   const [w0, t0, w1, ofNode] = f.u.slice(2 * e, 2 * e + 4);
-  // Left of a hinge the slope is not the node's, which is that on its right: it follows from the moments.
+  // A hinge has another slope on its left than its node, which has that on the right. It follows from the moments.
   const h = structure.nodes[e + 1].x - structure.nodes[e].x;
   const turned = (h * ((moment[0] + moment[1]) / 2 + (h * (shear[0] - shear[1])) / 12)) / structure.EI[e];
   const t1 = structure.hinges?.includes(e + 2) ? t0 + turned : ofNode;
   return { x: [structure.nodes[e].x, structure.nodes[e + 1].x], w: [w0, w1], theta: [t0, t1], moment, shear, curvature: 0 };
 }
 
-// The deflection of a beam at x. Inside an element it is the polynomial through what its ends have: deflections,
-// slopes and, with the stiffness EI, moments. It is exact where the load along the element is straight.
+// The deflection of a beam at x. Inside an element it is the polynomial with the deflections, slopes and curvatures
+// (moments / EI) of the ends. It is exact if the load on the element is linear.
 function deflectionAt(f, x, e = elementAt(x)) {
   const { x: [left, right], w: [w0, w1], theta: [t0, t1], moment, curvature } = pieceAt(f, e, x);
   const [h, a] = [right - left, (x - left) / (right - left)];
   const [k0, k1] = moment.map((m) => m / structure.EI[e] + curvature);
-  // What the cubic of deflections and slopes has for the curvatures, less what is told.
+  // The curvatures at the ends, less those of the cubic with the same deflections and slopes.
   const [c0, c1] = [k0 - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h, k1 - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h];
   return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
 }
 
-// Moment or shear of a beam: the polynomials through what the ends of element e have. The shear is the moment's slope.
+// The moment or shear of a beam: the polynomials through the values at the ends of element e. The shear is the slope of
+// the moment.
 function forceAt(f, name, [e, share]) {
   const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
   const x = from + share * (to - from);
@@ -132,18 +135,18 @@ function forceAt(f, name, [e, share]) {
   return a === 0 ? v0 : a === 1 ? v1 : (6 * a * (1 - a) * (m1 - m0)) / h + v0 * (1 - 4 * a + 3 * a * a) + v1 * (3 * a * a - 2 * a);
 }
 
-// Values on both sides of the places inside elements where loads begin, end or stand: [x, value].
+// Values on both sides of places inside elements where loads begin, end or act: [x, value].
 const besidePieces = (f, name) => f.elements.flatMap(({ pieces = [] }) =>
   pieces.slice(1).flatMap((p, i) => [[p.x[0], pieces[i][name][1]], [p.x[0], p[name][0]]]));
 
-// Concentrated loads of a state: at which dof, or at which x between two nodes, and how much.
+// Concentrated loads of a state: their dof, or x between two nodes, and their value.
 const pointsOf = (f) => (f.load.point || []).map((p) => {
   const dof = Object.keys(p).find((key) => !["node", "dof", "x"].includes(key));
   if ("x" in p) return { dof, x: p.x, at: 0, between: true, direction: dofsOfNode.beam[dof], value: p[dof] };
   return { ...places.locate(p, dof), value: p[dof] };
 });
 
-// "all", "2..9", or a list.
+// Returns a test whether an element is in "all", "2..9", or a list of elements.
 function numbersIn(elements) {
   if (elements === "all") return () => true;
   if (Array.isArray(elements)) return (e) => elements.includes(e);
@@ -151,7 +154,7 @@ function numbersIn(elements) {
   return (e) => e >= first && e <= last;
 }
 
-// The distributed load of a beam in element e at x: a function; null where there is none.
+// The distributed load of a beam as a function of element e and x; null if there is none.
 function lineLoadOf(f) {
   const parts = (f.load.uniform || []).map((part) => ({ ...part, has: part.elements ? numbersIn(part.elements) : (e, x) => part.from <= x && x <= part.to }));
   if (parts.length === 0) return null;
@@ -159,14 +162,14 @@ function lineLoadOf(f) {
     .reduce((sum, { value, polynomial = [value] }) => sum + polynomial.reduceRight((y, a) => y * x + a, 0), 0);
 }
 
-// Where equal values follow one another in a list: [first, last].
+// The runs of equal values in a list, as [first, last].
 function runsOf(values) {
   const runs = [];
   values.forEach((v, i) => (i > 0 && v === values[i - 1] ? (runs[runs.length - 1][1] = i) : runs.push([i, i])));
   return runs;
 }
 
-// The least and the largest number of a list; [0, 0] where there is none.
+// The least and the largest number of a list; [0, 0] if it has none.
 function spread(values) {
   let [low, high] = [Infinity, -Infinity];
   for (const v of values) {
@@ -177,8 +180,8 @@ function spread(values) {
   return low > high ? [0, 0] : [low, high];
 }
 
-// The largest absolute value in all states of what `values` gives for each.
+// The largest absolute value of `values` in all states.
 const largest = (values) => frames.reduce((most, f) => values(f).reduce((m, x) => Math.max(m, Math.abs(x)), most), 0);
 
-// The least and the largest value of a quantity in all states, 0 among them.
+// The least and the largest value of a quantity in all states, and 0.
 const rangeOf = (name) => spread([0, ...frames.flatMap((f) => (name in f.extremes ? [f.extremes[name].min.value, f.extremes[name].max.value] : []))]);
