@@ -29,16 +29,14 @@ by_quantity sizes_of(const error_bounds& b, double extent) {
   return sizes;
 }
 
-/// Each size less its error: an uncertified number may be reported too large, and the numbers of an unloaded
-/// state are only errors.
+/// Each size less its error: uncertified numbers may be too large, those without loads are only errors.
 by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));
   return sizes_of(b, extent);
 }
 
-/// An error up to its floor counts as zero, because all numbers of its kind may be 0. Floors do not depend on
-/// error bounds.
+/// An error up to its floor counts as zero: all numbers of the kind may be 0. Floors ignore error bounds.
 by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double extent) {
   by_quantity floors;
   const double force = of_settling * b.settling[quantity::force].value_or(0.0);

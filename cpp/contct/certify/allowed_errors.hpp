@@ -9,8 +9,7 @@
 
 namespace contct {
 
-/// A state is certified if every proved bound on an error is at most this share of the size of the number's
-/// kind.
+/// The largest bound on an error in a certified state, as a share of the size of its kind.
 inline constexpr double certified_share = 1e-6;
 
 /// Computes allowed errors from the sizes of the numbers of a path (reference/certificate-proof.md, "Sizes").
@@ -36,8 +35,7 @@ class allowed_errors {
 /// The unit of a kind, after a blank; empty if the problem names no unit.
 [[nodiscard]] std::string unit_of(const problem& p, quantity q);
 
-/// The error that exceeds its allowed error most, in words; empty if no error exceeds it. Has units if `of`
-/// is not null.
+/// The error most above its allowed value, in words, with units if `of` is given; empty if there is none.
 [[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed,
                                       const problem* of = nullptr);
 

@@ -178,8 +178,7 @@ bool certain_contacts::find_balanced(int step, std::span<const double_double> u,
   return true;
 }
 
-/// True if the load does no work on the rigid-body motions that A leaves free, and no pair that these motions
-/// move can be in contact.
+/// True if the load does no work on the motions that A leaves free, and no pair that they move can press.
 bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);

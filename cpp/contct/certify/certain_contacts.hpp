@@ -17,13 +17,11 @@ namespace contct {
 struct contact_set {
   bool unique = true;      ///< false: the same forces also balance at other displacements
   std::string not_proved;  ///< why the contacts are not proved, in words; empty if they are
-  double rho = std::numeric_limits<double>::infinity();  ///< distance from the equilibrium, at most, in the
-                                                         ///< norm of K_A
+  double rho = std::numeric_limits<double>::infinity();  ///< bound on the distance to the equilibrium
   std::vector<int> closed;                               ///< A: the pairs certainly in contact, from 0
 };
 
-/// Finds the set A of pairs certainly in contact, and proves that K_A, the stiffness with their springs, is
-/// positive definite.
+/// Finds the set A of pairs certainly in contact, and proves that K_A, with their springs, is definite.
 class certain_contacts {
  public:
   /// All arguments must outlive this object.
@@ -40,8 +38,7 @@ class certain_contacts {
   [[nodiscard]] bool proves(const std::vector<int>& closed);
   /// The pairs beyond their faces.
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
-  /// `closed`, and, if these pairs do not hold the structure, the pairs nearest to their faces that complete
-  /// the support.
+  /// `closed`, plus the pairs nearest to their faces that are needed to hold the structure.
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
 
   /// The largest change of a dof between two states at a distance of 1 in the norm of K_A.
@@ -63,8 +60,7 @@ class certain_contacts {
   [[nodiscard]] std::string search(std::span<const double_double> u, const long_residual& r, bool balanced,
                                    contact_set& b);
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
-  /// Can errors of half a unit in the last digits of a matrix make K_A indefinite? False if the file gives
-  /// the number of rigid-body motions.
+  /// Can half a unit in the last digits of a matrix make K_A indefinite? False if `free_motions` is given.
   [[nodiscard]] bool last_digits_decide() const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
   [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const contact_set& b) const;

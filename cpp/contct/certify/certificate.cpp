@@ -100,8 +100,7 @@ std::vector<double> certifier::load_at(int step) const {
   return load;
 }
 
-/// Tries to prove a state and returns its certificate. If is_certified has just judged the state, its
-/// certificate is returned.
+/// Tries to prove a state. If is_certified has just judged the state, returns that certificate.
 certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
@@ -120,8 +119,7 @@ certificate certifier::proof_of(const step_state& s) {
   return c;
 }
 
-/// Finds the pair in contact that pulls most, if its force is more than a millionth of the largest contact
-/// force.
+/// Finds the pair that pulls most, if its force is above a millionth of the largest contact force.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
   const std::vector<double> v = from_faces(s.step, s.displacement);
@@ -213,8 +211,7 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  // The bounds of a proved state may be too wide to certify it, but a reference solution outside these bounds
-  // is less accurate than the state.
+  // Such a reference solution is less accurate than a proved state, even one with too wide bounds.
   const bool reference_is_off = answer.how != outcome::found ||
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());

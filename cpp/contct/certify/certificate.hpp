@@ -3,9 +3,8 @@
 // the end of the exact path if the problem is small enough, otherwise the reference solution. If no state is
 // proved, a comparison with the reference solution finds the error.
 //
-// The reference solution shares no code with kernels, engines or the loop over increments. All of them use
-// the same assembled stiffness, Cholesky factor (matrix/cholesky) and count of rigid-body motions
-// (model/rigid_modes).
+// The reference solution shares no code with kernels, engines or the loop over increments. All use the same
+// assembled stiffness, Cholesky factor (matrix/cholesky) and count of rigid-body motions (model/rigid_modes).
 #pragma once
 
 #include <memory>
@@ -27,20 +26,17 @@ namespace contct {
 /// alone may be only rounding.
 struct certificate {
   bool certified = false;  ///< every error is proved to be at most certified_share
-  // displacement_error and shape_error are proved errors if the state is certified, otherwise differences
-  // from the reference solution.
+  // The next two: proved errors of a certified state, otherwise differences from the reference solution.
   double displacement_error = 0.0;  ///< largest error of a deflection
-  double shape_error = 0.0;  ///< certified: largest error of any number, relative to the size of its kind;
-                             ///< otherwise of a displacement times sqrt(K_ii), relative to the largest such
-                             ///< product
+  double shape_error = 0.0;  ///< largest of any number, relative to the size of its kind; uncertified: of a
+                             ///< displacement times sqrt(K_ii)
   double equilibrium = 0.0;  ///< largest residual of a row of the equilibrium, divided by sqrt(K_ii)
   double penetration = 0.0;  ///< largest depth of a separated pair beyond its face
   double tension = 0.0;      ///< largest distance of a pair in contact from its face, if its spring pulls
   double rcond = 0.0;        ///< reciprocal condition number of the equilibrated stiffness
   /// False if the state is the reference solution itself: a comparison of the two would show no error.
   bool independent = true;
-  bool unique = true;        ///< false: other displacements balance the load too, so displacements have no
-                             ///< bound
+  bool unique = true;        ///< false: displacements have no bound, since others balance the load too
   bool proved = false;       ///< the bounds are proved: `error`, `allowed` and `worst_share` are set
   by_quantity error;         ///< bounds on the errors of each kind of number, absolute
   by_quantity allowed;       ///< the errors that a certified state may have, absolute
@@ -51,8 +47,7 @@ struct certificate {
   double pull = 0.0;  ///< the tensile force of that pair
 };
 
-/// The number of decimal digits to which every number of a state is proved right: from 0, nothing proved, to
-/// 15.
+/// The proved correct decimal digits of every number of a state: from 0, nothing proved, to 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
 /// Observes a path and certifies the end of every step that is solved.

@@ -178,8 +178,7 @@ void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) con
     if (std::abs(force_at(i)) > 1e-12 * largest) isep[i] = force_at(i) > 0.0 ? in_contact : separated;
 }
 
-/// Corrects the status of each pair that is certainly beyond its face, or certainly separated, in all states
-/// within rho of u.
+/// Corrects the status of each pair that is on one side of its face in all states within rho of u.
 void error_prover::settle_certain_statuses(double rho, std::span<int> isep) const {
   for (std::size_t i = 0; i < isep.size(); ++i) {
     const double deep = system_.depth(i, state_.u).hi;
@@ -225,8 +224,7 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   return numbers_of(isep);
 }
 
-/// Is K without pairs proved to be positive semidefinite, so that the energy is convex? May replace the
-/// factor of `contacts_`.
+/// Is K without pairs proved to be semidefinite, so that the energy is convex? May replace the factor.
 bool error_prover::is_semidefinite() {
   if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // element formulas ensure it
   if (!semidefinite_)
@@ -234,8 +232,7 @@ bool error_prover::is_semidefinite() {
   return *semidefinite_;
 }
 
-/// Sets sizes from the nodal loads. If none acts, rounding is compared with the force that moves one settling
-/// dof alone.
+/// Sets the sizes of nodal loads or, if none acts, of the forces that move one settling dof alone.
 void error_prover::measure(const long_loads& l, error_bounds& b) const {
   const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
@@ -270,8 +267,7 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
   }
 }
 
-/// Checks the status of each pair, and bounds its gap if displacements have bounds. A pair in contact has a
-/// gap of 0.
+/// Checks the status of each pair. Bounds its gap, which is 0 in contact, if displacements have bounds.
 void error_prover::bound_pairs(const reported_state& told, error_bounds& b) const {
   const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[told.step - 1]);
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
@@ -313,9 +309,8 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
   return all;
 }
 
-/// The bounds of a state without loads: all forces are 0, and so are all displacements if the supports hold
-/// the structure. If they do not, it may be anywhere, unbent, with no pair beyond its face. False, with the
-/// reason, if it may be bent.
+/// Bounds for a state without loads: all forces are 0, and so are all displacements if the supports hold the
+/// structure. If not, it may be anywhere, unbent, with no pair beyond its face; false if it may be bent.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
   state_ = {told.step,

@@ -1,5 +1,4 @@
-// Bounds on the distance of a state from the equilibrium, proved from its printed numbers alone
-// (reference/certificate-proof.md).
+// Bounds on the errors of a state, proved from its printed numbers (reference/certificate-proof.md).
 #pragma once
 
 #include <array>
@@ -49,8 +48,7 @@ struct step_proof {
   long_vector state;                            ///< u in 32 digits [dofs]
   std::vector<int> closed;                      ///< A: pairs from 0
   long_vector z;                                ///< approximates K_A^-1 r [dofs]; empty without loads
-  std::optional<stiffness_proof> of_stiffness;  ///< empty if no load acts and only contact holds the
-                                                ///< structure
+  std::optional<stiffness_proof> of_stiffness;  ///< empty without loads if only contact holds
 };
 
 struct error_bounds : contact_set {
@@ -64,8 +62,7 @@ struct error_bounds : contact_set {
   std::optional<std::size_t> wrong_status;
   std::shared_ptr<const step_proof> proof;  ///< null unless proofs are kept
 };
-/// Gives answers by rational numbers if doubles are not accurate enough. Answers are empty or false for a
-/// problem that is too large.
+/// Answers by rational numbers, if doubles are too coarse; empty or false for a problem that is too large.
 class exact_means {
  public:
   virtual ~exact_means() = default;
@@ -121,8 +118,7 @@ class error_prover {
   [[nodiscard]] bool has_exact_residual(const long_loads& l);
   [[nodiscard]] long_residual residual_of(std::span<const double_double> u, const long_loads& l);
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
-  /// `displacement` with the prescribed settlements at fixed dofs. If this state was refined last, with its
-  /// digits below double precision.
+  /// `displacement` with prescribed settlements, and with its low digits if it was refined last.
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const long_loads& l) const;
 

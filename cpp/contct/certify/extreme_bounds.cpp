@@ -19,8 +19,7 @@ double sum_of_sizes(const std::vector<double>& p) {
 /// A bound on the rounding error of a line's polynomial p. Its coefficients above the cubic ones have at most
 /// 20 roundings each; two evaluations by Horner's rule and the conversion to Bernstein's form have 6 for each
 /// degree, and each of 26 bisections one for each degree. A polynomial without a cubic part is at most its
-/// largest coefficient; fitting it to the ends by Hermite's functions adds at most a quarter of that for each
-/// degree.
+/// largest coefficient; fitting it to the ends adds at most a quarter of that for each degree.
 double rounding_in(const std::vector<double>& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
@@ -41,8 +40,7 @@ double above(std::vector<double> b, double top, double close, int bisections, do
                   above(std::move(b), top, close, bisections - 1, reached));
 }
 
-/// A bound on how far the polynomial exceeds its printed extremes, plus its distance from the reported value
-/// at its right end.
+/// Bounds the excess of p over its printed extremes, plus its distance from the value at the right end.
 double off_extremes(const std::vector<double>& p, const value_range& printed, double right_end) {
   constexpr int bisections = 26;  // a smooth maximum is found to 4^-26 of the polynomial's change
   const double close = rounding_in(p);

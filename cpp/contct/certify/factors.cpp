@@ -131,8 +131,7 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
       const int* const own = &l.rows[l.starts[first]];
       const int height = l.starts[first + 1] - l.starts[first];
       product.assign(height - row, 0.0);
-      const int width = std::min(row + 1, firsts[block + 1] - first);  // the columns of the block that reach
-                                                                       // this row
+      const int width = std::min(row + 1, firsts[block + 1] - first);  // columns with this row
       for (int k = 0; k < width; ++k) {
         const double* const values = &l.values[l.starts[first + k] + row - k];
         for (int i = 0; i < height - row; ++i) product[i] += values[0] * values[i];
@@ -146,8 +145,7 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
     rows.clear();
   }
   const row_sums sizes = magnitudes(a, l);
-  for (int row = 0; row < n; ++row)  // each product is added to the sum of its block, and that sum to the
-                                     // column
+  for (int row = 0; row < n; ++row)  // each product is added to two sums, of its block and its column
     sums.add(row, row, (most_terms + 4) * half_ulp * sizes.of(row));
   return sums.largest() + 0x1p-900;  // for underflow
 }

@@ -1,5 +1,4 @@
-// Cholesky factors of narrow bands in numbers of 32 digits, for matrices that doubles cannot factor; and
-// bounds on the errors of factors.
+// Cholesky factors of narrow bands in 32 digits, for matrices that doubles cannot factor, and error bounds.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +17,7 @@ using long_band = band_of_numbers<double_double>;
 /// Is a band small enough to be factored in 32 digits in acceptable time?
 [[nodiscard]] bool can_be_factored_long(int order, int subdiagonals);
 
-/// Replaces A by L with L L' = A up to rounding. False if a pivot is not positive; that pivot stays in its
-/// place.
+/// Replaces A by L with L L' = A up to rounding. False if a pivot is not positive; that pivot remains.
 [[nodiscard]] bool factor(long_band& a);
 
 /// Replaces x by (L L')^-1 x.
@@ -77,8 +75,7 @@ template <class Number, class Entry>
   return sums.largest();
 }
 
-/// The same bound for a symmetric A and a lower triangle L, both by columns and in the same order. It
-/// includes the rounding of the sums.
+/// The same for a symmetric A and a lower triangle L by columns, in the same order, with rounding included.
 [[nodiscard]] double largest_row_of_error(const sparse_columns& a, const sparse_columns& l);
 
 /// A with its row and column i moved to `places[i]`.

@@ -7,8 +7,7 @@
 namespace contct {
 namespace {
 
-/// Shears and moments at the ends of a beam's elements. Their error bounds by energy assume that the error of
-/// the moment is linear.
+/// Shears and moments at the ends of a beam's elements. The error of a moment is linear in an element.
 std::vector<element_value> values_of(const beam_elements<double_double>& beam, const load& l,
                                      std::span<const double_double> u) {
   std::vector<element_value> all;
@@ -165,8 +164,7 @@ long_residual long_system::residual(std::span<const double_double> u, const long
   add_product(u, r.needed, r.slack);
   if (std::ranges::any_of(u, [](const double_double& x) { return x.hi != 0.0; }))
     for (double& size : r.slack)
-      size = std::max(size, std::numeric_limits<double>::min());  // the product
-                                                                  // may underflow
+      size = std::max(size, std::numeric_limits<double>::min());  // K u may underflow
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const long_pair& p = pairs[i];
     const double_double deep = depth(i, u);

@@ -1,5 +1,4 @@
-// The equations of a problem in pairs of doubles, from the decimals in its file, with bounds on their
-// rounding errors.
+// The equations of a problem in pairs of doubles, from the decimals in its file, with rounding bounds.
 #pragma once
 
 #include <cmath>
@@ -43,8 +42,7 @@ struct element_value {
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
   bool moment = true;   ///< false: a shear
 
-  /// A bound on the rounding error of the value. A coordinate, length or modulus is used at most ten times,
-  /// each good to 2^-94.
+  /// A bound on rounding: lengths, coordinates and moduli enter at most ten times, each good to 2^-94.
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };
 
@@ -69,8 +67,7 @@ struct long_system : equations<double_double> {
   /// The moments and shears in elements under displacements u [dofs] at the end of a step, from 1.
   std::function<std::vector<element_value>(int step, std::span<const double_double> u)> element_values;
 
-  /// Adds K u to `sum` and, unless `sizes` is empty, the sum of sqrt(K_ii K_jj) |u_j| over the entries of row
-  /// i to sizes_i. All [dofs].
+  /// Adds K u to `sum`, and sum of sqrt(K_ii K_jj) |u_j| over row i to sizes_i unless it is empty [dofs].
   void add_product(std::span<const double_double> u, std::span<double_double> sum,
                    std::span<double> sizes = {}) const;
 

@@ -147,8 +147,7 @@ class reference_solver::search {
       if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // cancels rounding
   }
 
-  /// Adds springs without force at the present displacement, at as many dofs as are needed to hold the
-  /// structure.
+  /// Adds springs without force at as many dofs as are needed to hold the structure as it is.
   void add_holding_springs(rigid_rank& rank) {
     for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
       const int before = rank.rank();
@@ -255,8 +254,7 @@ class reference_solver::search {
     return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
   }
 
-  /// The outcome if E decreases without limit along p: there is no equilibrium, unless supports hold the
-  /// structure or numbers overflow.
+  /// Outcome if E falls without limit: no equilibrium, unless supports hold the structure or p overflows.
   [[nodiscard]] outcome why_endless(const numbers& p) const {
     if (exists_ == true || structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });

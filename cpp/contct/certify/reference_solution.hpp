@@ -1,5 +1,4 @@
-// The reference solution: the equilibrium under a load, found without kernel or path as the minimiser of a
-// convex energy.
+// The reference solution: the equilibrium as minimiser of a convex energy, without kernel or path.
 #pragma once
 
 #include <memory>
@@ -43,8 +42,7 @@ struct reference_answer {
 /// If the pressed pairs do not hold the structure, the step is the rigid-body motion on which the load does
 /// work. If it does work on none, springs without force hold the structure.
 ///
-/// Every solve is refined with residuals in long double, so the answer has 3 to 4 more digits than a band
-/// solver alone gives.
+/// Every solve is refined with residuals in long double, which gives 3 to 4 more digits than a band solver.
 class reference_solver {
  public:
   /// `s` must outlive this object.

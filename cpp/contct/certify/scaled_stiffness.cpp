@@ -157,8 +157,7 @@ long_vector scaled_stiffness::times(std::span<const double_double> x, std::span<
   return y;
 }
 
-/// Estimates the least eigenvalue by inverse iteration. The estimate is never too small, and close enough
-/// after a few iterations.
+/// Estimates the least eigenvalue by inverse iteration: never too small, and soon close enough.
 double scaled_stiffness::least_estimate() const {
   const std::size_t n = system_.dofs();
   std::vector<double> x(n);

@@ -25,8 +25,7 @@ struct stiffness_proof {
   std::variant<band_matrix, long_band> factor;  ///< L, in 32 digits if doubles are not accurate enough
 };
 
-/// S K_A S, with powers of two in S so that the diagonal is between 1/8 and 1. Rows of fixed dofs are unit
-/// rows.
+/// S K_A S, with powers of two in S: its diagonal is between 1/8 and 1. Rows of fixed dofs are unit rows.
 class scaled_stiffness {
  public:
   /// `row_of`: the row of each dof in a band with `subdiagonals`. Without `subdiagonals`, CHOLMOD factors
@@ -35,12 +34,10 @@ class scaled_stiffness {
   scaled_stiffness(const long_system& t, std::vector<int> row_of, std::optional<int> subdiagonals,
                    bool by_columns = false);
 
-  /// Adds the springs of these pairs, from 0, to K and factors the sum, K_A. False if a pivot is not
-  /// positive.
+  /// Factors K with the springs of these pairs, from 0. False if a pivot is not positive.
   [[nodiscard]] bool factor(std::span<const int> pairs);
 
-  /// Returns mu > 0 with S K_A S >= mu I, or 0 if none is proved. Takes at least one factorisation and four
-  /// solves.
+  /// Returns mu > 0 with S K_A S >= mu I; 0 if none is proved. Takes a factorisation or more and four solves.
   [[nodiscard]] double least_eigenvalue();
 
   /// If factoring in 32 digits failed too: displacements on which K_A may do negative work. Otherwise 0.
@@ -55,8 +52,7 @@ class scaled_stiffness {
   /// Returns K_A x. `sizes`: see long_system::add_product.
   [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
-  /// From now on least_eigenvalue keeps its proof, which takes the memory of one more band. No proof is kept
-  /// for sparse columns.
+  /// Makes least_eigenvalue keep its proof, which takes one more band; there is none for sparse columns.
   void keep_proof() {
     keeps_proof_ = true;
     by_columns_ = !subdiagonals_;
