@@ -211,7 +211,7 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     if (c.unique) compare_with(answer, s, c);
     c.problem = worst_of(c);
   }
-  // Such a reference solution is less accurate than a proved state, even one with too wide bounds.
+  // A reference solution outside the proved bounds of a state is less accurate than the state.
   const bool reference_is_off = answer.how != outcome::found ||
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());

@@ -135,8 +135,7 @@ class corrected_path {
     response_ = soft_ground(at_).response(terms);
   }
 
-  /// 1: the response moves the pair towards its face; -1: away from it; 0: not at all. The first term that
-  /// moves the pair decides.
+  /// 1: the response moves the pair towards its face; -1: away; 0: not. The first term that moves it decides.
   [[nodiscard]] int moves(std::size_t pair) const {
     for (const rational_vector& term : response_)
       if (const rational towards = at_.approach(pair, term); towards != 0) return towards > 0 ? 1 : -1;
@@ -190,8 +189,7 @@ class corrected_path {
   }
 
   /// Advances the share of the step by `way`. If the springs hold the structure, u is computed from the start
-  /// of the step, so that numbers do not become longer along the path. It is computed only at the pairs until
-  /// fill_in() is called.
+  /// of the step, so that numbers do not become longer along the path; until fill_in(), only at pairs.
   void move_on(const rational& way) {
     at_.fraction += way;
     if (!at_.solver().free_motions().empty()) {

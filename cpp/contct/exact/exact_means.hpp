@@ -1,5 +1,4 @@
-// Rational numbers for paths in doubles, and the test whether an external stiffness matrix is positive
-// semidefinite.
+// Rational numbers for paths in doubles, and the test whether an external matrix is semidefinite.
 #pragma once
 
 #include <memory>
@@ -10,8 +9,7 @@
 
 namespace contct {
 
-/// Limits on rational numbers for a path in doubles: larger problems take too long for a run that did not
-/// request exact numbers.
+/// Limits on rational numbers for a path in doubles, beyond which they would take too long.
 inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
@@ -34,8 +32,7 @@ struct definiteness {
 /// an exact sum. Throws the std::runtime_error of lifted_solver::factor.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
-/// Rational numbers for a path in doubles; a problem that is too large gets no answers. `p` must outlive the
-/// result.
+/// Rational numbers for a path in doubles; no answers for large problems. `p` must outlive the result.
 [[nodiscard]] std::unique_ptr<exact_means> exact_means_of(const problem& p);
 
 }  // namespace contct

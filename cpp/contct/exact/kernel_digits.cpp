@@ -75,8 +75,7 @@ void digit_counter::step_ended(const step_state& s) {
   }
 }
 
-/// The events without those that the exact path leaves open, and without pairs of events that cancel at one
-/// place.
+/// The events that the exact path decides, without pairs of events that cancel at one place.
 digit_counter::event_list digit_counter::decided(const event_list& events, double tie) const {
   event_list kept;
   for (const placed_event& e : events) {

@@ -7,8 +7,7 @@
 namespace contct {
 namespace {
 
-/// The largest primes below 2^61. A later one is used if the matrix is singular modulo an earlier one by
-/// chance.
+/// The largest primes below 2^61. A matrix may be singular modulo one of them by chance.
 constexpr std::uint64_t two_to_61 = std::uint64_t{1} << 61U;
 constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31,  two_to_61 - 45,
                                                  two_to_61 - 229, two_to_61 - 259, two_to_61 - 283};
@@ -109,8 +108,7 @@ class lifted_solver::lifting {
     digits_.push_back(std::move(x));
   }
 
-  /// The number with the digits [from, to) of `dof`. It is computed by halves, because long products are
-  /// faster than many short ones.
+  /// The number with the digits [from, to) of `dof`, by halves: few long products are faster than many short.
   integer number(std::size_t dof, std::size_t from, std::size_t to) {
     constexpr std::size_t few = 16;
     integer n = 0;
@@ -176,11 +174,9 @@ class lifted_solver::lifting {
 
   const lifted_solver& of_;
   integer common_ = 1;                              // a multiple of all denominators of b
-  std::vector<integer> rest_, right_;               // the rest of common_ b after the digits so far; common_
-                                                    // b
+  std::vector<integer> rest_, right_;               // what is left of common_ b; all of it
   std::vector<std::vector<std::uint64_t>> digits_;  // digits since the last gather()
-  std::vector<integer> sum_;                        // sum of the gathered digits, each times its power of the
-                                                    // prime
+  std::vector<integer> sum_;                        // sum of digits times powers of the prime
   std::map<std::size_t, integer> powers_;           // powers of the prime, by exponent
   std::size_t gathered_ = 0;
   integer modulus_ = 1;  // the prime to the power gathered_
@@ -298,8 +294,7 @@ void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   for (std::size_t j = 0; j < n; ++j) x[dof_at_[j]] = y[j];
 }
 
-/// Finds one motion for each dof without a pivot, which moves that dof by 1. False if K + springs resists one
-/// of them.
+/// Finds one motion for each dof without a pivot, which moves it by 1. False if K + springs resists one.
 bool lifted_solver::find_free_motions() {
   free_motions_.clear();
   for (std::size_t j = 0; j < free_.size(); ++j) {

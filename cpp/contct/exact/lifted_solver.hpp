@@ -15,23 +15,20 @@ namespace contct {
 
 using rational_rows = sparse_rows<rational>;
 
-/// A stiffness added to the diagonal at a dof; or a spring between two dofs, where the matrix must have an
-/// entry, which may be 0.
+/// A stiffness added at a dof, or a spring between two dofs, where the matrix needs an entry, possibly 0.
 struct added_spring {
   int dof;
   rational stiffness;
   int other = -1;
 };
 
-/// Factors K + springs on the dofs that are not fixed, and solves with the factor. K + springs must be
-/// positive semidefinite.
+/// Factors K + springs, which must be positive semidefinite, on the free dofs, and solves with the factor.
 class lifted_solver {
  public:
   /// The most bits of a numerator or denominator.
   static constexpr std::size_t most_bits = std::size_t{1} << 19;
 
-  /// `place`: the row of each dof in the factor, chosen for a narrow band. All arguments must outlive this
-  /// object.
+  /// `place`: the row of each dof in a narrow band. All arguments must outlive this object.
   lifted_solver(const rational_rows& k, std::span<const char> fixed, std::span<const int> place,
                 std::size_t longest = most_bits);
 

@@ -14,8 +14,7 @@
 
 namespace contct {
 
-/// The most dofs of an exact problem. Time and memory grow fast with dofs, because the numbers become longer
-/// too.
+/// The most dofs of an exact problem, whose numbers also become longer with the number of dofs.
 inline constexpr int most_exact_dofs = 50'000;
 
 using exact_pair = pair_in<rational>;
@@ -26,19 +25,17 @@ struct exact_problem : equations<rational> {
   std::vector<int> place;  ///< row of each dof in a narrow band [dofs]
   std::vector<exact_step> steps;
   /// M, a diagonal matrix that measures rigid-body motions and is positive on all of them: motions that the
-  /// load does not drive keep their amount, and the load drives the others along the steepest descent in M.
-  /// In beams M acts on w at the ends and hinges, in plates on w at the corners, as the corrected rule in
-  /// doubles does.
+  /// load does not drive keep their amount, and the load drives the others along the steepest descent in M. M
+  /// acts on w at the ends and hinges of beams and the corners of plates, as in doubles.
   std::vector<added_spring> ground;
 
   /// The most bits of a number on its path.
   std::size_t longest = lifted_solver::most_bits;
 };
 
-/// Converts a problem exactly. Every number is the shortest decimal of its double. Coordinates given as runs
-/// of equal parts are divided exactly. The stiffness of a bed's pair is its modulus times the exact tributary
-/// length or area, and its face is the value of the exact polynomial. The D of a plate is computed exactly
-/// from E, nu and thickness.
+/// Converts a problem exactly. Every number is the shortest decimal of its double. Computed exactly:
+/// coordinates of equal parts, the stiffness (modulus times tributary length or area) and faces of a bed, and
+/// the D of a plate from E, nu and thickness.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p);
 
 /// The number of subdiagonals of the band.
@@ -73,8 +70,7 @@ struct exact_path {
   path_status status = path_status::solved;  ///< status of the first step that is not solved
   /// After a step that is not solved, the path continues only if the next step starts from zero.
   std::vector<exact_step_end> steps;
-  std::optional<mechanism_proof> mechanism;  ///< corrected path: proof for the first step without an
-                                             ///< equilibrium
+  std::optional<mechanism_proof> mechanism;  ///< of the first mechanism; corrected path only
 
   /// Adds the end of one more step.
   void take(exact_step_end end) {

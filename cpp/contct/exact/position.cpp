@@ -87,8 +87,7 @@ std::vector<event> position::events_since(const std::vector<char>& before) const
   return events;
 }
 
-/// The reaction at a fixed dof is K u minus the load and the forces of its pairs. If a dof is fixed twice,
-/// the first support gets it.
+/// K u minus the load and the forces of pairs. At a dof fixed twice, the first support has the reaction.
 rational_vector position::reactions(const rational_vector& displacement,
                                     const rational_vector& forces) const {
   const exact_step& after = problem.steps[step];

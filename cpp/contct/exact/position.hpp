@@ -18,8 +18,7 @@ class position {
   void factor();
   [[nodiscard]] const lifted_solver& solver() const { return solver_; }
 
-  /// R of the step at free dofs: the increment of the load, and the loads from settlements and moves of
-  /// faces.
+  /// R of the step at free dofs: the increment of loads, with those of settlements and moved faces.
   [[nodiscard]] const rational_vector& increment() const { return increment_; }
   /// Solves (K + springs) u = b for a `b` at free dofs, with fixed dofs at `settled`.
   [[nodiscard]] rational_vector moved(const rational_vector& b, const rational_vector& settled) const;
@@ -27,8 +26,7 @@ class position {
   [[nodiscard]] rational_vector response() const { return moved(increment_, settlement_); }
   /// The movement of fixed dofs in the step, less that of their faces.
   [[nodiscard]] const rational_vector& settlement() const { return settlement_; }
-  /// The equilibrium of the structure and the springs of pairs in contact under the load at the start of the
-  /// step.
+  /// The equilibrium with the springs of pairs in contact, under the load at the start of the step.
   [[nodiscard]] rational_vector at_start_of_step() const;
 
   [[nodiscard]] rational gap(std::size_t pair) const {
@@ -44,8 +42,7 @@ class position {
   /// The events that lead from the statuses `before` to the present ones, in order of pairs.
   [[nodiscard]] std::vector<event> events_since(const std::vector<char>& before) const;
 
-  /// The end of a step at this position. `pairs_react`: a pair in contact at a fixed dof carries a part of
-  /// the support's load.
+  /// The end of a step at this position. `pairs_react`: pairs at fixed dofs carry a part of the reaction.
   [[nodiscard]] exact_step_end end(path_status status, std::vector<exact_increment> increments,
                                    bool pairs_react) const;
 

@@ -24,8 +24,7 @@ std::string as_json(const std::string& text) {
   return json_text(json(text));
 }
 
-/// The error as JSON, with the place at the start of its message if it has one: "pb.toml:12:3: ..", or
-/// without the column.
+/// The error as JSON, with the place that begins its message: "pb.toml:12:3: ..", or without the column.
 std::string error_json(std::string_view message) {
   json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
   const auto number_at = [message](std::size_t from) {  // the number before a colon; 0 if there is none
@@ -45,8 +44,7 @@ std::string error_json(std::string_view message) {
   return json_text(error);
 }
 
-/// The answer as text. The result is already text, and is not parsed again because that would take longer
-/// than the path.
+/// The answer as text. The result is not parsed again, which would take longer than the path.
 std::string text_of(const served_answer& a, const std::optional<std::string>& error) {
   const auto exit = error ? exit_status::bad_input : a.exit;
   std::string text =

@@ -28,8 +28,7 @@ struct served_answer {
   }
 };
 
-/// The options of a request. Every refusal is a std::invalid_argument such as "options: kernels: found 3;
-/// allowed: ..".
+/// The options of a request. Refusals are std::invalid_argument: "options: kernels: found 3; allowed: ..".
 class request {
  public:
   /// `text` may be null. Refuses a text that is not a JSON object, and option names that are not in `known`.
@@ -64,8 +63,7 @@ class request {
 /// kernel of the caller requests another kernel, the request is refused and does not hang.
 [[nodiscard]] std::recursive_mutex& turn();
 
-/// Returns the answer that `find` fills in, or the error that it throws, as text allocated by malloc; null if
-/// there is no memory for it.
+/// Returns the answer that `find` fills in, or its error, as text from malloc; null if there is no memory.
 [[nodiscard]] char* answered(const std::function<void(served_answer&)>& find) noexcept;
 
 }  // namespace contct

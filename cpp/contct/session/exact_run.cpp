@@ -57,8 +57,7 @@ void refuse_indefinite(const assembled& a, const problem& of, const exact_proble
       a.label_of(static_cast<int>(largest - motion.begin()))));
 }
 
-/// Changes the status `mechanism` of a path of the 1989 rule to `path_ended` where the corrected path shows
-/// an equilibrium.
+/// Changes `mechanism` in a path of the 1989 rule to `path_ended` if the corrected path has an equilibrium.
 void tell_mechanisms(exact_path& path, const exact_problem& p) {
   if (std::ranges::count(path.steps, path_status::mechanism, &exact_step_end::status) == 0) return;
   const exact_path corrected = follow_corrected_path(p);
@@ -99,8 +98,7 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
 /// Follows the path with kernel `name` as `contct run` does, and compares its numbers with the exact ones.
 kernel_digits digits_of_kernel(const std::string& name, const problem& p, const linear_structure& s,
                                const exact_path& exactly, observer* shown) {
-  constexpr double rounding[] = {1e-9, 1e-4};  // rounding of an event's share, for kernels of 8 and of 4
-                                               // bytes
+  constexpr double rounding[] = {1e-9, 1e-4};  // rounding of shares in 8 and in 4 bytes
   const std::unique_ptr<kernel> leader = make_kernel(name);
   digit_counter counter(p, exactly);
   std::vector<observer*> all = {&counter, shown};

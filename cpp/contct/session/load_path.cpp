@@ -27,8 +27,7 @@ struct load_words {
   std::string after{};
 };
 
-/// The words for a load that consists only of settlements or only of moves of faces: the only one in full, or
-/// the largest of several.
+/// The words for a load of only settlements or only moves of faces; of several, the largest amount.
 load_words motion_words(const model& m, const std::string& verb, const std::vector<nodal_value>& all) {
   const auto amount = [](const nodal_value& g) { return product_of<double>(g.value, g.factor); };
   const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });

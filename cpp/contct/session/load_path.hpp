@@ -20,13 +20,11 @@ class load_path {
   /// The resultant of this load; 0 if the sum is only rounding. `step` is at least 1.
   [[nodiscard]] resultant resultant_at(int step, double fraction) const;
 
-  /// True if the load at either end of the step has more than 32 parts. Each element of a scattered list is
-  /// one part.
+  /// True if the load at either end of the step has over 32 parts; a scattered list has one per element.
   [[nodiscard]] bool has_many_parts(int step) const;
 
   /// The load in words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load, with at
-  /// most six digits. If the words do not fit into `width` columns, only the number; if that does not fit
-  /// either, "".
+  /// most six digits. The number alone, or "", if they do not fit into `width` columns.
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:

@@ -13,8 +13,7 @@ namespace contct {
 /// A state on a path: after an increment, or at the end of a step.
 struct path_moment {
   const step_record* step;
-  const increment_record* increment;  ///< null: the step ended without an increment, or in the state of a
-                                      ///< fallback
+  const increment_record* increment;  ///< null: the step ended without one, or by a fallback
   bool is_end;                        ///< the end of a step, whose state the path reported
   int at;                             ///< number of increments since the start of the path
 };
@@ -22,8 +21,7 @@ struct path_moment {
 /// The states in the order of the path. The last increment of a step and the step's end are one entry.
 [[nodiscard]] std::vector<path_moment> moments_of(const run_result& r);
 
-/// The share of a step up to which increments count as its beginning, where structures that rest on their
-/// faces separate.
+/// The share of a step that counts as its beginning, when structures separate from their faces.
 inline constexpr double first_load = 1e-12;
 /// Removes all but the last of the increments up to `first_load` of each step.
 [[nodiscard]] std::vector<path_moment> without_first_moves(std::vector<path_moment> all);

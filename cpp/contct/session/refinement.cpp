@@ -10,8 +10,7 @@
 namespace contct {
 namespace {
 
-/// Converts the numbers of nodes and elements between the two meshes. Nodes of a plate are numbered row by
-/// row.
+/// Converts numbers of nodes and elements between the two meshes. A plate is numbered row by row.
 struct halved_grid {
   explicit halved_grid(const model& m)
       : columns(std::holds_alternative<plate>(m.kind) ? std::get<plate>(m.kind).columns() : nodes(m)),
@@ -20,8 +19,7 @@ struct halved_grid {
   [[nodiscard]] int node(int coarse) const {
     return 2 * (coarse / columns) * fine_columns() + 2 * (coarse % columns);
   }
-  /// The coarse nodes around a fine node: 2 on an edge, 4 in the middle of an element, or the node itself if
-  /// it is on both meshes.
+  /// The coarse nodes around a fine node: 2 on an edge, 4 in an element, or 1, the node itself.
   [[nodiscard]] std::vector<int> around(int fine) const {
     const int i = fine % fine_columns();
     const int j = fine / fine_columns();
@@ -103,8 +101,7 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
   }
 }
 
-/// Adds bed `b` of `p` to the finer problem. The face of a new node is the mean of its neighbours, or a value
-/// of the polynomial.
+/// Adds bed `b` of `p` to the finer problem. Faces of new nodes are means, or values of the polynomial.
 void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& fine) {
   std::map<int, double> faces;
   for (std::size_t i = 0; i < b.share.size(); ++i)

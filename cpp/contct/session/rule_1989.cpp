@@ -13,8 +13,7 @@
 namespace contct {
 namespace {
 
-/// The engine: a factorisation at each increment, as in 1989, if that takes at most about 0.1 s for the
-/// increments of the answer.
+/// The engine: a factorisation at each increment, as in 1989, if that takes about 0.1 s or less.
 std::string engine_beside(const run_result& answer, const run_request& wanted, bool calls_are_kept,
                           const kernel_facts& leader) {
   constexpr double most_work = 1e8;       // multiplications

@@ -17,8 +17,7 @@ inline const std::vector<std::string> kernels_of_1989 = {"fortran", "cpp"};
 /// An event that the two paths do not have at the same share of the step.
 struct other_event {
   event what = {};
-  std::optional<double> at;  ///< the share of the step at which the 1989 rule has the event; empty: not in
-                             ///< this step
+  std::optional<double> at;  ///< share in the 1989 path; empty: not in this step
 };
 
 /// The events of the 1989 rule that differ in an increment of the answer.
@@ -27,13 +26,11 @@ struct row_of_1989 {
   bool reached = true;  ///< false: the path of the 1989 rule had ended before
 };
 
-/// The number at the end of a step in which the 1989 rule differs most from the answer, relative to the size
-/// of its kind.
+/// The number at the end of a step in which the 1989 rule differs most, relative to the size of its kind.
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< kind of the number
-  std::string at = {};              ///< place of the number: "pair 3", "node 5", "the support at node 1",
-                                    ///< "element 2"
+  std::string at = {};              ///< its place: "pair 3", "node 5", "the support at node 1", "element 2"
   double value = 0.0, right = 0.0;  ///< by the 1989 rule and by the answer
   double share = 0.0;               ///< their difference as a share of the size of the kind
 
@@ -49,8 +46,7 @@ struct rule_1989 {
   path_end end = {};
   std::vector<std::vector<row_of_1989>> rows = {};  ///< for each increment of the answer [steps][increments]
   bool same_events = true;                          ///< both paths have the same events
-  std::vector<state_difference> differences = {};   ///< of each step that both paths solved and whose answer
-                                                    ///< is certified
+  std::vector<state_difference> differences = {};   ///< only steps solved by both and certified
 };
 
 /// Two shares of a step are the same if they differ by at most this number.

@@ -1,5 +1,4 @@
-// A whole run: the only place where the kernels, engine, path, comparison, certificate and outputs of a
-// problem are put together.
+// A whole run: puts together kernels, engine, path, comparison, certificate and outputs.
 #pragma once
 
 #include <memory>
@@ -16,12 +15,11 @@ namespace contct {
 
 struct run_request {
   std::string file = {};                  ///< the path of the problem file as given
-  std::vector<std::string> kernels = {};  ///< the leader first; empty: only the ends of steps are computed,
-                                          ///< by the reference solution
-  bool both_rules = false;  ///< replaces `kernels`: the corrected rule leads, and the 1989 rule is compared
-                            ///< with it
-  std::string engine = {};  ///< empty: the default of the leading kernel
-  bool free_run = false;    ///< each kernel follows its own path, see follow_alone
+  std::vector<std::string> kernels = {};  ///< the leader first; empty: only reference solutions at ends of
+                                          ///< steps
+  bool both_rules = false;                ///< replaces `kernels`: the corrected rule, compared with 1989
+  std::string engine = {};                ///< empty: the default of the leading kernel
+  bool free_run = false;                  ///< each kernel follows its own path, see follow_alone
   bool envelope = false;
   bool pictures = false;   ///< keep all states, even if no output of this run needs them
   int max_increments = 0;  ///< limit for each step; 0: the default limit
@@ -62,8 +60,7 @@ class run {
   /// Finds the ends of the steps with half the element size, and sets result.refined.
   void refine();
 
-  /// Follows the path of another kernel, and compares it with that of the leader. The comparison is also
-  /// added to the result.
+  /// Follows the path of another kernel, and adds its comparison with the leading path to the result.
   const compared_path& follow_alone(const std::string& name);
 
   /// The exit status without --strict.
@@ -100,8 +97,7 @@ void refuse_other_rules(const std::vector<std::string>& kernels);
 /// A run that is explained line by line of the listing.
 struct explained_run {
   /// `kernels`: see refuse_other_rules. `to` receives the increments selected by `wanted`. Throws
-  /// std::invalid_argument if the second kernel cannot be compared with the first, and the exceptions of
-  /// make_kernel.
+  /// std::invalid_argument if the kernels cannot be compared, and as make_kernel does.
   explained_run(const std::vector<std::string>& kernels, increments_wanted wanted, explained_path::sink to);
 
   /// Follows the leader's path. `engine` may be empty or "auto"; the observer `shown` may be null.

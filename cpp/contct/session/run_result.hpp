@@ -25,8 +25,7 @@ namespace contct {
 /// The whole structure after an increment of a path, or at the end of a step.
 struct structure_state {
   int step = 0;                             ///< from 1; 0: before the first step
-  int number = 0;                           ///< number of the increment in the step, from 1; 0: the step
-                                            ///< ended without an increment
+  int number = 0;                           ///< increment in the step, from 1; 0: the step ended without one
   double fraction = 0.0;                    ///< share of the step's load consumed
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
@@ -73,8 +72,7 @@ struct recorded_parts {
 
 class run_recorder final : public observer {
  public:
-  static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< units: calls, pairs,
-                                                                                    ///< bytes
+  static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< calls, pairs, bytes
 
   /// `compared` is null for a single kernel; it must outlive this object and be called before it.
   explicit run_recorder(const lockstep* compared = nullptr, recorded_parts parts = {})
@@ -131,12 +129,10 @@ struct run_result {
   early_toggles early;
   path_end end;
   std::string file;                  ///< the path of the problem file as given
-  std::vector<std::string> kernels;  ///< the leader first; for both rules, the kernels of the 1989 rule come
-                                     ///< last
+  std::vector<std::string> kernels;  ///< the leader first; for both rules, those of 1989 last
   std::string engine;
   std::optional<lockstep_on_path> compared;  ///< empty: no kernel was compared call by call
-  std::shared_ptr<const rule_1989> beside;   ///< the path of the 1989 rule in a run of both rules; null in
-                                             ///< other runs, or without an answer
+  std::shared_ptr<const rule_1989> beside;   ///< null: not a run of both rules, or no answer
   std::vector<compared_path> free_runs;
   bool equal = true;
   std::vector<mesh_change> refined;  ///< empty: not requested, or not solved on both meshes

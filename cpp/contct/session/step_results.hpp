@@ -17,9 +17,8 @@ namespace contct {
 /// `node` counts from 0; `u`: displacements [dofs].
 [[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
 
-/// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs known
-/// to be lengths: dofs of pairs, and dofs along an axis if places are known. If there are no pairs and no
-/// places, all dofs.
+/// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs of
+/// pairs and, if places are known, dofs along an axis; all dofs if there are neither.
 [[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
 
 /// The name of a node in tables: its number, from 1, or its label in a matrix.
@@ -34,8 +33,7 @@ struct place {
 /// The nodes of an element of a beam or plate, in the order of element_results.
 [[nodiscard]] std::vector<int> nodes_of_element(const model& m, int element);
 
-/// The state of a pair in pictures. at_face: its gap is below EPSGAP, which the listing takes for zero,
-/// whatever its status.
+/// The state of a pair in pictures. at_face: its gap is below EPSGAP, whatever its status.
 enum class pair_state { open, closed, at_face };
 
 /// The state, gap and contact force of a pair, as results contain them.
@@ -54,8 +52,7 @@ struct step_results {
   element_results stresses;         ///< see stresses_of
   std::vector<double> reactions;    ///< [supports]
   std::vector<pair_reading> pairs;  ///< [pairs]
-  /// Elements of a beam with loads that begin, end or act inside, or with an imposed curvature: the pieces of
-  /// beam_lines.
+  /// The pieces of elements in which loads begin, end or act, or impose a curvature: see beam_lines.
   std::map<std::size_t, std::vector<element_line>> pieces = {};
 
   /// The pair with the largest contact force; empty if no pair has one.
@@ -87,8 +84,7 @@ struct bed_reading {
 /// The pressure of the beds at each node: force divided by tributary length or area [nodes].
 [[nodiscard]] std::vector<double> bed_pressure(const problem& p, const std::vector<pair_reading>& pairs);
 
-/// The beam passes through a face between two neighbouring pairs with the same face: the model has no contact
-/// there.
+/// A place where a beam passes through a face between two neighbouring pairs that both have that face.
 struct penetration {
   double depth = 0.0;                 ///< depth beyond the face, less the larger depth of the two pairs
   double x = 0.0;                     ///< the position with the largest depth
@@ -107,8 +103,7 @@ struct penetration {
 /// The least and largest values on a path: after its increments, if their states can be solved for, and at
 /// the ends of its steps. Combinations start from zero: only their ends under full load count.
 struct envelope {
-  /// A value, and the step and increment that had it, from 1; increment 0: the step ended without an
-  /// increment.
+  /// A value with its step and increment, from 1; increment 0: the step ended without one.
   template <class Value>
   struct reached {
     Value value;
@@ -137,8 +132,7 @@ struct envelope_curves {
     std::vector<envelope::range<double>> at;  ///< [places]
   };
   /// The places: nodes and, if there are fewer than 480 elements, equidistant places in each element. A node
-  /// between two elements is listed twice, as the end of the first and the start of the second, because the
-  /// shear may jump.
+  /// between elements is listed twice, because the shear may jump.
   std::vector<double> x;
   std::vector<curve> curves;
 };

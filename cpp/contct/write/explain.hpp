@@ -1,5 +1,4 @@
-// An explained run as text and as JSON: the effect of the listing in each call. Every sentence refers to a
-// line of fortran/contct.f.
+// An explained run as text and as JSON: the effect of each line of fortran/contct.f in each call.
 #pragma once
 
 #include <cstdint>
@@ -80,8 +79,7 @@ class explain_text {
   std::string summary_;  // lines of the summary that are not printed yet
 };
 
-/// Writes increments one by one as JSON, format "contct-explain-1" (reference/explain-format.md). Memory does
-/// not grow with their number.
+/// Writes increments one by one as JSON, format "contct-explain-1" (reference/explain-format.md).
 class explain_json {
  public:
   /// `out` must outlive this object.

@@ -57,8 +57,7 @@ class increment_printer {
     for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
-  /// Adds a sentence as "  38  s = GAP / d* = 0.25.                 (4)". On a wide terminal the statement
-  /// follows its number.
+  /// Adds a sentence as "  38  s = GAP / d* = 0.25.                 (4)"; and the statement if it fits.
   void say(const sentence& t, bool loud = false) {
     constexpr int margin = 6;
     constexpr int statement_width = 49;
@@ -167,8 +166,7 @@ std::string pairs_toggled(const explained_call& c, why_toggled why) {
   return fmt::format("{}", fmt::join(pairs, ", "));
 }
 
-/// Returns "make 1, break 3", "too early: 3": the events of an increment, and its pairs that were toggled
-/// away from their faces.
+/// Returns "make 1, break 3", "too early: 3": the events of an increment, and its wrongly toggled pairs.
 std::vector<std::string> summary_words(const explained_increment& i) {
   constexpr std::size_t most_named = 12;
   const std::span<const event> events = i.what.events;

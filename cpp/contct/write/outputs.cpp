@@ -16,8 +16,7 @@ extern const std::string_view report_html, report_css, result_js, picture_js, re
 
 namespace {
 
-/// The result as text of an HTML script element. It contains no "<", so none of its strings can act as
-/// markup.
+/// The result as text of an HTML script element. It has no "<", so its strings cannot act as markup.
 std::string script_text(const run_result& r) {
   std::string text;
   output_file out(&text);
@@ -41,8 +40,7 @@ std::string_view edition_section() {
 
 }  // namespace
 
-/// Fills the placeholders of the template from its beginning to its end, so that inserted texts are not
-/// searched.
+/// Fills the placeholders of the template in their order, so that inserted texts are not searched.
 std::string run_page(const run_result& r) {
   const std::string title = markup_text(title_of(r.what, r.file));
   const std::pair<std::string_view, std::string> fillings[] = {

@@ -24,8 +24,7 @@ namespace contct {
 /// matrix is drawn if its nodes have places: its edges as lines, without pairs at dofs that have no place.
 [[nodiscard]] std::string vtu_of_state(const problem& p, const structure_state& s);
 
-/// A collection of `count` files of states; "time" counts them from 0. `stem` is their common name without
-/// folder, see name_of_state.
+/// A collection of `count` files of states; "time" counts from 0. `stem`: see name_of_state.
 [[nodiscard]] std::string pvd_of_states(const std::string& stem, std::size_t count);
 
 /// Returns "out.007.vtu" for the stem "out" and number 7.
@@ -64,8 +63,7 @@ struct run_table {
 /// number is a fraction if that has at most `digits` digits, otherwise a decimal of `digits` digits.
 [[nodiscard]] std::string exact_text(const exact_run& r, int digits, const terminal& t);
 
-/// Writes an exact path as JSON, format "contct-exact-1", and finishes the file. Every number is a string
-/// "p/q" or "p".
+/// Writes an exact path as JSON, format "contct-exact-1". Every number is a string "p/q" or "p".
 void write_exact_json(const exact_run& r, output_file& out);
 
 }  // namespace contct

@@ -168,8 +168,7 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
   return out;
 }
 
-/// The states within steps that are written: every n-th, so that all together take at most about
-/// `most_bytes`.
+/// The states within steps that are written: every n-th, together about `most_bytes` at most.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
   std::vector<path_moment> within = moments_of(r);
   std::erase_if(within, [](const path_moment& m) { return m.is_end; });

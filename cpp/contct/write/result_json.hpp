@@ -86,8 +86,7 @@ class json_document {
 /// A support: its place, and its "dof".
 [[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
 
-/// Pair `i`, from 0, with number, place and surface; an event; and a pair in a state. Results and exact paths
-/// have the same keys.
+/// Pair `i`, from 0; an event; a pair in a state. Results and exact paths have the same keys.
 [[nodiscard]] nlohmann::ordered_json pair_json(const problem& p, std::size_t i);
 [[nodiscard]] nlohmann::ordered_json event_json(const problem& p, const event& e);
 [[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,

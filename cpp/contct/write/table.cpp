@@ -50,8 +50,7 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// The largest size of each quantity so far, by name. Values that are only rounding compared with it are
-/// printed as 0.
+/// The largest size of each quantity so far, by name. Values that are only its rounding are printed as 0.
 using sizes_so_far = std::map<std::string, double, std::less<>>;
 
 /// `value`, or 0 if it is only the rounding of larger values of this name.
@@ -74,8 +73,7 @@ const value_range* bending(const std::vector<value_range>& ranges) {
 }
 
 /// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
-/// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and below each line the other
-/// extreme if it is not 0.
+/// `width` columns if that is 60 or more. `all`: also shears, moved faces, and the other extremes.
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
                                        sizes_so_far& sizes, bool all) {
   std::vector<std::string> lines;
@@ -288,8 +286,7 @@ class table_printer {
     return events;
   }
 
-  /// Prints the increments at the beginning of a step. A single increment with few events is printed like any
-  /// other.
+  /// Prints the increments at the beginning of a step; a single one with few events like any other.
   void print_first_load(increments begun, const row_of_1989& other) {
     std::set<int> makes;
     std::set<int> breaks;
@@ -432,8 +429,7 @@ class table_printer {
     }
   }
 
-  /// Prints the least and largest values of all combinations, one line each, with the names of their
-  /// combinations.
+  /// Prints the least and largest values of all combinations, one line each, with their combinations.
   void print_envelope() {
     const envelope e = envelope_of(run_);
     std::string lines;

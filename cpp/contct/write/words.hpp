@@ -1,5 +1,4 @@
-// Words for statuses, events, certificates and the end of a run. They are the same on the terminal, on the
-// page and in every file.
+// Words for statuses, events, certificates and the end of a run, the same in every output.
 #pragma once
 
 #include <fmt/format.h>
@@ -84,8 +83,7 @@ constexpr std::string_view end_reason(path_status status) {
 /// A warning if the end of a step has too few reliable digits; otherwise empty.
 [[nodiscard]] std::string digit_warning(std::span<const step_record> steps);
 
-/// A warning, with a remedy, if a beam passes through a face between two pairs at the end of a step;
-/// otherwise empty.
+/// A warning, with a remedy, if a beam is beyond a face between two pairs; otherwise empty.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
 /// A warning if the largest stress or moment of a plate is at a point load or a [[contact]] pair; otherwise
@@ -98,8 +96,7 @@ constexpr std::string_view end_reason(path_status status) {
 /// The changes if the element size is halved, in parts; empty if this was not requested or not solved.
 [[nodiscard]] std::vector<std::string> refinement_words(const run_result& r);
 
-/// The errors at the ends of steps and, if the 1989 rule leads, the command for a run with the corrected
-/// rule.
+/// The errors at ends of steps and, if the 1989 rule leads, the command for the corrected rule.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
 /// `complaints_of`, the reason for the end of the path, and the warnings of the states.

@@ -79,8 +79,7 @@ function stateWords(f) {
 
 const cuts = new Set();  // sentences about what the page leaves out
 
-// `count` evenly chosen numbers from 0 to `all` - 1, with the first and the last; all numbers if there are at most
-// `count`.
+// `count` evenly chosen numbers from 0 to `all` - 1, with the first and the last; all if there are at most `count`.
 const evenly = (all, count) => Array.from({ length: Math.min(all, count) }, (_, i) => (all <= count ? i : Math.floor((i * (all - 1)) / (count - 1))));
 
 function some(what, all, most) {
@@ -170,8 +169,7 @@ function arrow(x, y, dx, dy, kind) {
     shape(`M${x + dx} ${y + dy}L${bx - uy * 4} ${by + ux * 4}L${bx + uy * 4} ${by - ux * 4}Z`, "", { "stroke-width": 0 }));
 }
 
-// A separated pair is a ring, a pair in contact a square, and a pair at its face a diamond, which is filled if the pair
-// is in contact.
+// A separated pair is a ring, a pair in contact a square; a pair at its face is a diamond, filled if in contact.
 function pairMark(look, x, y, r, closed = false) {
   if (look === "o") return svg("circle", { cx: x, cy: y, r, class: "pair-open" });
   if (look === "c") return svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "pair-closed" });
@@ -325,8 +323,7 @@ function drawLineLoad(root, f, { X, Y, ends }) {
   }
 }
 
-// Draws the scale of a strip below the beam, its title and, on the right, the values `told`; returns the vertical
-// scale.
+// Draws the scale, title and values `told` of a strip below the beam; returns its vertical scale.
 function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high], told) {
   const height = 126;
   const Y = (v) => top + 24 + ((high - v) / (high - low || 1)) * (height - 34);
@@ -426,8 +423,7 @@ function atNodes(f, name) {
   return sum.map((s, i) => (met[i] > 0 ? (name === "pressure" ? s : s / met[i]) : 0));
 }
 
-// The colour of a level, from dark brown (lowest) to pale (highest). Brightness increases steadily, so that levels can
-// be read in grey print.
+// The colour of a level, from dark brown (lowest) to pale (highest). Brightness increases steadily, for grey prints.
 function bandColour(i) {
   const share = field.bands > 1 ? i / (field.bands - 1) : 0.5;
   const stops = [[132, 74, 28], [186, 118, 58], [219, 165, 104], [238, 209, 163], [252, 246, 230]];

@@ -165,8 +165,7 @@ const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" 
 const mostReactions = 1000;  // there are more if every node has a spring
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
-// The ends of at most `most` steps, in their order: those with the largest values, relative to the largest value of
-// each quantity.
+// The ends of at most `most` steps, in order: those with the largest values relative to the largest of their quantity.
 function endsOf(what, most, steps = result.steps) {
   if (steps.length <= most) return steps;
   cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
@@ -299,8 +298,7 @@ const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 // Returns "1 to 9, 12".
 const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
 
-// Merges entries that differ only by their place, if there are at least `fewest`. A row is [first entry, cells of the
-// places, all entries].
+// Merges `fewest` or more entries that differ only by place. A row is [first entry, cells of places, all entries].
 function gathered(list, keyOf, fewest = 13) {
   const groups = new Map();
   for (const one of list) groups.set(keyOf(one), [...(groups.get(keyOf(one)) || []), one]);
@@ -494,8 +492,7 @@ function listen() {
   addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
 }
 
-// Prepares the printed page: the input with a sketch, the final state, and the ends of steps, for a plate in each
-// quantity.
+// Prepares the printed page: input with a sketch, final state, and ends of steps, for a plate in each quantity.
 function drawSheets() {
   byId("structure").before(byId("input"));
   if (scene === null) return;

@@ -11,12 +11,10 @@ function element(name, attributes = {}, ...children) {
   return e;
 }
 
-// The result, and the data that read() derives from it: dofs, pairs and supports with their places, and all states of
-// the path.
+// The result, and what read() derives from it: dofs, pairs and supports with their places, and the states of the path.
 let result, structure, places, frames, increments, ofMatrix;
 
-// The dofs of each node with their directions: 1 to 3 along x, y and z, 4 to 6 about these axes. The picture of a beam
-// has w along y.
+// The dofs of each node with their directions: 1 to 3 along x, y and z, 4 to 6 about these axes. A beam has w along y.
 const dofsOfNode = { beam: { w: 2, theta: 6 }, plate: { w: 3, wx: 5, wy: 4 } };
 
 function read(given) {
@@ -124,8 +122,7 @@ function deflectionAt(f, x, e = elementAt(x)) {
   return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
 }
 
-// The moment or shear of a beam: the polynomials through the values at the ends of element e. The shear is the slope of
-// the moment.
+// Moment or shear of a beam, by the polynomials through the ends of element e; the shear is the slope of the moment.
 function forceAt(f, name, [e, share]) {
   const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
   const x = from + share * (to - from);
