@@ -12,8 +12,8 @@ namespace {
 /// The response of the structure to the step's load on a ground of stiffness epsilon M, as epsilon tends to
 /// 0:
 ///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
-/// With rigid-body motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later one
-/// solves K y = the residual of the previous order, with z'M y = 0.
+/// With rigid-body motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later
+/// term solves K y = the residual of the previous order, with z'M y = 0.
 class soft_ground {
  public:
   explicit soft_ground(const position& at) : at_(at) {
@@ -119,7 +119,7 @@ class corrected_path {
         seen.clear();
       } else if (patience > 0) {
         --patience;
-      } else if (!seen.insert(at_.closed).second) {  // the terms so far do not move some pairs that decide
+      } else if (!seen.insert(at_.closed).second) {  // more terms are needed to decide all pairs
         seen.clear();
         terms += 2;
         if (terms > most_terms)
@@ -142,8 +142,8 @@ class corrected_path {
     return 0;
   }
 
-  /// The distance along `v` to the first event: a separated pair reaches its face, or one in contact, which
-  /// no rigid-body motion moves, leaves it. Empty if there is no event.
+  /// The distance along `v` to the first event: a separated pair reaches its face, or a pair in contact,
+  /// which no rigid-body motion moves, leaves it. Empty if there is no event.
   [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
     std::optional<rational> way;
     for (std::size_t i = 0; i < at_.closed.size(); ++i) {

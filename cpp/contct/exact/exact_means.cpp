@@ -128,7 +128,7 @@ class problem_beside final : public exact_means {
 
   const problem& what_;
   std::optional<std::optional<exact_problem>> problem_;
-  std::optional<exact_path> path_;  // of the chain that starts with first_
+  std::optional<exact_path> path_;  // path of the chain that starts with step first_, from 0
   std::size_t first_ = 0;
 };
 

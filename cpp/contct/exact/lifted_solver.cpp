@@ -174,7 +174,7 @@ class lifted_solver::lifting {
 
   const lifted_solver& of_;
   integer common_ = 1;                              // a multiple of all denominators of b
-  std::vector<integer> rest_, right_;               // what is left of common_ b; all of it
+  std::vector<integer> rest_, right_;               // the remainder of common_ b, and common_ b
   std::vector<std::vector<std::uint64_t>> digits_;  // digits since the last gather()
   std::vector<integer> sum_;                        // sum of digits times powers of the prime
   std::map<std::size_t, integer> powers_;           // powers of the prime, by exponent

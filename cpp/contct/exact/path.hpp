@@ -45,7 +45,7 @@ struct exact_problem : equations<rational> {
 struct exact_increment {
   rational fraction;
   std::vector<event> events;  ///< in order of pairs; empty at the end of a step
-  bool snaps = false;         ///< after the events, a rigid-body motion to the next face at constant load
+  bool snaps = false;         ///< a rigid-body motion to the next face follows, at constant load
 };
 
 /// The final state of a step, or of the path.

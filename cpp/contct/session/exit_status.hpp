@@ -7,7 +7,6 @@
 
 namespace contct {
 
-/// The exit statuses of the program, which a CI job reads.
 enum class exit_status {
   solved = 0,  ///< solved, and the kernels agree
   kernels_differ = 1,

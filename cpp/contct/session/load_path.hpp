@@ -24,7 +24,7 @@ class load_path {
   [[nodiscard]] bool has_many_parts(int step) const;
 
   /// The load in words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load, with at
-  /// most six digits. The number alone, or "", if they do not fit into `width` columns.
+  /// most six digits. The number alone, or "", if the words do not fit into `width` columns.
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:
@@ -36,9 +36,8 @@ class load_path {
   /// request.
   [[nodiscard]] const resultant& total_of(int step) const;
 
-  mutable std::vector<std::optional<resultant>>
-      totals_;                      // before the first step, then at the end of each step
-  std::vector<std::size_t> parts_;  // the number of parts of each of these loads
+  mutable std::vector<std::optional<resultant>> totals_;  // see total_of
+  std::vector<std::size_t> parts_;                        // the number of parts of each of these loads
 };
 
 /// True if these elements are consecutive and in ascending order.

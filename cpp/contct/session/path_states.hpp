@@ -14,7 +14,7 @@ namespace contct {
 struct path_moment {
   const step_record* step;
   const increment_record* increment;  ///< null: the step ended without one, or by a fallback
-  bool is_end;                        ///< the end of a step, whose state the path reported
+  bool is_end;                        ///< true: the state that the path reported for the end of a step
   int at;                             ///< number of increments since the start of the path
 };
 
@@ -26,8 +26,8 @@ inline constexpr double first_load = 1e-12;
 /// Removes all but the last of the increments up to `first_load` of each step.
 [[nodiscard]] std::vector<path_moment> without_first_moves(std::vector<path_moment> all);
 
-/// Leaves out moments until at most `most` are left: first every second increment, then three of four, and so
-/// on; likewise ends of steps, if they are more than half of `most`. The last moment stays.
+/// Keeps every second increment, then every fourth, and so on, until at most `most` moments are left. Ends of
+/// steps are thinned likewise if they are more than half of `most`. The last moment stays.
 [[nodiscard]] std::vector<path_moment> thinned(std::vector<path_moment> all, std::size_t most);
 
 /// Finds the states at moments of a path whose recorder keeps states. The path has displacements only at the

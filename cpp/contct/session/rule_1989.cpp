@@ -16,7 +16,7 @@ namespace {
 /// The engine: a factorisation at each increment, as in 1989, if that takes about 0.1 s or less.
 std::string engine_beside(const run_result& answer, const run_request& wanted, bool calls_are_kept,
                           const kernel_facts& leader) {
-  constexpr double most_work = 1e8;       // multiplications
+  constexpr double most_work = 1e8;       // multiplications in about 0.1 s
   constexpr double of_each_column = 200;  // the other work on a column, as a number of multiplications
   if (!wanted.engine.empty() || calls_are_kept) return engine_for(leader, wanted.engine, answer.structure);
   const linear_structure& s = answer.structure;
@@ -40,7 +40,7 @@ std::optional<double> take_event(std::vector<timed_event>& from, const event& e,
   return share;
 }
 
-/// The rows of a step. Events of both paths are removed from `others`; each event left there belongs to the
+/// The rows of a step. Events that both paths have are removed from `others`; each other event belongs to the
 /// next increment of the answer. `limit`: the share of the step at which the 1989 path ended.
 std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_event>& others, double limit) {
   std::vector<row_of_1989> rows(answer.increments.size());

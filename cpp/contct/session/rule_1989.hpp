@@ -20,7 +20,7 @@ struct other_event {
   std::optional<double> at;  ///< share in the 1989 path; empty: not in this step
 };
 
-/// The events of the 1989 rule that differ in an increment of the answer.
+/// The differences of the 1989 path in an increment of the answer.
 struct row_of_1989 {
   std::vector<other_event> otherwise = {};
   bool reached = true;  ///< false: the path of the 1989 rule had ended before
@@ -30,8 +30,8 @@ struct row_of_1989 {
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< kind of the number
-  std::string at = {};              ///< its place: "pair 3", "node 5", "the support at node 1", "element 2"
-  double value = 0.0, right = 0.0;  ///< by the 1989 rule and by the answer
+  std::string at = {};              ///< place: "pair 3", "node 5", "the support at node 1", "element 2"
+  double value = 0.0, right = 0.0;  ///< the number by the 1989 rule, and in the answer
   double share = 0.0;               ///< their difference as a share of the size of the kind
 
   [[nodiscard]] bool is_wrong() const { return !(share <= certified_share); }
@@ -44,9 +44,9 @@ struct rule_1989 {
   lockstep_on_path compared;
   run_recorder record;
   path_end end = {};
-  std::vector<std::vector<row_of_1989>> rows = {};  ///< for each increment of the answer [steps][increments]
+  std::vector<std::vector<row_of_1989>> rows = {};  ///< one for each increment [steps][increments]
   bool same_events = true;                          ///< both paths have the same events
-  std::vector<state_difference> differences = {};   ///< only steps solved by both and certified
+  std::vector<state_difference> differences = {};   ///< only certified steps that both paths solved
 };
 
 /// Two shares of a step are the same if they differ by at most this number.

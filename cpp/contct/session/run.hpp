@@ -15,8 +15,7 @@ namespace contct {
 
 struct run_request {
   std::string file = {};                  ///< the path of the problem file as given
-  std::vector<std::string> kernels = {};  ///< the leader first; empty: only reference solutions at ends of
-                                          ///< steps
+  std::vector<std::string> kernels = {};  ///< the leader first; empty: only ends of steps
   bool both_rules = false;                ///< replaces `kernels`: the corrected rule, compared with 1989
   std::string engine = {};                ///< empty: the default of the leading kernel
   bool free_run = false;                  ///< each kernel follows its own path, see follow_alone
@@ -94,7 +93,7 @@ class run {
 /// in: only lines of the listing can be explained.
 void refuse_other_rules(const std::vector<std::string>& kernels);
 
-/// A run that is explained line by line of the listing.
+/// A path whose calls are explained by lines of the listing.
 struct explained_run {
   /// `kernels`: see refuse_other_rules. `to` receives the increments selected by `wanted`. Throws
   /// std::invalid_argument if the kernels cannot be compared, and as make_kernel does.

@@ -29,8 +29,8 @@ struct structure_state {
   double fraction = 0.0;                    ///< share of the step's load consumed
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
-  std::vector<double> pair_forces = {};     ///< more accurate than from `displacement`; may be empty [pairs]
-  std::optional<end_numbers> numbers = {};  ///< more accurate than from `displacement`; may be empty
+  std::vector<double> pair_forces = {};     ///< more accurate than `displacement` gives; or empty [pairs]
+  std::optional<end_numbers> numbers = {};  ///< more accurate than `displacement` gives; or empty
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };
@@ -106,7 +106,7 @@ struct compared_path {
   std::string kernel;
   free_run_difference difference;
   bool certified;
-  std::string distances;  ///< in words
+  std::string distances;  ///< the differences in words
 };
 
 /// The largest change of one kind of number if the element size is halved: see changes_between.
@@ -143,7 +143,8 @@ struct run_result {
 
   /// The status as written in results: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;
-  /// The call-by-call comparison of kernels, on the path or on that of the 1989 rule; null if there is none.
+  /// The call-by-call comparison of kernels, on the path of the leader or of the 1989 rule; null if there is
+  /// none.
   [[nodiscard]] const lockstep_on_path* compared_calls() const;
   /// The record of the path whose calls were kept: that of the 1989 rule in a run of both rules.
   [[nodiscard]] const run_recorder& record_of_calls() const;

@@ -116,7 +116,7 @@ struct envelope {
 
   int states = 0;
   std::vector<std::string_view> names;
-  std::vector<range<placed_value>> values;  ///< of each name
+  std::vector<range<placed_value>> values;  ///< least and largest value for each name
   std::vector<reached<double>> pairs;       ///< the largest force of each pair, or 0 [pairs]
   std::vector<range<double>> reactions;     ///< [supports]
 };

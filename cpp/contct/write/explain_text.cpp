@@ -57,7 +57,7 @@ class increment_printer {
     for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
-  /// Adds a sentence as "  38  s = GAP / d* = 0.25.                 (4)"; and the statement if it fits.
+  /// Adds a sentence as "  38  s = GAP / d* = 0.25.     (4)", with the statement if it fits.
   void say(const sentence& t, bool loud = false) {
     constexpr int margin = 6;
     constexpr int statement_width = 49;

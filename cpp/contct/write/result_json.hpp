@@ -54,7 +54,7 @@ class json_document {
   std::string_view before_;  // written before the next element
 };
 
-/// The same numbers counted from 1.
+/// The numbers of `from_0`, counted from 1.
 [[nodiscard]] nlohmann::ordered_json numbered(const std::vector<int>& from_0);
 
 /// The unit labels of a problem; null if it has none.
@@ -71,8 +71,8 @@ class json_document {
 
 /// The load at share `fraction` of step `step` (from 1) in absolute terms: `uniform` and `point` as in a
 /// problem file, and the resultant. The resultant of a beam has "force" and "moment", that of a plate
-/// "force", "moment_wx" and "moment_wy", that of a matrix the "sum" of all its loads. Unless `whole` is set,
-/// the parts are left out if load_path::has_many_parts, because every event would repeat them.
+/// "force", "moment_wx" and "moment_wy", that of a matrix the "sum" of all its loads. Without `whole`, a load
+/// of many parts (load_path::has_many_parts) has only its resultant.
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 

@@ -35,7 +35,7 @@ std::string row_of(const Fields&... fields) {
   return fmt::format("{}\r\n", fmt::join(std::forward_as_tuple(fields...), ","));
 }
 
-/// The row of a moment. The fields of an increment are empty if the step ended without one.
+/// The row of a path_moment. The fields of an increment are empty if the step ended without one.
 std::string csv_row(const run_result& r, const load_path& loads, const path_moment& m,
                     const std::vector<pair_reading>& pairs, int watched, std::optional<double> w) {
   const increment_record* const i = m.increment;

@@ -46,7 +46,7 @@ struct read_state {
   step_results read = results_of(what, load_path(what).at(state.step, state.fraction), state);
 };
 
-/// A pair with a cell, from 0, its place, and the node of its other dof; -1: it has no other dof.
+/// A pair (from 0) with a cell, its place, and the node of its other dof (-1: none).
 struct pair_cell {
   std::size_t pair;
   placed_dof at;
@@ -134,8 +134,8 @@ point_arrays point_data(const read_state& r) {
   return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
 
-/// The arrays at cells, elements first, then pairs. Each of the first arrays has the same number for all
-/// elements; the results of elements follow, with zeros for pairs.
+/// The arrays at cells, elements first, then pairs. Arrays of pairs have one constant for all elements;
+/// arrays of element results have zeros for pairs.
 std::string cell_data(const read_state& r, std::size_t elements, const std::vector<pair_cell>& cells) {
   const auto column = [&](const char* name, auto of_elements, auto of_pair) {
     std::vector<decltype(of_elements)> values(elements, of_elements);
@@ -189,7 +189,7 @@ std::string field_data(const problem& p, const structure_state& s) {
         type, name, value);
   };
   std::string name;
-  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // the bytes of a text, and 0
+  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // VTK stores a text as its bytes, and 0
     for (const char c : p.steps[s.step - 1].name) name += fmt::format("{} ", static_cast<unsigned char>(c));
     name = one("name", "String", name + "0");
   }

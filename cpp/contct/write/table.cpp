@@ -241,7 +241,7 @@ class table_printer {
     return run_.beside ? "1989" : run_.compared ? "kernels" : "";
   }
 
-  /// Prints a step. Increments at its very beginning share one row.
+  /// Prints a step; increments up to `first_load` share one row.
   void print_step(std::size_t number) {
     const step_record& s = run_.record.steps[number];
     const increments all = s.increments;
@@ -476,7 +476,7 @@ class table_printer {
   int load_width_ = 0;                     // 0: there is no room for loads
   int indent_ = 0;                         // indent of the events
   bool events_below_ = false;              // on a narrow terminal events have separate lines
-  bool headed_ = false, snapped_ = false;  // the rows so far include a heading, a snap
+  bool headed_ = false, snapped_ = false;  // a heading, a snap was printed
   sizes_so_far sizes_;
   /// For each quantity, by its index in step_results::ranges: steps and their ranges.
   std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;

@@ -301,10 +301,10 @@ std::string digit_warning(std::span<const step_record> steps) {
 
 namespace {
 
-/// Advice on the pair whose stiffness is the largest share of the structure's own stiffness at its dof, if
-/// the rounding of w there may change its force by more than the force itself; otherwise empty.
+/// Advice on the pair that is stiffest relative to the structure, if rounding of w may change its force by
+/// more than the force itself; otherwise empty.
 std::string stiffness_advice(const run_result& r) {
-  constexpr double rigid = 1e8;  // share; stiffer pairs give nearly the same digits
+  constexpr double rigid = 1e8;  // relative stiffness above which digits hardly change
   constexpr double too_stiff = 1e12;
   double most = too_stiff;
   std::string words;
