@@ -29,7 +29,7 @@ by_quantity sizes_of(const error_bounds& b, double extent) {
   return sizes;
 }
 
-/// Each size less its error: uncertified numbers may be too large, those without loads are only errors.
+/// Each size less its error: an uncertified number may be too large, and without loads all are errors.
 by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));

@@ -28,8 +28,8 @@ certain_contacts::certain_contacts(const problem& p, const linear_structure& s, 
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt,
                  quickest_factor(s) == factored_by::cholmod) {}
 
-/// rho, an upper bound on the norm of the residual r in K_A^-1. With z approximating K_A^-1 r and e = r - K_A
-/// z, rho^2 = r'z + z'e + e' K_A^-1 e.
+/// Returns rho, an upper bound on the norm of the residual r in K_A^-1: with z approximating K_A^-1 r and e =
+/// r - K_A z, rho^2 = r'z + z'e + e' K_A^-1 e.
 std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   const std::size_t n = system_.dofs();
   long_vector z(n);

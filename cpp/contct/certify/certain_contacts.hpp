@@ -13,7 +13,7 @@
 
 namespace contct {
 
-/// What is proved about the contacts of a state.
+/// The proved facts about the contacts of a state.
 struct contact_set {
   bool unique = true;      ///< false: the same forces also balance at other displacements
   std::string not_proved;  ///< why the contacts are not proved, in words; empty if they are

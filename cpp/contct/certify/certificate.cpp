@@ -19,7 +19,7 @@ double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
 }
 
-/// Does the sparse factor fit into memory three times, and does its product take a minute or less?
+/// Does the sparse factor L fit into memory three times, and does L L' take a minute or less?
 bool can_be_proved_by_columns(const linear_structure& s) {
   if (!sparse_factor::available()) return false;
   constexpr double most_flops = 5e10;
@@ -72,7 +72,7 @@ bool certifier::all_certified() const {
 certificate certifier::judge(const step_state& s) {
   certificate c;
   if (!is_finite(s.displacement)) {
-    c.problem = "a displacement is not a finite number";  // comparisons with NaN are false
+    c.problem = "a displacement is not a finite number";  // NaN would pass all comparisons below
     return c;
   }
   const std::vector<double> load = load_at(s.step);
@@ -81,7 +81,8 @@ certificate certifier::judge(const step_state& s) {
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   if (c.certified) measure_state(s, load, c);
-  const bool beyond_face = !c.unique && c.penetration > certified_share;  // then displacements have no bound
+  const bool beyond_face = !c.unique && c.penetration > certified_share;  // not unique: displacements have no
+                                                                          // bound
   if (!c.certified || beyond_face) compare(s, load, c);
   if (!c.certified) find_pulling_pair(s, c);
   return c;

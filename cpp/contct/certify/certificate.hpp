@@ -28,8 +28,8 @@ struct certificate {
   bool certified = false;  ///< every error is proved to be at most certified_share
   // The next two: proved errors of a certified state, otherwise differences from the reference solution.
   double displacement_error = 0.0;  ///< largest error of a deflection
-  double shape_error = 0.0;  ///< largest of any number, relative to the size of its kind; uncertified: of a
-                             ///< displacement times sqrt(K_ii)
+  double shape_error = 0.0;  ///< largest error of a number, relative to the size of its kind; uncertified: of
+                             ///< a displacement times sqrt(K_ii)
   double equilibrium = 0.0;  ///< largest residual of a row of the equilibrium, divided by sqrt(K_ii)
   double penetration = 0.0;  ///< largest depth of a separated pair beyond its face
   double tension = 0.0;      ///< largest distance of a pair in contact from its face, if its spring pulls

@@ -98,7 +98,8 @@ long_vector error_prover::long_displacement(int step, std::span<const double> di
   return u;
 }
 
-/// The residual if exactly the pairs of `closed` had forces, of either sign. That residual is linear in u.
+/// The residual that u would have if exactly the pairs of `closed` had forces, of either sign. It is linear
+/// in u.
 long_vector error_prover::residual_of_set(const long_residual& r, std::span<const double_double> u,
                                           const std::vector<int>& closed) const {
   long_vector force = r.force;
@@ -310,7 +311,7 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
 }
 
 /// Bounds for a state without loads: all forces are 0, and so are all displacements if the supports hold the
-/// structure. If not, it may be anywhere, unbent, with no pair beyond its face; false if it may be bent.
+/// structure. If not, it may be anywhere, unbent, with no pair beyond its face. False if it may be bent.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
   state_ = {told.step,

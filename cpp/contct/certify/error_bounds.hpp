@@ -56,7 +56,7 @@ struct error_bounds : contact_set {
   by_quantity error;
   by_quantity size;      ///< the largest number of each kind; nodal loads count as forces and moments
   by_quantity settling;  ///< no load acts: the force or moment that moves one settling dof alone
-  /// No load acts, and no pair is beyond its face at zero displacement: this is the equilibrium.
+  /// No load acts, and zero displacement, with no pair beyond its face, is the equilibrium.
   bool unloaded = false;
   /// The first pair, from 0, whose status is certainly wrong.
   std::optional<std::size_t> wrong_status;

@@ -67,7 +67,7 @@ struct long_system : equations<double_double> {
   /// The moments and shears in elements under displacements u [dofs] at the end of a step, from 1.
   std::function<std::vector<element_value>(int step, std::span<const double_double> u)> element_values;
 
-  /// Adds K u to `sum`, and sum of sqrt(K_ii K_jj) |u_j| over row i to sizes_i unless it is empty [dofs].
+  /// Adds K u to `sum`, and sum_j sqrt(K_ii K_jj) |u_j| to sizes_i unless `sizes` is empty. All [dofs].
   void add_product(std::span<const double_double> u, std::span<double_double> sum,
                    std::span<double> sizes = {}) const;
 

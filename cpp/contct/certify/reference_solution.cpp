@@ -224,7 +224,7 @@ class reference_solver::search {
     multiply_minus(stiffness_, p, minus_kp);
     return best_step(p, -dot(minus_kp, u_) - dot(load_, p), -dot(minus_kp, p));
   }
-  /// The same alpha. `slope`: of E at alpha = 0; `growth`: of the slope with alpha; both without the pairs.
+  /// The same alpha. `slope`: slope of E at alpha = 0; `growth`: its increase with alpha; both without pairs.
   [[nodiscard]] long double best_step(const numbers& p, long double slope, long double growth) const {
     struct bend {
       long double at, slope, growth;

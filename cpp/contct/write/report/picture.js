@@ -195,7 +195,7 @@ function wordsInFreePlaces(root, width, height, left = 2) {
 // ---- pairs, supports and loads ----
 //
 // `on` gives their places on the page. spot(p): the place of the moved node. along(p): the positive direction of the
-// dof, of length 1; null if it is perpendicular to the page. pixels(p): pixels for a displacement of 1 in that
+// dof, of length 1; null if it has no direction on the page. pixels(p): pixels for a displacement of 1 in that
 // direction. say: see wordsInFreePlaces. r, half: sizes of marks and of half a face. limit: the largest distance at
 // which a face is drawn from its undeformed node.
 
@@ -558,7 +558,7 @@ function pageOf(width) {
   return { width, scale, X, Y: (w) => height(times * w), height, ends: [x0, x1], heights: [y0, y1], bottom: height(y0) + 96, spot: ([x, y]) => [X(x), height(y)] };
 }
 
-// The projection of a direction as a vector of length 1, and its length; null if it is perpendicular to the page.
+// The projection of a direction as a vector of length 1, and its length; null for rotations and normals of the page.
 function onPage(direction) {
   if (direction < 1 || direction > 3) return null;
   const { right, up } = views[view];

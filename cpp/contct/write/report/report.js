@@ -3,7 +3,7 @@
 
 const known = { fortran: "FORTRAN", cpp: "C++", "fortran-r4": "FORTRAN (4-byte REAL)", "cpp-r4": "C++ (4-byte REAL)" };
 const kernelNames = () => result.kernels.map((name) => known[name] || name);
-const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // both rules: calls of 1989
+const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // both rules: the 1989 kernels
 const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
 
 // ---- load against deflection ----

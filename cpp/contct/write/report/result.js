@@ -104,7 +104,7 @@ function pieceAt(f, e, x) {
   const { moment, shear, pieces } = f.elements[e];
   if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
   const [w0, t0, w1, ofNode] = f.u.slice(2 * e, 2 * e + 4);
-  // A hinge has another slope on its left than its node, which has that on the right. It follows from the moments.
+  // The slope left of a hinge, which is not that of the node, follows from the moments.
   const h = structure.nodes[e + 1].x - structure.nodes[e].x;
   const turned = (h * ((moment[0] + moment[1]) / 2 + (h * (shear[0] - shear[1])) / 12)) / structure.EI[e];
   const t1 = structure.hinges?.includes(e + 2) ? t0 + turned : ofNode;
