@@ -301,7 +301,6 @@ reference_answer certifier::reference_at(int step) {
 
 namespace {
 
-/// The state as observers get it.
 step_state told(const full_load_state& s, int step, double rcond) {
   return {.step = step,
           .fraction = 1.0,

@@ -12,7 +12,6 @@
 
 namespace contct {
 
-/// The kinds of numbers that a state has.
 enum class quantity { w, slope, force, reaction, moment, shear, gap };
 inline constexpr std::array<const char*, 7> quantity_names = {"w",      "slope", "force", "reaction",
                                                               "moment", "shear", "gap"};

@@ -28,7 +28,6 @@ struct long_loads : loads_in<double_double> {
   int step = 0;  ///< the step at whose end the loads act, from 1; 0: not at the end of a step
 };
 
-/// The residual of a state under the loads of a step.
 struct long_residual {
   long_vector force;          ///< residual; 0 at fixed dofs [dofs]
   std::vector<double> slack;  ///< bound on the error of `force` [dofs]

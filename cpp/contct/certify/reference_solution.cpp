@@ -139,7 +139,6 @@ class reference_solver::search {
     return true;
   }
 
-  /// Sets p to a rigid-body motion.
   void put(const free_motion& motion, numbers& p) const {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);

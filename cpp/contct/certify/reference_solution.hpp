@@ -9,7 +9,6 @@
 
 namespace contct {
 
-/// The answer for one load.
 struct reference_answer {
   enum class outcome {
     found,           ///< the minimiser of the energy

@@ -22,7 +22,6 @@ struct kernel_digits {
   std::size_t steps = 0;
 };
 
-/// Observes the path of a kernel.
 class digit_counter final : public observer {
  public:
   /// Both arguments must outlive this object.

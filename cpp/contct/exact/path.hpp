@@ -38,7 +38,6 @@ struct exact_problem : equations<rational> {
 /// the D of a plate from E, nu and thickness.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p);
 
-/// The number of subdiagonals of the band.
 [[nodiscard]] int subdiagonals(const exact_problem& p);
 
 /// The events at one share of a step.
@@ -72,7 +71,6 @@ struct exact_path {
   std::vector<exact_step_end> steps;
   std::optional<mechanism_proof> mechanism;  ///< of the first mechanism; corrected path only
 
-  /// Adds the end of one more step.
   void take(exact_step_end end) {
     if (status == path_status::solved) status = end.status;
     steps.push_back(std::move(end));
@@ -97,7 +95,6 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 /// in the 1989 driver, where springs add up their forces increment by increment. Throws too_long.
 [[nodiscard]] exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell = {});
 
-/// The inputs of CONTCT for one pair.
 struct listing_pair {
   rational c;       ///< position of its face
   rational d;       ///< D at the pair
@@ -106,7 +103,6 @@ struct listing_pair {
   int surface;  ///< face_above or face_below
 };
 
-/// The outputs of CONTCT.
 struct listing_answer {
   rational_vector s;         ///< SS [pairs]
   rational s_min = 1;        ///< SMIN

@@ -30,7 +30,6 @@ rational scale_factor(const listing_pair& p) {
   return s_chk > 0 ? rational(s_chk * delta()) : 1;
 }
 
-/// The 1989 driver without rounding.
 class path_1989 {
  public:
   /// `p` must outlive this object.

@@ -11,7 +11,6 @@ namespace contct {
 
 namespace {
 
-/// The end of a step as reported by the path.
 structure_state state_of(const step_state& s) {
   structure_state end{.step = s.step,
                       .fraction = s.fraction,

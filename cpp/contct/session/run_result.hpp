@@ -116,7 +116,6 @@ struct mesh_change {
   double of = 0.0;  ///< the largest number of this kind on the finer mesh
 };
 
-/// All results of a run; every output is made from them.
 struct run_result {
   /// `p` and its structure `s` must outlive this object.
   run_result(const problem& p, const linear_structure& s, std::unique_ptr<exact_means> exactly = {})

@@ -197,7 +197,6 @@ void take(envelope::range<Value>& known, const envelope::range<Value>& now, auto
   if (size_of(now.most.value) > size_of(known.most.value)) known.most = now.most;
 }
 
-/// The envelope of a single state.
 envelope of_one_state(const problem& p, const load& l, const structure_state& s) {
   const step_results r = results_of(p, l, s);
   envelope e;

@@ -137,7 +137,6 @@ struct envelope_curves {
   std::vector<curve> curves;
 };
 
-/// The curves over the states of envelope_of.
 [[nodiscard]] envelope_curves curves_of(const run_result& r);
 
 }  // namespace contct

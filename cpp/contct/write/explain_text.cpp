@@ -24,7 +24,6 @@ std::string side_by_side_words(const explained_kernels& of, double first, double
 
 namespace {
 
-/// Formats the text of one increment.
 class increment_printer {
  public:
   increment_printer(const explained_kernels& of, const terminal& t, const explained_increment& i)

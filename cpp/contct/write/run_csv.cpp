@@ -88,7 +88,6 @@ int node_that_deflects_most(const run_result& r) {
   return at;
 }
 
-/// A state at the end of a step, with its results.
 struct end_of_step {
   const problem& what;
   const structure_state& state;

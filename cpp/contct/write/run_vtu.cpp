@@ -39,7 +39,6 @@ std::string data_array(std::string_view name, std::size_t components, const std:
       type, markup_text(name), components, fmt::join(values, " "));
 }
 
-/// A state and its results.
 struct read_state {
   const problem& what;
   const structure_state& state;

@@ -399,7 +399,6 @@ class table_printer {
 
   void print_heading(std::string_view words) { text_ += painted(terminal_, paint::strong, words) + '\n'; }
 
-  /// Prints one row for each combination.
   void print_combinations() {
     std::size_t width = 11;
     for (const load& l : problem_.steps) width = std::max(width, std::min(l.name.size(), name_width_at_most));

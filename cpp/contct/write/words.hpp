@@ -42,7 +42,6 @@ constexpr std::string_view look_name(pair_state look) {
   return names[static_cast<std::size_t>(look)];
 }
 
-/// The reason for the end of a path.
 constexpr std::string_view end_reason(path_status status) {
   constexpr std::string_view reasons[] = {"all load applied", "mechanism",    "cycle",
                                           "iteration limit",  "not factored", "path ended"};

@@ -233,7 +233,6 @@ function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
   ];
 }
 
-// Draws the curves of the envelope, one quantity below another.
 function drawEnvelope() {
   const holder = byId("curves");
   if (!holder) return;
