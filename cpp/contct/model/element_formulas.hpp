@@ -1,5 +1,5 @@
-// The matrices of single elements in numbers of any kind that knows + - * /: doubles, pairs of doubles or
-// rational ones. tests/lab/write_exact.py has independent formulas, with which these are compared.
+// Stiffness matrices, loads and end forces of single elements. `Number` is double, double_double or rational.
+// Tests compare these formulas with independent ones in tests/lab/write_exact.py.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace contct {
 
-/// The magnitude of a number for rounding errors; 0 for rational numbers, which have none.
+/// The magnitude that rounding errors are relative to; 0 for rational numbers, which have no rounding errors.
 template <class Number>
 [[nodiscard]] double size_of(const Number& /*x*/) {
   return 0.0;
@@ -33,8 +33,8 @@ struct corner {
 };
 inline constexpr std::array<corner, 4> corners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 
-/// Second derivatives of the twelve shape functions by xi and eta. Those of the corner at (xi_k, eta_k) are,
-/// with u = xi xi_k and v = eta eta_k,
+/// Second derivatives of the twelve shape functions by xi and eta. The shape functions of the corner at
+/// (xi_k, eta_k) are, with u = xi xi_k and v = eta eta_k,
 ///     w       (1 + u)(1 + v)(2 + u + v - u^2 - v^2) / 8
 ///     a wx    xi_k (1 + u)^2 (u - 1)(1 + v) / 8
 ///     b wy    eta_k (1 + v)^2 (v - 1)(1 + u) / 8
@@ -43,7 +43,7 @@ struct shape_curvatures {
   std::array<Number, 12> xx{}, yy{}, xy{};
 };
 
-/// At xi and eta, from -1 to 1.
+/// The second derivatives at (xi, eta), each from -1 to 1.
 template <class Number>
 shape_curvatures<Number> curvatures_at(const Number& xi, const Number& eta) {
   shape_curvatures<Number> c;
@@ -64,20 +64,21 @@ shape_curvatures<Number> curvatures_at(const Number& xi, const Number& eta) {
   return c;
 }
 
-/// Integrals over the square from -1 to 1 of w_xx w_xx, w_yy w_yy, (w_xx w_yy + w_yy w_xx) / 2 and w_xy w_xy.
+/// Integrals over the square from -1 to 1, for every two shape functions, of w_xx w_xx, w_yy w_yy, (w_xx w_yy
+/// + w_yy w_xx) / 2 and w_xy w_xy.
 template <class Number>
 struct bending_integrals {
   std::array<std::array<Number, 12>, 12> xx_xx{}, yy_yy{}, xx_yy{}, xy_xy{};
 };
 
-/// An integration point between -1 and 1 and its weight: the weights add up to 2.
+/// An integration point between -1 and 1 and its weight; the weights add up to 2.
 template <class Number>
 struct weighted_place {
   Number at, weight;
 };
 
-/// By Boole's rule, whose places and weights are rational: exact for degree 5, and the integrals are of
-/// degree 4. Doubles, for which neither thirds nor roots are exact, take Gauss's three points.
+/// Boole's rule, whose points and weights are rational: it is exact for degree 5, and the integrands have
+/// degree 4. For doubles: Gauss's three points.
 template <class Number>
 std::vector<weighted_place<Number>> places_of_integration() {
   std::vector<weighted_place<Number>> all;
@@ -122,7 +123,7 @@ std::vector<Number> in_element(std::span<const Number> polynomial, const Number&
   return q;
 }
 
-/// Stiffness of a Hermite element of length h: w, theta at the left end; w, theta at the right.
+/// Stiffness of a Hermite element of length h; dofs: w, theta at the left end, then at the right end.
 template <class Number>
 std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Number& h) {
   const Number c = EI / h / h / h;
@@ -133,8 +134,8 @@ std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Numb
   return {{{k, m, -k, m}, {m, near, -m, far}, {-k, -m, k, -m}, {m, far, -m, near}}};
 }
 
-/// Shear at both ends and moment at both ends of such an element without load, from its displacements: from
-/// the rotations relative to the chord, since the rigid-body motion of an element may be large.
+/// Shear at both ends and moment at both ends of a Hermite element without load, from its displacements `u`.
+/// Rotations are taken relative to the chord, because a large rigid-body motion would cancel digits.
 template <class Number>
 std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
   const Number chord = (u[2] - u[0]) / h;
@@ -147,18 +148,18 @@ std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::sp
   return {v, v, -m1, m2};
 }
 
-// An element that is released at its right end carries no moment there: its rotation is -(3 / 2h (w1 - w2) +
-// theta1 / 2), plus the rotation by loads on the element, and is condensed from the equations.
+// A released element carries no moment at its right end. The rotation of this end, -(3 / 2h (w1 - w2) +
+// theta1 / 2) plus the rotation by loads on the element, is condensed out.
 
-/// The change of a load on the other three dofs when the right rotation is condensed, for each unit on that
-/// rotation.
+/// Condensation subtracts these factors, times the load on the right rotation, from the loads on the other
+/// three dofs.
 template <class Number>
 std::array<Number, 3> released_shares(const Number& h) {
   const Number along = Number(3) / 2 / h;
   return {along, Number(1) / 2, -along};
 }
 
-/// beam_stiffness of such an element.
+/// beam_stiffness of a released element.
 template <class Number>
 std::array<std::array<Number, 4>, 4> released_stiffness(const Number& EI, const Number& h) {
   const Number k = 3 * EI / h / h / h;
@@ -167,15 +168,15 @@ std::array<std::array<Number, 4>, 4> released_stiffness(const Number& EI, const 
   return {{{k, m, -k, none}, {m, m * h, -m, none}, {-k, -m, k, none}, {none, none, none, none}}};
 }
 
-/// beam_end_forces of such an element.
+/// beam_end_forces of a released element.
 template <class Number>
 std::array<Number, 4> released_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
   const Number moment = 3 * EI / h * (u[1] - (u[2] - u[0]) / h);
   return {moment / h, moment / h, -moment, Number(0)};
 }
 
-/// Work of the load a0 + a1 x + .. on the shape functions of the element from `left` to left + h in doubles,
-/// in which its polynomial in t would cancel far from x = 0.
+/// Work of the load a0 + a1 x + .. on the shape functions of the element from `left` to left + h, in doubles.
+/// The load is evaluated at Gauss points: as a polynomial in t it would lose digits far from x = 0.
 inline std::array<double, 4> beam_load_between(std::span<const double> polynomial, double left, double h) {
   if (polynomial.size() == 1) {
     const double q = polynomial[0];
@@ -193,19 +194,19 @@ inline std::array<double, 4> beam_load_between(std::span<const double> polynomia
   return f;
 }
 
-// Everything in a plate's element is in xi = x / a, eta = y / b, from -1 to 1, and in the dofs w, a wx, b wy,
-// which are all lengths: units and aspect ratio enter last.
+// A plate's element is computed in xi = x / a and eta = y / b, from -1 to 1, and in the dofs w, a wx, b wy,
+// which are all lengths. Units and aspect ratio enter last.
 
-/// From the dofs w, wx, wy to w, a wx, b wy.
+/// The factors that convert the dofs w, wx, wy to w, a wx, b wy.
 template <class Number>
 std::array<Number, 12> plate_scales(const Number& a, const Number& b) {
   const Number one(1);
   return {one, a, b, one, a, b, one, a, b, one, a, b};
 }
 
-/// Stiffness in the dofs w, a wx, b wy: the strain energy's
+/// Stiffness in the dofs w, a wx, b wy, from the strain energy per area
 ///     D [w_xx^2 + w_yy^2 + 2 nu w_xx w_yy + 2 (1 - nu) w_xy^2] / 2
-/// with w_xx = w_xixi / a^2 and so on, over the area 4 a b.
+/// with w_xx = w_xixi / a^2 and so on. The element's area is 4 a b.
 template <class Number>
 std::array<std::array<Number, 12>, 12> scaled_plate_stiffness(const Number& a, const Number& b,
                                                               const Number& D, const Number& nu) {
@@ -224,8 +225,8 @@ std::array<std::array<Number, 12>, 12> scaled_plate_stiffness(const Number& a, c
   return k;
 }
 
-/// The Adini-Clough-Melosh rectangle (Melosh 1961, 1963; Adini and Clough 1961) of half width a and half
-/// height b: w, wx, wy at each corner, counter-clockwise from the lower left.
+/// Stiffness of the Adini-Clough-Melosh rectangle (Melosh 1961, 1963; Adini and Clough 1961) of half width a
+/// and half height b; dofs: w, wx, wy at each corner, counter-clockwise from the lower left.
 template <class Number>
 std::array<std::array<Number, 12>, 12> plate_stiffness(const Number& a, const Number& b, const Number& D,
                                                        const Number& nu) {
@@ -236,8 +237,8 @@ std::array<std::array<Number, 12>, 12> plate_stiffness(const Number& a, const Nu
   return k;
 }
 
-/// `u` in the scaled dofs, less the plane through corners 0, 1 and 3: a large rigid-body motion would cancel
-/// the digits of the bending.
+/// `u` in the dofs w, a wx, b wy, minus the plane through corners 0, 1 and 3: a large rigid-body motion would
+/// cancel the digits of the bending.
 template <class Number>
 std::array<Number, 12> plate_deformation(const Number& a, const Number& b, const std::array<Number, 12>& u) {
   const Number along_x = u[3] - u[0];
@@ -251,7 +252,7 @@ std::array<Number, 12> plate_deformation(const Number& a, const Number& b, const
   return v;
 }
 
-/// The nodal forces that hold such an element at `u`.
+/// The nodal forces that hold a plate's element at the displacements `u`.
 template <class Number>
 std::array<Number, 12> plate_forces(const Number& a, const Number& b, const Number& D, const Number& nu,
                                     const std::array<Number, 12>& u) {
@@ -290,7 +291,7 @@ std::array<curvature<Number>, 4> curvatures_at_corners(const Number& a, const Nu
   return at;
 }
 
-/// Work of a unit pressure on its shape functions.
+/// Work of a unit pressure on the element's shape functions.
 template <class Number>
 std::array<Number, 12> plate_unit_load(const Number& a, const Number& b) {
   std::array<Number, 12> f{};
@@ -302,11 +303,11 @@ std::array<Number, 12> plate_unit_load(const Number& a, const Number& b) {
   return f;
 }
 
-/// The integrals of 2 + 3 u - u^3, 1 + u, u^3 - u and u^3 + u^2 - u - 1, of which the shape functions are
-/// products, with u = xi xi_k, over xi from `from` to `to`.
+/// The integrals over xi, from `from` to `to`, of the factors in the shape functions: 2 + 3 u - u^3, 1 + u,
+/// u^3 - u and u^3 + u^2 - u - 1 with u = xi xi_k.
 template <class Number>
 std::array<Number, 4> shape_integrals(int xi_k, const Number& from, const Number& to) {
-  std::array<Number, 5> power{};  // of u^(n - 1)
+  std::array<Number, 5> power{};  // [n] integral of u^(n - 1)
   Number low(1);
   Number high(1);
   for (int n = 1; n < 5; ++n) {
@@ -318,7 +319,8 @@ std::array<Number, 4> shape_integrals(int xi_k, const Number& from, const Number
           power[4] + power[3] - power[2] - power[1]};
 }
 
-/// Work of a unit pressure on the part from xi[0] to xi[1] and eta[0] to eta[1], each between -1 and 1.
+/// Work, on the element's shape functions, of a unit pressure on the part from xi[0] to xi[1] and eta[0] to
+/// eta[1], all within -1 and 1.
 template <class Number>
 std::array<Number, 12> plate_unit_load_on(const Number& a, const Number& b, const std::array<Number, 2>& xi,
                                           const std::array<Number, 2>& eta) {

@@ -1,5 +1,5 @@
-// The elements of beams and plates in numbers of any kind: stiffness, loads, and results. Each
-// class has the same functions, from which equations.hpp and build assemble a structure.
+// The elements of beams and plates: stiffness, loads and results. `Number` is double, double_double or
+// rational. equations.hpp and `build` assemble a structure from these classes.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace contct {
 
-/// The work of a load on the shape functions of one element, and the sum of the magnitudes of its terms.
+/// The work of loads on the shape functions of one element. `size`: the sum of the magnitudes of its terms.
 template <class Number, std::size_t Dofs>
 struct element_work {
   std::array<int, Dofs> dofs{};
@@ -37,19 +37,19 @@ class beam_elements {
   [[nodiscard]] const std::vector<Number>& lengths() const { return h_; }
   [[nodiscard]] const Number& EI(int e) const { return EI_[e]; }
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
-  /// Have two elements the same stiffness?
+  /// True if both elements have the same stiffness.
   [[nodiscard]] bool are_alike(int e, int other) const {
     return h_[e] == h_[other] && beam_.is_alike(e, other) && is_released(e) == is_released(other);
   }
-  /// Is there a hinge at its right end?
+  /// True if the element has a hinge at its right end.
   [[nodiscard]] bool is_released(int e) const { return beam_.has_hinge(e + 1); }
   [[nodiscard]] std::array<std::array<Number, 4>, 4> stiffness(int e) const {
     return is_released(e) ? formulas::released_stiffness(EI(e), h_[e])
                           : formulas::beam_stiffness(EI(e), h_[e]);
   }
 
-  /// Call visit(element, work) for all loads on every element together; in doubles for each that follows the
-  /// mesh, where no other does.
+  /// Calls visit(element, work) with the work of all loads on an element together. In doubles, if no load is
+  /// placed, calls it for each distributed load separately.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
     if constexpr (std::is_same_v<Number, double>) {
@@ -66,7 +66,7 @@ class beam_elements {
     });
   }
 
-  /// Of each element: shear at its left and right ends, moment there.
+  /// [elements] shear at the left and right end, then moment at the left and right end.
   [[nodiscard]] std::vector<std::array<Number, 4>> end_forces(const load& l,
                                                               std::span<const Number> u) const {
     std::vector<std::array<Number, 4>> forces;
@@ -81,7 +81,7 @@ class beam_elements {
     return forces;
   }
 
-  /// element_results: names, places in an element, and the values of one element after the other.
+  /// The parts of element_results: names, places in an element, values.
   [[nodiscard]] static std::vector<std::string_view> names() { return {"shear", "moment"}; }
   static constexpr int places = 2;
   [[nodiscard]] std::vector<Number> values(const load& l, std::span<const Number> u) const {
@@ -91,7 +91,7 @@ class beam_elements {
     return all;
   }
 
-  /// Add to `need` [dofs] the forces of the adjacent elements at each dof, minus the loads on them.
+  /// Adds to `need` [dofs] the forces of the adjacent elements at each dof, minus their loads.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
     const auto forces = end_forces(l, u);
     for (std::size_t e = 0; e < forces.size(); ++e) {
@@ -111,7 +111,7 @@ class beam_elements {
     return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], u)
                           : formulas::beam_end_forces<Number>(EI(e), h_[e], u);
   }
-  /// The work of a load on an element whose right end may be released.
+  /// `work`, after condensing the load on a released right end.
   [[nodiscard]] element_work<Number, 4> condensed(int e, element_work<Number, 4> work) const {
     if (!is_released(e)) return work;
     const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e]);
@@ -134,7 +134,7 @@ class plate_elements {
  public:
   using vector = std::array<Number, 12>;
 
-  /// Half an element's width and height.
+  /// Half the width and half the height of an element.
   struct halves {
     Number a, b;
   };
@@ -165,7 +165,7 @@ class plate_elements {
     return formulas::plate_stiffness(own.a, own.b, D_, nu_);
   }
 
-  /// On every element: all the distributed loads together.
+  /// [elements] the pressure of all loads together.
   [[nodiscard]] std::vector<summed_pressure<Number>> pressures(const load& l) const {
     if (!std::is_same_v<Number, double> || !l.placed.empty()) return exact_pressures<Number>(plate_, l);
     std::vector<summed_pressure<Number>> sums(count());
@@ -176,7 +176,7 @@ class plate_elements {
     return sums;
   }
 
-  /// Call visit(element, work) for every element, with all the loads on it together.
+  /// Calls visit(element, work) for every element, with the work of all loads on it.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
     if (l.distributed.empty() && l.placed.empty()) return;
@@ -195,12 +195,12 @@ class plate_elements {
     const halves own = halves_of(e);
     return formulas::plate_deformation(own.a, own.b, displacement(e, u));
   }
-  /// The nodal forces that hold it at `u`.
+  /// The nodal forces that hold the element at the displacements `u`.
   [[nodiscard]] vector forces(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     return formulas::plate_forces(own.a, own.b, D_, nu_, displacement(e, u));
   }
-  /// M_x, M_y and M_xy at its corners: see element_results.
+  /// M_x, M_y and M_xy at the element's corners: see element_results.
   [[nodiscard]] std::array<std::array<Number, 4>, 3> moments(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     const auto at = formulas::curvatures_at_corners(own.a, own.b, deformation(e, u));
@@ -213,7 +213,7 @@ class plate_elements {
     return m;
   }
 
-  /// As a beam's.
+  /// The parts of element_results: names, places in an element, values.
   [[nodiscard]] static std::vector<std::string_view> names() { return {"mx", "my", "mxy"}; }
   static constexpr int places = 4;
   [[nodiscard]] std::vector<Number> values(const load& /*l*/, std::span<const Number> u) const {
@@ -223,7 +223,7 @@ class plate_elements {
     return all;
   }
 
-  /// Add to `need` [dofs] the forces of the adjacent elements at each dof, minus the loads on them.
+  /// Adds to `need` [dofs] the forces of the adjacent elements at each dof, minus their loads.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
     const std::vector<summed_pressure<Number>> pressure = pressures(l);
     for (int e = 0; e < count(); ++e) {
@@ -259,11 +259,11 @@ class plate_elements {
   }
 
   const plate& plate_;
-  std::vector<Number> width_, height_;  // of columns and rows of elements
+  std::vector<Number> width_, height_;  // [columns], [rows] of elements
   Number D_, nu_;
 };
 
-/// A structure that another program has assembled has none, nor any lengths or areas.
+/// For a structure given by its matrix, which has no elements, lengths or areas.
 template <class Number>
 struct no_elements {
   template <class Visit>
@@ -289,7 +289,7 @@ template <class Number>
   return {};
 }
 
-/// Call add(element, dofs, stiffness) for every element.
+/// Calls add(element, dofs, stiffness) for every element.
 template <class Elements, class Add>
 void for_each_stiffness(const Elements& elements, const Add& add) {
   decltype(elements.stiffness(0)) own{};

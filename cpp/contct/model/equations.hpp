@@ -1,5 +1,5 @@
-// The equations of a problem: K, supports, pairs and loads in numbers of one kind. The certificate uses them
-// in pairs of doubles, the exact path in rational numbers.
+// The equations of a problem: K, supports, pairs and loads in one kind of number. The certificate uses
+// double_double, the exact path uses rational.
 #pragma once
 
 #include <boost/container/flat_map.hpp>
@@ -10,11 +10,11 @@
 
 namespace contct {
 
-/// A symmetric matrix: of each row the entries that may differ from 0, by column.
+/// A symmetric matrix: for each row, the entries that may differ from 0, by column.
 template <class Number>
 using sparse_rows = std::vector<boost::container::flat_map<int, Number>>;
 
-/// A candidate pair: n, its face c and its stiffness k.
+/// A candidate contact pair.
 template <class Number>
 struct pair_in {
   int dof = 0;
@@ -23,12 +23,12 @@ struct pair_in {
   bool closed = false;  ///< in contact at the start
   int other = -1;       ///< the dof with the face; -1: the face is fixed
 
-  /// The relative displacement of the pair from displacements [dofs].
+  /// The relative displacement of the pair, from the displacements `u` [dofs].
   template <class Vector>
   [[nodiscard]] Number seen_in(const Vector& u) const {
     return other < 0 ? u[dof] : Number(u[dof] - u[other]);
   }
-  /// Add the pair's force at its dof, and the opposite force at the other one.
+  /// Adds the pair's force to `f` at `dof`, and the opposite force at `other`.
   template <class Vector, class Value>
   void add_to(Vector& f, const Value& force) const {
     f[dof] += force;
@@ -47,20 +47,20 @@ struct support_in {
 /// The loads at the end of a step.
 template <class Number>
 struct loads_in {
-  std::vector<Number> force;       ///< [dofs] consistent loads
-  std::vector<double> size;        ///< [dofs] the sum of their parts' magnitudes; 0 of rational numbers
+  std::vector<Number> force;  ///< [dofs] consistent loads
+  std::vector<double> size;   ///< [dofs] the sum of the magnitudes of their parts; 0 for rational numbers
   std::vector<Number> settlement;  ///< [dofs] the displacements of fixed dofs; 0 at all others
-  std::vector<Number> moved;       ///< [dofs] how far the faces of pairs are moved there
-  bool from_zero = false;          ///< see load
+  std::vector<Number> moved;       ///< [dofs] how far the faces of the pairs at the dof are moved
+  bool from_zero = false;          ///< see load::from_zero
 };
 
 template <class Number>
 struct equations {
-  sparse_rows<Number> stiffness;  ///< with elastic supports, rows of fixed dofs too
+  sparse_rows<Number> stiffness;  ///< includes elastic supports, and the rows of fixed dofs
   std::vector<char> fixed;        ///< [dofs]
   std::vector<support_in<Number>> supports;
   std::vector<pair_in<Number>> pairs;
-  /// The loads that these are, all at once.
+  /// Returns the loads of a step in this kind of number.
   std::function<loads_in<Number>(const load&)> loads_of;
 
   [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
@@ -83,7 +83,7 @@ void assemble(const assembled& a, const no_elements<Number>& /*none*/, sparse_ro
   }
 }
 
-/// Elastic supports go into the stiffness.
+/// Adds elastic supports to the stiffness.
 template <class Number>
 void put_on_supports(const problem& p, equations<Number>& e) {
   const int per_node = dofs_per_node(p.geometry);
@@ -96,8 +96,8 @@ void put_on_supports(const problem& p, equations<Number>& e) {
   }
 }
 
-/// The stiffness of a bed's pair is its modulus times the node's share of the structure. Where its faces are
-/// a polynomial, a pair is in contact where the face is 0, unless the file says otherwise.
+/// The stiffness of a bed's pair is the bed's modulus times the tributary length or area of the node. If a
+/// polynomial gives the faces, a pair whose face is 0 starts in contact unless bed::closed decides.
 template <class Number, class Elements>
 void add_pairs(const problem& p, const Elements& elements, equations<Number>& e) {
   for (const contact_pair& c : p.pairs)
@@ -144,7 +144,7 @@ template <class Number, class Elements>
   return f;
 }
 
-/// `p` must outlive them.
+/// `p` must outlive the equations.
 template <class Number>
 [[nodiscard]] equations<Number> equations_of(const problem& p) {
   equations<Number> e;

@@ -12,10 +12,10 @@
 namespace contct {
 namespace {
 
-/// Polynomials, constant first.
+/// The coefficients of a polynomial, constant first.
 using poly = std::vector<double>;
 
-/// A zero of p between a and b, where it has different signs.
+/// A zero of p between a and b; p(a) and p(b) have different signs.
 double zero_between(const poly& p, double a, double b) {
   const bool rises = polynomial_at(p, a) < 0.0;
   for (int i = 0; i < 200; ++i) {
@@ -26,8 +26,8 @@ double zero_between(const poly& p, double a, double b) {
   return a;
 }
 
-/// The sign changes of p between 0 and 1, in order: at most once between neighbouring zeros of its
-/// derivative.
+/// The sign changes of p between 0 and 1, ascending. Between neighbouring zeros of its derivative p changes
+/// its sign at most once.
 std::vector<double> zeros_of(const poly& p) {
   if (p.size() < 2) return {};
   std::vector<double> borders = zeros_of(derivative(p));
@@ -40,21 +40,21 @@ std::vector<double> zeros_of(const poly& p) {
   return zeros;
 }
 
-/// Values of one quantity. Values that differ by less than rounding may (mirror images, say) are equal: the
-/// place is that of the first.
+/// The least and the largest of the values of one quantity. Values that agree to within `equal_values`, as at
+/// mirror images, count as equal: the place of the first is shown.
 class extremes {
  public:
   extremes(std::string_view name, const placed_value& first)
       : name_(name), least_{first, first.value}, most_{first, first.value} {}
 
-  /// `from`: an extreme at this x or beyond is v's neighbour, and gives its place to v.
+  /// An equal extreme keeps its place unless it is at x >= `from`, in the same piece as v.
   void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
     if (v.value < least_.shown.value) least_.follow(v, from);
     if (v.value > most_.shown.value) most_.follow(v, from);
   }
 
-  /// Quantity `of` along element `e` of a beam. Its ends, by `left_value` and `right_value`, are not computed
-  /// from the polynomials; these are divided by `over`.
+  /// Takes the quantity `of` / `over` along element `e` of a beam. `left_value` and `right_value` are its
+  /// values at the ends of the element: they are more accurate than the polynomials.
   void take_element(const std::vector<element_line>& pieces, int e, poly element_line::*of, double left_value,
                     double right_value, double over = 1.0) {
     for (const element_line& line : pieces) {
@@ -78,7 +78,7 @@ class extremes {
  private:
   struct extreme {
     placed_value shown;
-    double at_place;  // which rounding may have made less extreme than the value shown
+    double at_place;  // the value at the place shown; rounding may make `shown.value` more extreme
 
     void follow(const placed_value& v, double from) {
       const bool equal = std::abs(v.value - at_place) <= equal_values * std::abs(v.value);
@@ -93,7 +93,7 @@ class extremes {
   extreme least_, most_;
 };
 
-/// The deflection of a beam's node.
+/// The deflection of a node of a beam.
 double w_at(std::span<const double> u, std::size_t node) {
   return u[beam::dofs_per_node * node];
 }
@@ -176,7 +176,7 @@ std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<con
       all.push_back(found.range());
     }
   };
-  constexpr std::size_t principal = 3;  // behind sx, sy and txy
+  constexpr std::size_t principal = 3;  // after sx, sy and txy
   add(moments, 0);
   add(stresses_of({p}, moments), principal);
   return all;
@@ -207,7 +207,7 @@ std::vector<double> bernstein_of(std::span<const double> p) {
 }
 
 std::vector<double> extreme_places(const element_line& line) {
-  constexpr double rounding = 1e-9;  // of an extreme at an end
+  constexpr double rounding = 1e-9;  // an extreme closer to an end is at the end
   std::set<double> places;
   for (const poly* p : {&line.w, &line.moment, &line.shear})
     for (const double t : zeros_of(derivative(*p)))
@@ -237,7 +237,7 @@ bool beam_lines::is_broken(int e) const {
 
 namespace {
 
-/// The values at the left end of an element or of a piece of one.
+/// The values at the left end of an element or of a piece.
 template <class Number>
 struct line_start {
   Number w, slope, moment, shear;
@@ -247,7 +247,7 @@ template <class Number>
 struct line_of {
   std::vector<Number> w, moment, shear;
 
-  /// Under the load q(t) and an imposed curvature.
+  /// Integrates the load q(t) from the left end; `curvature` is imposed.
   line_of(const line_start<Number>& left, const std::vector<Number>& q, const Number& h, const Number& EI,
           const Number& curvature)
       : w(q.size() + 4), moment(q.size() + 2), shear(q.size() + 1) {
@@ -278,7 +278,7 @@ struct line_of {
   }
 };
 
-/// With the slope, dw/dx.
+/// Adds the slope, dw/dx.
 element_line completed(element_line line) {
   for (const double d : derivative(line.w)) line.slope.push_back(d / line.h);
   return line;
@@ -315,8 +315,8 @@ element_line beam_lines::at(int e) const {
                     on != nullptr ? on->front().size : 0.0});
 }
 
-/// From the left in 32 digits: each coefficient is then rounded once. What that is off by is below 2^-80 of
-/// the loads and the largest shear and moment, which load_size has.
+/// Computed from the left end in 32 digits; then each coefficient is rounded once. The error before this
+/// rounding is below 2^-80 of load_size, which includes the largest shear and moment.
 std::vector<element_line> beam_lines::pieces(int e) const {
   if (!is_broken(e)) return {at(e)};
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
@@ -324,7 +324,7 @@ std::vector<element_line> beam_lines::pieces(int e) const {
   double size = 0.0;
   for (const element_piece& p : *pieces_at(pieces_, e)) {
     left.shear += p.force;
-    left.moment -= p.moment;  // of a moment that works on the slope
+    left.moment -= p.moment;  // a moment load on the slope lowers M
     const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);
     element_line piece{p.left, p.h.hi, p.right, in_doubles(line.w), {}, {}, {}, in_doubles(p.q)};
     piece.moment = in_doubles(line.moment);
@@ -350,9 +350,9 @@ element_results stresses_of(const model& m, const element_results& forces) {
   return std::visit([&](const auto& kind) { return stresses(kind, forces); }, m.kind);
 }
 
-/// Stresses are linear in the moments but for the principal and von Mises ones, of which the change of
-/// moments by at most 1 each makes at most the root of 6: von Mises' is the root of a positive form, x^2 - x
-/// y + y^2 + 3 xy^2 <= 6, and an eigenvalue changes by at most 2. What computes them has few roundings.
+/// Most stresses are linear in the moments; the principal and von Mises stresses are not. If each moment
+/// changes by at most 1, the von Mises stress changes by at most sqrt(6), because it is the root of a
+/// positive form, x^2 - x y + y^2 + 3 xy^2 <= 6, and a principal stress, an eigenvalue, changes by at most 2.
 std::optional<double> stress_error(const model& m, double moment, double largest) {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
   if (const auto* const b = std::get_if<beam>(&m.kind)) {

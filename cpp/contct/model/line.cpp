@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-/// A whole number that is a sum or difference of two such ones is a double, too.
+/// True for whole numbers below 2^52: the sum or difference of two of them is a double.
 bool is_whole(double x) {
   return x == std::trunc(x) && std::abs(x) < 0x1p52;
 }

@@ -1,5 +1,4 @@
-// Numbers of a file, lines of nodes and polynomials along them, in numbers of any kind that knows + - * /:
-// doubles, pairs of doubles or rational ones.
+// The numbers of a problem file and the points of a line, as double, double_double or rational.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +13,9 @@
 
 namespace contct {
 
-// The meaning of a number of a file: the shortest decimal that is read as the same double. In doubles it is
-// the number itself. Values derived from several such numbers are computed exactly and rounded once, also in
-// pairs of doubles: see line.cpp.
+// A number of a file means the shortest decimal that reads as the same double. In double it is this double.
+// Values derived from several numbers are computed exactly and then rounded once, also to double_double: see
+// line.cpp.
 
 template <class Number>
 [[nodiscard]] Number number_of(double x);
@@ -29,42 +28,43 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number product_of(double x, double factor);
 
-/// The sum of loads at one dof; exactly 0 if their decimals cancel.
+/// The sum of the loads at one dof; exactly 0 if their decimals cancel.
 template <class Number>
 [[nodiscard]] Number sum_of(std::span<const point_load> all);
 template <>
 [[nodiscard]] double sum_of(std::span<const point_load> all);
 
-/// The coefficients of a load, in rational numbers: of a distributed one the sums of its parts in the file,
-/// each times its factor, if it has any.
+/// The coefficients of a load, in rational numbers. For a distributed load: the sum of its parts in the file,
+/// each times its factors.
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const placed_load& p);
 
-/// D of a plate, or E t^3 / 12 (1 - nu^2) where the file has these.
+/// D of a plate, or E t^3 / 12 (1 - nu^2) if the file gives E and t.
 template <class Number>
 [[nodiscard]] Number stiffness_of(const plate& p);
 
-/// EI of a beam's element: that of the file, or the product of its section's E and I.
+/// EI of a beam's element: the file's, or the product of its section's E and I.
 template <class Number>
 [[nodiscard]] Number stiffness_of(const beam& b, int element);
 
-/// The values of a polynomial in x at nodes of a beam: far from x = 0 its terms may cancel in every digit.
+/// The values of a polynomial in x at nodes of a beam, computed exactly: far from x = 0 its terms may cancel
+/// in every digit.
 template <class Number>
 [[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
                                             std::span<const int> nodes);
 
-/// Equal elements from a point on.
+/// A run of equal elements, and the number and coordinate of its first point.
 struct even_part {
   std::size_t first;
   double start;
   even_run run;
 };
 
-/// The points of a line as the file has them: equal parts of its lengths where it gives lengths, otherwise
-/// number by number. In doubles they are where rounding has put them. A point is computed when it is asked
-/// for: a long beam has many, and few are needed in rational numbers.
+/// The points of a line as the file gives them: equal parts of lengths, or one number for each point. In
+/// double, the points have their rounded coordinates. A point is computed on demand: a long beam has many,
+/// and few are needed in rational numbers.
 template <class Number>
 class line {
  public:
@@ -89,15 +89,15 @@ class line {
     return number_of<Number>(p.start) + length * static_cast<int>(point - p.first) / p.run.elements;
   }
 
-  /// The meaning of a coordinate of the file: a point's own coordinate if it is equal to one, otherwise its
-  /// decimal.
+  /// The exact coordinate of the point whose rounded coordinate is `x`; if there is no such point, the
+  /// decimal of `x`.
   [[nodiscard]] Number place(double x) const {
     const auto at_or_above = std::lower_bound(x_.begin(), x_.end(), x);
     if (at_or_above == x_.end() || *at_or_above != x) return number_of<Number>(x);
     return at(static_cast<std::size_t>(at_or_above - x_.begin()));
   }
 
-  /// From a point to the next one: not a difference of rounded points.
+  /// The distance from a point to the next one, without rounding the points.
   [[nodiscard]] Number length(std::size_t interval) const {
     if (parts_.empty()) return difference_of<Number>(x_[interval + 1], x_[interval]);
     return length_in(part_from(interval));

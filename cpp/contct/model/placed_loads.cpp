@@ -13,8 +13,8 @@ namespace {
 
 using exact_poly = rational_vector;
 
-/// The first and the last of a line's intervals that a load from `from` to `to` acts on; both are the
-/// interval of the place if these are equal.
+/// The first and the last interval of a line that a load from `from` to `to` acts on. If `from` equals `to`,
+/// both are the interval that contains this place.
 std::pair<int, int> intervals_of(const std::vector<double>& x, double from, double to) {
   const auto most = static_cast<std::ptrdiff_t>(x.size()) - 2;
   const std::ptrdiff_t first = std::upper_bound(x.begin(), x.end(), from) - x.begin() - 1;
@@ -23,14 +23,14 @@ std::pair<int, int> intervals_of(const std::vector<double>& x, double from, doub
   return {static_cast<int>(begin), static_cast<int>(std::clamp<std::ptrdiff_t>(last, begin, most))};
 }
 
-/// The part of interval `i` between two coordinates, as shares of its length.
+/// The part of interval `i` between `from` and `to`, as shares of the interval's length.
 std::array<rational, 2> part_of(const line<rational>& points, const std::vector<double>& x, int i,
                                 double from, double to) {
   const auto share = [&](double at) { return (points.place(at) - points.at(i)) / points.length(i); };
   return {from > x[i] ? share(from) : rational(0), to < x[i + 1] ? share(to) : rational(1)};
 }
 
-/// A load in exact numbers. Those on whole elements reach from minus to plus infinity.
+/// A load in rational numbers. A load on whole elements reaches from minus to plus infinity.
 struct source {
   load_kind what;
   double from, to;
@@ -64,7 +64,7 @@ class beam_sources {
   [[nodiscard]] bool acts_on(int e) const { return !sources_on(e).empty(); }
   [[nodiscard]] rational h(int e) const { return points_.length(e); }
   [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
-  /// The coordinate of a place in an element.
+  /// The coordinate of the place `t` in element `e`.
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
 
   [[nodiscard]] std::vector<acting> on(int e) const {
@@ -79,8 +79,8 @@ class beam_sources {
     return all;
   }
 
-  /// Do the same constant loads act on all of both elements, which are equal? Both then have one piece. Not
-  /// always noticed.
+  /// True if the elements are equal and the same constant loads cover both: each element then is one piece.
+  /// Not every such case is recognised.
   [[nodiscard]] bool are_alike(int e, int other) const {
     const auto is_same_on_both = [&](std::size_t i) {
       const source& s = all_[i];
@@ -106,12 +106,12 @@ class beam_sources {
   const beam& beam_;
   line<rational> points_;
   std::vector<source> all_;
-  std::vector<std::size_t> on_all_;           // which of them act on every element
-  std::vector<std::vector<std::size_t>> on_;  // [elements] which others; empty: none
+  std::vector<std::size_t> on_all_;           // the loads, by their place in all_, that act on every element
+  std::vector<std::vector<std::size_t>> on_;  // [elements] the other loads; empty if there are none
 };
 
-/// Add the work of `a` on Hermite's functions. An imposed curvature does that of EI curvature on their
-/// curvatures.
+/// Adds the work of `a` on Hermite's shape functions. An imposed curvature does the work of EI times it on
+/// their second derivatives.
 void add_work(const acting& a, const rational& h, const rational& EI, std::array<rational, 4>& force) {
   static const std::array<exact_poly, 4> shapes = {
       {{1, 0, -3, 2}, {0, 1, -2, 1}, {0, 0, 3, -2}, {0, 0, -1, 1}}};
@@ -128,7 +128,7 @@ void add_work(const acting& a, const rational& h, const rational& EI, std::array
   }
 }
 
-/// The loads between two places of an element, including those at the first place.
+/// The piece between two places of an element, with the point loads at its left end.
 element_piece piece_between(const std::vector<acting>& all, const rational& from, const rational& to,
                             const rational& h, const rational& EI) {
   exact_poly q(1);
@@ -165,8 +165,8 @@ std::vector<rational> cuts_of(const std::vector<acting>& all) {
   return cuts;
 }
 
-/// Add the pressure of a rectangle to the elements in it: to `whole`, or, where it ends inside one, to
-/// `part`.
+/// Adds the pressure of a rectangle to the elements that it covers: to `whole` if it covers all of an
+/// element, otherwise to `part`.
 void add_rectangle(const plate& p, const placed_load& l, std::vector<rational>& whole,
                    std::map<int, std::array<rational, 12>>& part) {
   const line<rational> along_x(p.x, p.x_runs);

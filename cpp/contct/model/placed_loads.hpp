@@ -13,8 +13,8 @@
 
 namespace contct {
 
-/// Call visit(element, force) for every element of a beam that something acts on, with the work of all loads
-/// together on its shape functions, each number rounded once.
+/// Calls visit(element, force) for every loaded element of a beam. `force`: the work of all loads together on
+/// the element's shape functions, each number rounded once.
 template <class Number>
 void for_each_exact_work(const beam& b, const load& l,
                          const std::function<void(int, const std::array<Number, 4>&)>& visit);
@@ -23,32 +23,32 @@ void for_each_exact_work(const beam& b, const load& l,
 template <class Number>
 struct summed_pressure {
   Number value{};
-  /// If some of the load acts only on a part of the element: the work of all of it on the shape functions.
+  /// If a load acts on only a part of the element: the work of all loads on its shape functions.
   std::optional<std::array<Number, 12>> on_parts = {};
 };
-/// On every element, by all loads together, rounded once.
+/// [elements] the pressure of all loads together, rounded once.
 template <class Number>
 [[nodiscard]] std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load& l);
 
-/// A part of a beam's element along which everything that acts is one polynomial, rounded once.
+/// A part of a beam's element along which the load is one polynomial. Each number is rounded once.
 struct element_piece {
-  double left, right;               ///< x of its ends, those within the element
-  double_double h, EI;              ///< its length and its stiffness
+  double left, right;               ///< x of its ends, if they are inside the element
+  double_double h, EI;              ///< length and bending stiffness
   std::vector<double_double> q;     ///< the load, in t from 0 to 1 along the piece, constant first
-  double_double curvature;          ///< imposed: M = EI (w'' - curvature)
-  double_double force{}, moment{};  ///< loads at its left end
-  double size = 0.0;                ///< the magnitudes of its loads as one per length
+  double_double curvature;          ///< the imposed curvature: M = EI (w'' - curvature)
+  double_double force{}, moment{};  ///< point loads at its left end
+  double size = 0.0;                ///< the sum of the magnitudes of its loads, each as a force per length
 
   [[nodiscard]] bool is_plain() const { return curvature == 0.0 && force == 0.0 && moment == 0.0; }
 };
-/// The pieces of an element, from left to right, which are the same for all elements up to `last`.
+/// The pieces of an element, from left to right. All elements up to `last` have the same pieces.
 struct alike_pieces {
   int last;
   std::vector<element_piece> pieces;
 };
-/// The pieces of every loaded element, by the first of the elements that are alike.
+/// The pieces of every loaded element. Key: the first of consecutive elements with the same pieces.
 [[nodiscard]] std::map<int, alike_pieces> pieces_of(const beam& b, const load& l);
-/// Null where nothing acts.
+/// The pieces of `element`; null if no load acts on it.
 [[nodiscard]] const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all,
                                                           int element);
 

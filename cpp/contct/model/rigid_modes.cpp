@@ -15,9 +15,9 @@ extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* upl
 namespace contct {
 namespace {
 
-constexpr int most_tried = 10;              // six motions, and more to separate them from what follows
-constexpr double surely_held = 1e-11;       // a reciprocal condition
-constexpr double free_if_declared = 1e-10;  // an eigenvalue
+constexpr int most_tried = 10;              // six rigid-body motions, and four stiff ones
+constexpr double surely_held = 1e-11;       // reciprocal condition above which no motion is free
+constexpr double free_if_declared = 1e-10;  // largest eigenvalue of a declared motion
 constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10};
 constexpr int most_iterations = 40;
 
@@ -50,7 +50,7 @@ stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
   return a;
 }
 
-/// Factor A with the least shift of its diagonal that gives it a factor.
+/// Factors A with the least of `shifts` added to its diagonal that makes this possible.
 void factor_shifted(stiffness_factor& a, int order) {
   for (const double shift : shifts) {
     std::vector<spring_at> everywhere(order);
@@ -60,7 +60,7 @@ void factor_shifted(stiffness_factor& a, int order) {
   refuse_negative("below -" + short_words(negative_beyond));
 }
 
-/// The smallest eigenvalues of A and their vectors, by inverse iteration of some at once.
+/// The smallest eigenvalues of A and their eigenvectors, by inverse subspace iteration.
 class subspace {
  public:
   explicit subspace(const stiffness_matrix& a) : a_(a), factor_(a) {
@@ -71,16 +71,15 @@ class subspace {
       for (int i = 0; i < a.order(); ++i) x.push_back(random.unit() - 0.5);
   }
 
-  /// One more iteration.
   void improve() {
     for (numbers& x : vectors) factor_.solve(x);
     for (int pass = 0; pass < 2; ++pass) make_orthonormal();
     rotate();
   }
 
-  numbers values;                // the eigenvalues
-  std::vector<numbers> vectors;  // of each, orthonormal
-  numbers left_over;             // how far each is from an eigenvector: the length of A x - lambda x
+  numbers values;
+  std::vector<numbers> vectors;  // their eigenvectors, orthonormal
+  numbers left_over;             // the length of A x - lambda x for each eigenvector x
 
  private:
   void make_orthonormal() {
@@ -94,7 +93,7 @@ class subspace {
     }
   }
 
-  /// Rayleigh and Ritz: the best approximations to eigenvectors that the space has.
+  /// Rayleigh-Ritz: replaces the vectors by the best approximations to eigenvectors in their span.
   void rotate() {
     const std::size_t m = vectors.size();
     const std::vector<numbers> before = vectors;
@@ -127,7 +126,7 @@ class subspace {
     }
   }
 
-  /// h becomes its eigenvectors, one after the other.
+  /// Replaces `h` by its eigenvectors, one after the other.
   void diagonalise(numbers& h) {
     const int m = static_cast<int>(vectors.size());
     values.assign(vectors.size(), 0.0);
@@ -167,7 +166,7 @@ void converge(subspace& space, std::optional<int> known) {
   }
 }
 
-/// Each row of the vectors as displacements; rows within rounding become 0.
+/// [rows of the matrix] the vectors as displacements. A row that is not larger than rounding becomes 0.
 std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const free_motions& f) {
   std::vector<rigid_row> rows(d.size());
   numbers sizes(d.size());
@@ -186,13 +185,12 @@ std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const fr
   return rows;
 }
 
-/// The number of the softest motions that are free: those whose stiffness does not exceed rounding or its
-/// uncertainty.
+/// The number of rigid-body motions: those whose stiffness exceeds neither `free_below` nor its uncertainty.
 int count_in_doubt(const subspace& space, const numbers& d,
                    const std::function<double(std::span<const double>)>& doubt) {
   int count = count_free(space.values);
   if (!doubt) return count;
-  const double of_values = 8 * std::numeric_limits<double>::epsilon() * space.values.back();  // dsyev's
+  const double of_values = 8 * std::numeric_limits<double>::epsilon() * space.values.back();  // dsyev's error
   for (int i = 0; i < count; ++i) {
     numbers u = space.vectors[i];
     for (std::size_t r = 0; r < u.size(); ++r) u[r] *= d[r];
@@ -225,9 +223,9 @@ void rigid_rank::hold(int dof, int other) {
     return;
   }
   if (rank_ == most_rigid_motions) return;
-  // Only its direction counts; a slope's row, 1 over a length, may be of any size.
+  // Only the direction of the row counts: a slope's row, 1 over a length, may be of any size.
   rigid_row direction = rows_[dof];
-  double size = 0.0;  // of the numbers whose rounding the difference has
+  double size = 0.0;  // of the numbers that are subtracted
   if (other >= 0) {
     size = std::max(largest_of(direction), largest_of(rows_[other]));
     for (std::size_t i = 0; i < direction.size(); ++i) direction[i] -= rows_[other][i];

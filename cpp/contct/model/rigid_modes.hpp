@@ -1,6 +1,6 @@
-// Is the structure held? Decided by its rigid-body motions, not by a condition number. Of beams and plates
-// they are known, in rational numbers from the decimals of the file: rounding must not decide which are
-// stopped, and what loads do on them. Where only the stiffness matrix is known, they are found from that.
+// Rigid-body motions decide whether a structure is held; no condition number does. For beams and plates they
+// are rational numbers, computed from the decimals of the file: rounding must not decide which motions are
+// stopped, nor the work of loads on them. For a matrix, they are computed from K.
 #pragma once
 
 #include <algorithm>
@@ -28,14 +28,13 @@ class rigid_truth;
 /// A body in space has six rigid-body motions.
 inline constexpr int most_rigid_motions = 6;
 
-/// What the rigid-body motions of a structure do at one dof: one number a motion, 0 for those it does not
-/// have. A beam has two motions (up by 1; a turn about the middle that lifts its end by 1) and one for each
-/// hinge (a turn of what is right of it by as much; here of the first four), a plate three (up, along x,
-/// along y), a structure of which only the matrix is known up to six. u = q0 row[0] + q1 row[1] + ... at
-/// every dof is a rigid-body motion.
+/// The displacement of one dof by each rigid-body motion; 0 for motions that the structure does not have. u =
+/// q0 row[0] + q1 row[1] + ... at every dof is a rigid-body motion. A beam has two: up by 1, and a turn about
+/// the middle that lifts the right end by 1. With hinges: the first six of those of rigid_truth. A plate has
+/// three: up by 1, a turn along x, a turn along y. A matrix has up to six.
 using rigid_row = std::array<double, most_rigid_motions>;
 
-/// The displacement by a motion q, one number for each rigid-body motion, at the dof of `row`.
+/// The displacement at the dof of `row` by the sum of q[i] times rigid-body motion i.
 [[nodiscard]] inline double along(const rigid_row& q, const rigid_row& row) {
   return std::inner_product(q.begin(), q.end(), row.begin(), 0.0);
 }
@@ -47,66 +46,65 @@ using rigid_row = std::array<double, most_rigid_motions>;
   return largest;
 }
 
-/// How many independent rigid-body motions the dofs that are held stop: the rank of their rows.
-/// The structure is a mechanism when this is less than the number of its rigid-body motions.
+/// The number of independent rigid-body motions that the held dofs stop: the rank of their rows. The
+/// structure is a mechanism if this is less than the number of its rigid-body motions.
 class rigid_rank {
  public:
-  /// `rows` of all dofs, which are found from a matrix and rounded: a row is independent if its part
-  /// orthogonal to the others is larger than this share of it. They must outlive this object, as `truth`
-  /// must.
+  /// For a matrix, whose `rows` [dofs] are rounded: a row is independent if its part orthogonal to the other
+  /// held rows is larger than this share of it. `rows` must outlive this object.
   rigid_rank(std::span<const rigid_row> rows, double independent) : rows_(rows), independent_(independent) {}
-  /// By rows that `truth` knows exactly.
+  /// For a beam or plate, with the exact rows of `truth`, which must outlive this object.
   explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
 
-  /// Count a dof as held; or, of rows of a matrix, its distance to another one, if that is not negative.
+  /// Counts `dof` as held. For a matrix, if `other` >= 0: counts the difference of the two dofs as held.
   void hold(int dof, int other = -1);
 
   [[nodiscard]] int rank() const { return rank_; }
 
-  /// Independent held dofs that stop every motion that any held dof stops.
+  /// Independent held dofs; they stop all motions that the held dofs stop.
   [[nodiscard]] std::span<const int> dofs() const { return dofs_; }
 
-  /// The part of a combination of rigid-body motions that is still free; for the rows of a matrix.
+  /// The part of a combination of rigid-body motions that the held dofs leave free; not with `truth`.
   [[nodiscard]] rigid_row free_part(const rigid_row& motion) const;
 
  private:
   std::span<const rigid_row> rows_;
   double independent_ = 0.0;
   const rigid_truth* truth_ = nullptr;
-  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal up to rounding; of rows of a matrix
+  std::array<rigid_row, most_rigid_motions> basis_{};  // orthonormal up to rounding; not with `truth`
   std::vector<int> dofs_;                              // [rank_]
   int rank_ = 0;
 };
 
-/// With its diagonal scaled to 1, which removes the units, a stiffness matrix has eigenvalues between 0 and
-/// a few. One up to this size may count as 0, and its motion as free, where the matrix does not say better.
+/// A stiffness matrix whose diagonal is scaled to 1 has no units, and eigenvalues between 0 and a few. An
+/// eigenvalue up to this size counts as 0, and its motion as free, unless it exceeds the uncertainty of the
+/// matrix.
 inline constexpr double free_below = 1e-13;
-/// A matrix with one below minus this is refused as not positive semidefinite.
+/// A matrix with an eigenvalue below minus this is refused as not positive semidefinite.
 inline constexpr double negative_beyond = 1e-10;
 
 struct free_motions {
   int count = 0;
-  std::vector<rigid_row> rows;  ///< [rows of the matrix] the displacement by each motion there
-  double rounding = 0.0;        ///< how far off these may be, relative
+  std::vector<rigid_row> rows;  ///< [rows of the matrix] the displacements by these motions
+  double rounding = 0.0;        ///< the largest relative error of `rows`
 };
 
-/// Find them in `k`, whose diagonal is positive. `known`: how many there are, where that is known; they must
-/// then be free to 1e-10. `doubt`: by how much u'K u is in doubt for u [rows]; a soft motion is stiffness,
-/// and not free, where there is less doubt than stiffness. Takes a factorisation, and up to three times that
-/// and some forty solves where the matrix is close to leaving something free; memory for K once more and a
-/// factor.
+/// Finds the rigid-body motions that `k` allows; its diagonal is positive. `known`: their number, if it is
+/// known; their eigenvalues must then be at most 1e-10. `doubt`: the uncertainty of u'K u for u [rows]; a
+/// motion with a larger u'K u is not free. Takes one factorisation; if `k` is nearly singular, up to three
+/// times as long, and some forty solves. Memory: a copy of K, and a factor.
 ///
-/// Throws std::invalid_argument when k has a negative eigenvalue, leaves more than six rigid-body motions, or
+/// Throws std::invalid_argument if `k` has a negative eigenvalue, or more than six rigid-body motions, or
 /// fewer than `known`; the message calls it "the matrix".
 [[nodiscard]] free_motions find_free_motions(
     const stiffness_matrix& k, std::optional<int> known,
     const std::function<double(std::span<const double> u)>& doubt = nullptr);
 
-/// The displacements by the rigid-body motions of a beam or plate at its dofs [dofs], in doubles.
+/// [dofs] the displacements by the rigid-body motions of a beam or plate, in doubles.
 template <class Kind>
 [[nodiscard]] std::vector<rigid_row> rigid_rows_of(const Kind& kind);
 
-/// The work of a load on each rigid-body motion of a beam or plate, exactly; or nothing, if unknown.
+/// The exact work of a load on each rigid-body motion of a beam or plate; it may be unknown.
 class rigid_work {
  public:
   struct numbers;
@@ -115,7 +113,7 @@ class rigid_work {
 
   [[nodiscard]] bool is_known() const { return exactly_ != nullptr; }
   [[nodiscard]] const numbers& exactly() const { return *exactly_; }
-  /// This work less another; not known where one of them is not.
+  /// This work minus `other`; unknown if either is unknown.
   [[nodiscard]] rigid_work less(const rigid_work& other) const;
 
  private:
@@ -124,39 +122,38 @@ class rigid_work {
 
 /// A rigid-body motion, scaled so that the largest of its parts is 1.
 struct free_motion {
-  std::function<double(int dof)> at;  ///< the displacement of a dof; 0 if the dof rests
+  std::function<double(int dof)> at;  ///< the displacement of a dof; 0 if it does not move
   double work;                        ///< the work of the load on it, positive
 };
 
-/// The rigid-body motions of a beam or plate: up by 1, and turns about its middle that lift an end by 1. A
-/// beam with hinges has one for each of these and of its ends instead, which lifts it by 1 and leaves the
-/// others.
+/// The exact rigid-body motions of a beam or plate: up by 1, and turns about the middle that lift an end by
+/// 1. A beam with hinges has one motion for each end and each hinge instead: it lifts this point by 1 and
+/// none of the other ends and hinges.
 class rigid_truth {
  public:
   explicit rigid_truth(const beam& b);
   explicit rigid_truth(const plate& p);
 
-  /// The number of motions.
   [[nodiscard]] int motions() const;
 
-  /// Does dof `dof`, held, stop a motion that the dofs of `held` do not? These are independent of each other.
+  /// True if holding `dof` stops a motion that the dofs in `held`, independent of each other, leave free.
   [[nodiscard]] bool is_independent(std::span<const int> held, int dof) const;
 
-  /// The work of `l`; its settlements of fixed dofs do no work.
+  /// The work of `l`. Prescribed displacements do no work.
   [[nodiscard]] rigid_work work_of(const load& l) const;
 
   /// See resultant_of.
   [[nodiscard]] resultant resultant_of(const load& l) const;
 
-  /// The steepest of the motions that the dofs of `held`, independent of each other, leave free; nothing if
-  /// `work`, which must be known, is 0 on all of them. `rows`: rigid_rows_of the structure, which the motion
-  /// refers to.
+  /// The motion in the direction in which the work grows fastest, among those that the dofs in `held`,
+  /// independent of each other, leave free. Nothing if `work`, which must be known, is 0 on all of them.
+  /// `rows`: rigid_rows_of the structure; they must outlive the motion.
   [[nodiscard]] std::optional<free_motion> driven_by(const rigid_work& work, std::span<const int> held,
                                                      std::span<const rigid_row> rows) const;
 
-  /// Is there an equilibrium under a load of this `work`, which is known: do forces of the supports of
-  /// `supported`, and of pairs that press, balance it? The energy of a structure is otherwise without a least
-  /// value: some rigid-body motion that no pair and no support stops does work.
+  /// True if there is an equilibrium: if forces of the supports of `supported` and contact forces of `pairs`
+  /// can balance a load of this `work`, which must be known. Otherwise the load does work on a rigid-body
+  /// motion that neither a support nor a pair stops.
   [[nodiscard]] bool is_carried(const rigid_work& work, std::span<const int> supported,
                                 std::span<const contact_pair> pairs) const;
 

@@ -6,12 +6,12 @@
 
 namespace contct {
 
-/// One for each motion, in the order of rigid_shape's rows.
+/// [motions] in the order of rigid_shape's rows
 struct rigid_work::numbers {
   std::vector<rational> all;
 };
 
-/// A line seen from its middle.
+/// A line with the coordinate `across`, which is 0 at its middle.
 template <class Number>
 class centred_line {
  public:
@@ -21,7 +21,7 @@ class centred_line {
   [[nodiscard]] const line<Number>& points() const { return points_; }
   [[nodiscard]] const Number& half() const { return half_; }
   [[nodiscard]] Number middle() const { return first_ + half_; }
-  /// From -1 to 1 over the line.
+  /// From -1 at the first point to 1 at the last one.
   [[nodiscard]] Number across(const Number& x) const { return (x - first_) / half_ - 1; }
 
  private:
@@ -29,9 +29,9 @@ class centred_line {
   Number first_, half_;
 };
 
-/// A line for each direction in which a structure extends. Its motions are up by 1, and turns about the
-/// middle that lift the end at the largest x, or y, by 1. Those of a beam with hinges lift one of its ends
-/// and hinges by 1 and leave the others: between these it stays straight.
+/// The rigid-body motions of a beam or plate: up by 1, and turns about the middle that lift the end at the
+/// largest x, or y, by 1. A beam with hinges has one motion for each end and each hinge: it lifts this point
+/// by 1 and none of the other ends and hinges, and keeps the beam straight between them.
 template <class Number>
 struct rigid_shape {
   using row = std::vector<Number>;
@@ -47,13 +47,13 @@ struct rigid_shape {
 
   centred_line<Number> along_x;
   std::optional<centred_line<Number>> along_y;
-  std::vector<int> corners;      // of a beam with hinges: the nodes of these and of the ends, rising
+  std::vector<int> corners;      // nodes of the ends and hinges, ascending; empty without hinges
   std::vector<Number> corner_x;  // [corners]
 
   [[nodiscard]] int motions() const {
     return corners.empty() ? dofs_per_node() : static_cast<int>(corners.size());
   }
-  /// The straight part that begins at a node or goes through it, or ends at the last one.
+  /// The straight part that begins at `node` or passes through it; for the last node, the last part.
   [[nodiscard]] std::size_t part_of(int node) const {
     if (corners.empty()) return 0;
     const auto right = std::upper_bound(corners.begin(), corners.end() - 1, node);
@@ -69,7 +69,8 @@ struct rigid_shape {
   /// 0: a deflection; otherwise the slope along x (1) or y (2).
   [[nodiscard]] int kind_of(int dof) const { return dof % dofs_per_node(); }
 
-  /// The row of the motions at x of a beam, in a straight part of it: they lift it, or turn it.
+  /// The deflection at x by each motion of a beam, or the slope if `turns`. `part`: the straight part that
+  /// contains x.
   [[nodiscard]] row along_beam(const Number& x, std::size_t part, bool turns) const {
     row all(motions());
     const Number one(1);
@@ -108,7 +109,7 @@ rational_vector rest_of(rational_vector row, std::span<const rational_vector> or
   return row;
 }
 
-/// Rows at right angles to each other that span what these do.
+/// Orthogonal rows with the same span as `rows`.
 std::vector<rational_vector> orthogonal_of(std::span<const rational_vector> rows) {
   std::vector<rational_vector> all;
   for (const rational_vector& row : rows)
@@ -116,8 +117,8 @@ std::vector<rational_vector> orthogonal_of(std::span<const rational_vector> rows
   return all;
 }
 
-/// Is the point nearest to `sum` in the span of `parts` a sum of them with nonnegative shares? False if they
-/// are not independent.
+/// True if the point nearest to `sum` in the span of `parts` is a sum of the parts with nonnegative factors.
+/// False if the parts are not independent.
 bool has_positive_shares(const rational_vector& sum, std::span<const rational_vector> parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::vector<rational_vector> others(parts.begin(), parts.end());
@@ -128,7 +129,7 @@ bool has_positive_shares(const rational_vector& sum, std::span<const rational_ve
   return true;
 }
 
-/// The subset of a few `parts` whose sum with nonnegative shares comes nearest to `sum`.
+/// The subset of `parts` whose sum with nonnegative factors comes nearest to `sum`. Tries all subsets.
 std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<const rational_vector> parts) {
   std::vector<rational_vector> nearest;
   rational least = dot(sum, sum);
@@ -145,9 +146,9 @@ std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<co
   return nearest;
 }
 
-/// Is `sum` a sum of `parts` with nonnegative shares? No more parts than motions span the point of their cone
-/// that is nearest to it. A part that leads nearer replaces one of these, or is added: every choice is nearer
-/// than the last, so the search ends.
+/// True if `sum` is a sum of `parts` with nonnegative factors. The nearest such sum needs no more parts than
+/// there are motions. Each round adds the part that reduces the distance fastest and drops parts that are not
+/// needed. The search ends because every round reduces the distance.
 bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> parts) {
   std::vector<rational_vector> carrying;
   for (;;) {
@@ -167,7 +168,7 @@ bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> par
   }
 }
 
-/// Call visit(first, last) for each run of elements that follow each other, from 0.
+/// Calls visit(first, last) for each run of consecutive elements, from 0; `elements` empty: for all.
 template <class Visit>
 void for_each_run(const std::vector<int>& elements, int all, const Visit& visit) {
   if (elements.empty()) return visit(0, all - 1);
@@ -184,7 +185,7 @@ void for_each_run(const std::vector<int>& elements, int all, const Visit& visit)
 struct rigid_truth::shape : rigid_shape<rational> {
   using rigid_shape<rational>::rigid_shape;
 
-  /// An orthogonal basis of the span of the rows of these dofs.
+  /// An orthogonal basis of the span of the rows of `dofs`.
   [[nodiscard]] std::vector<rational_vector> orthogonal_rows(std::span<const int> dofs) const {
     std::vector<rational_vector> rows;
     for (const int dof : dofs) rows.push_back(row_of(dof));
@@ -247,7 +248,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
   }
 
  private:
-  /// Motions are linear along a straight part: its load works as two forces at the ends.
+  /// Motions are linear along a straight part, so its load does the work of two forces at its ends.
   void add_strip(const rational_vector& q, const rational& from, const rational& to,
                  rational_vector& work) const {
     const std::size_t parts = corners.empty() ? 1 : corners.size() - 1;
@@ -344,7 +345,7 @@ bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> suppor
       stopped.push_back(std::move(rest));
     if (static_cast<int>(stopped.size()) == motions()) return true;
   }
-  // The motions that supports leave. A pair with a face above takes loads that push it up.
+  // From here on only motions that the supports do not stop count. A face above carries upward loads.
   std::vector<rational_vector> presses;
   for (const contact_pair& p : pairs) {
     rational_vector& part = presses.emplace_back(shape_->row_of(p.node * shape_->dofs_per_node()));
@@ -368,7 +369,7 @@ std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::s
   const bool is_all = steepest.size() <= parts.size();
   const double done = contct::rounded(dot(work.exactly().all, steepest));
   return free_motion{[parts, rows, steepest, is_all, shape = shape_](int dof) {
-                       constexpr double surely_moves = 1e-3;  // however far from the middle x = 0 is
+                       constexpr double surely_moves = 1e-3;  // of the row
                        const double moved = along(parts, rows[dof]);
                        if (is_all && std::abs(moved) >= surely_moves * largest_of(rows[dof])) return moved;
                        return contct::rounded(dot(steepest, shape->row_of(dof)));

@@ -52,7 +52,7 @@ void add_polynomial(std::vector<double>& sum, std::span<const double> part, doub
 std::vector<gauss_point> gauss_points(int n) {
   std::vector<gauss_point> points;
   for (int i = 0; i < n; ++i) {
-    // Newton from Tricomi's approximation of the i-th root of the Legendre polynomial P_n.
+    // Newton's method from Tricomi's approximation of the i-th root of the Legendre polynomial P_n.
     double z = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
     double slope = 1.0;
     for (int step = 0; step < 20; ++step) {
@@ -116,14 +116,14 @@ std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& hel
 
 namespace {
 
-/// A power of four near `stiffness`: its root, too, is exact.
+/// A power of four near `stiffness`; its square root is exact.
 double power_of_four_near(double stiffness) {
   constexpr int largest = 511;  // 4^512 overflows
   if (!(stiffness > 0.0)) return 1.0;
   return std::ldexp(1.0, 2 * std::min(largest, static_cast<int>(std::lround(std::log2(stiffness) / 2))));
 }
 
-/// Give fixed dofs rows of their own, and keep what settling ones do to the others.
+/// Decouples the rows of fixed dofs, and keeps the entries that couple settling dofs to free dofs.
 void fix(linear_structure& s) {
   std::vector<double> pivots(s.fixed.size(), 0.0);
   std::vector<char> settling_rows(s.settles.size(), 0);

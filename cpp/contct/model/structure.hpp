@@ -1,5 +1,4 @@
-// A linear elastic structure with its supports and candidate contact pairs, as the path sees it, and its
-// loads.
+// A linear elastic structure with its supports, candidate contact pairs and loads.
 #pragma once
 
 #include <algorithm>
@@ -21,45 +20,46 @@ struct nodal_value {
   int node = 0;         ///< from 0
   int dof = 0;          ///< within the node, from 0
   double value = 0.0;   ///< positive as the dof
-  double factor = 1.0;  ///< of a combination; what acts is the product of the two decimals (product_of)
+  double factor = 1.0;  ///< from a combination; the load is the product of the two decimals (product_of)
 };
 using point_load = nodal_value;               ///< a force or moment, work-conjugate to the dof
 using prescribed_displacement = nodal_value;  ///< the displacement of a dof that a support fixes
-using face_move = nodal_value;                ///< how far the faces of all pairs there are moved
+using face_move = nodal_value;                ///< how far the faces of all pairs at the node are moved
 
-/// A polynomial of a file, times factors: the product of the decimals.
+/// A polynomial of a file times `factor` times `times`, multiplied as decimals.
 struct scaled_polynomial {
   std::vector<double> coefficients;
   double factor = 1.0;  ///< of a combination
-  double times = 1.0;   ///< of self-weight: the area, or the thickness, that a weight per volume has
+  double times = 1.0;   ///< for self-weight: the area or thickness that multiplies the weight per volume
 };
 
-/// Force per length (beams), as a polynomial in x: a0 + a1 x + a2 x^2 + ...; positive up.
+/// Force per length of a beam, as a polynomial in x: a0 + a1 x + a2 x^2 + ...; or force per area of a plate,
+/// constant. Positive up.
 struct distributed_load {
   std::vector<double> polynomial;  ///< coefficients, constant first; at least one
   std::vector<int> elements;       ///< from 0; empty means all
-  /// The polynomials of a file that add up to this one, for exact arithmetic; empty: it is one itself.
+  /// The polynomials of a file that add up to `polynomial`, for exact arithmetic; empty: it is the only one.
   std::vector<scaled_polynomial> parts = {};
 };
 
-/// The kind of a load that need not follow the mesh: a force per length or area, a force or a moment at a
-/// place, or a curvature that a beam has without any moment, as of a temperature gradient.
+/// The kind of a placed load: a force per length or area, a force at a point, a moment at a point, or an
+/// imposed curvature of a beam, as by a temperature gradient.
 enum class load_kind { force, point, moment, curvature };
 
-/// Such a load. Coordinates that equal those of nodes or grid lines as decimals are replaced by them; others
-/// are decimals.
+/// A load that need not follow the mesh. A coordinate equal to that of a node or grid line means this node or
+/// line exactly; any other coordinate means its decimal.
 struct placed_load {
   load_kind what = load_kind::force;
   double from = 0.0, to = 0.0;     ///< along x, from < to; equal for a point between nodes
-  std::vector<double> polynomial;  ///< along a beam, as a distributed load's; otherwise one number
+  std::vector<double> polynomial;  ///< for a force along a beam as in distributed_load; otherwise one number
   std::array<double, 2> across{};  ///< a plate's rectangle: from and to along y
-  double factor = 1.0;             ///< times this: an exact product of the decimals
+  double factor = 1.0;             ///< multiplies `polynomial`, as decimals
 };
 
-/// Its polynomial times its factor, in doubles.
+/// `polynomial` times `factor`, in doubles.
 [[nodiscard]] std::vector<double> values_of(const placed_load& p);
 
-/// What a combination has of a case, or of a train, which stands at a place.
+/// A term of a combination: a case, or a train at a place.
 struct load_term {
   std::string name;
   double factor = 1.0;
@@ -72,16 +72,16 @@ struct load {
   std::vector<distributed_load> distributed;
   std::vector<prescribed_displacement> settlements = {};
   std::vector<face_move> moves = {};
-  std::string name = {};  ///< of the step that ends with it, for people; may be empty
+  std::string name = {};  ///< the step that ends with this load; may be empty
   std::vector<placed_load> placed = {};
-  bool from_zero = false;  ///< its step starts from the unloaded structure, whatever stands before it
-  std::vector<load_term> terms = {};  ///< of a combination, which its parts have come from
+  bool from_zero = false;  ///< the step starts from the unloaded structure, not from the step before
+  std::vector<load_term> terms = {};  ///< for a combination: the terms that it consists of
 };
-/// The values at nodes that a load has.
+/// The members of a load that are values at nodes.
 inline constexpr std::array nodal_values = {&load::points, &load::settlements, &load::moves};
 
-/// The load at share `fraction` of the way from `before` to `after`, with equal places merged.
-/// Exactly `after` at 1.
+/// before + fraction * (after - before), with loads at the same place merged; exactly `after` if `fraction`
+/// is 1.
 [[nodiscard]] load mix(const load& before, const load& after, double fraction);
 
 /// The point loads of `l` at each dof that has any, in the order of the file.
@@ -91,10 +91,10 @@ inline constexpr std::array nodal_values = {&load::points, &load::settlements, &
   return at;
 }
 
-/// sum += share * part, for polynomials from the constant on.
+/// sum += share * part, for coefficients with the constant first.
 void add_polynomial(std::vector<double>& sum, std::span<const double> part, double share);
 
-/// The value of a polynomial at x; `p` from the constant on.
+/// The value at x of the polynomial with coefficients `p`, constant first.
 template <class Polynomial, class Number>
 [[nodiscard]] Number polynomial_at(const Polynomial& p, const Number& x) {
   Number sum(0);
@@ -107,7 +107,7 @@ template <class Number>
   for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * Number(static_cast<int>(i)));
   return d;
 }
-/// The coefficients of the product of two polynomials.
+/// The integral of p q over x from `from` to `to`.
 template <class Number>
 [[nodiscard]] Number integral_of(const std::vector<Number>& p, const std::vector<Number>& q,
                                  const Number& from, const Number& to) {
@@ -118,13 +118,13 @@ template <class Number>
   return polynomial_at(primitive, to) - polynomial_at(primitive, from);
 }
 
-/// Call visit(element) for every element, from 0, that a distributed load acts on.
+/// Calls visit(element) for every element, from 0, that a distributed load acts on.
 template <class Visit>
 void for_each_loaded_element(const distributed_load& d, int elements, Visit visit) {
   for (const int e : d.elements) visit(e);
   for (int e = 0; d.elements.empty() && e < elements; ++e) visit(e);
 }
-/// Call visit(element, polynomial) for every element that one of the loads acts on.
+/// Calls visit(element, polynomial) for every distributed load and every element that it acts on.
 template <class Visit>
 void for_each_loaded_element(const load& l, int elements, Visit visit) {
   for (const distributed_load& d : l.distributed)
@@ -140,26 +140,26 @@ struct gauss_point {
 /// `n` points, exact for polynomials up to degree 2 n - 1. n >= 1.
 [[nodiscard]] std::vector<gauss_point> gauss_points(int n);
 
-/// A permanent support of one dof, working both ways.
+/// A permanent support of one dof, in both directions.
 struct support {
   int node = 0;          ///< from 0
   int dof = 0;           ///< within the node, from 0
   bool fixed = true;     ///< held in place; otherwise elastic
   double spring = 0.0;   ///< stiffness of an elastic support
-  bool settles = false;  ///< a fixed one: steps may prescribe its displacement
+  bool settles = false;  ///< fixed, and steps may prescribe its displacement
 };
 
-/// A candidate contact pair: a one-sided spring between a node and a face; or between two nodes, with the
-/// face on the other one: it then sees the difference of their deflections.
+/// A candidate contact pair: a one-sided spring between a node and a face, which is fixed or belongs to
+/// another node. With another node, the pair depends on the difference of the two deflections.
 struct contact_pair {
   int node = 0;            ///< from 0
   int surface = 0;         ///< n: face_above (+1) or face_below (-1)
   double face = 0.0;       ///< c: the position of the face
   double stiffness = 0.0;  ///< k of its spring, positive
   bool closed = false;     ///< in contact at the start
-  int other = -1;  ///< the node with the face, from 0; -1: the face is fixed. No support fixes either dof
+  int other = -1;  ///< the node with the face, from 0; -1: the face is fixed. No support fixes either w
 
-  /// w of the node, less that of the other one. Of rows of numbers too.
+  /// w of the node, minus w of `other` if there is one. `u`: displacements, or rows of numbers [dofs].
   template <class Vector>
   [[nodiscard]] auto seen_in(const Vector& u, std::size_t dofs_per_node, std::size_t deflection = 0) const {
     auto w = u[node * dofs_per_node + deflection];
@@ -168,49 +168,47 @@ struct contact_pair {
   }
 };
 
-/// n (c - w): the distance of a separated pair from its face at deflection w; 0 for one in contact.
+/// n (c - w): the distance of a separated pair from its face at deflection w; 0 if the pair is in contact.
 [[nodiscard]] inline double gap_of(const contact_pair& p, double w, bool closed) {
   return closed ? 0.0 : p.surface * (p.face - w);
 }
 
-/// -n k (c - w): the contact force of a pair in contact; 0 for a separated one. Not clamped: tension is
+/// -n k (c - w): the contact force of a pair in contact; 0 if the pair is separated. Not clamped: tension is
 /// negative.
 [[nodiscard]] inline double force_of(const contact_pair& p, double w, bool closed) {
   return closed ? -p.surface * p.stiffness * (p.face - w) : 0.0;
 }
 
-/// Any structure: dof d of node i is dof i * dofs_per_node + d, from 0.
+/// A structure of any kind. Dof d of node i is dof i * dofs_per_node + d, from 0.
 struct linear_structure {
   int dofs_per_node = 0;
-  int deflection = 0;          ///< which dof of a node deflects, from 0 (INDOF - 1)
-  stiffness_matrix stiffness;  ///< with elastic supports; the row of a fixed dof is decoupled: see in_row
-  std::vector<char> fixed;     ///< [dofs] 1 where a support fixes the dof
-  std::vector<char> settles;   ///< [dofs] 1 where that prescribes a displacement; empty: nowhere
+  int deflection = 0;          ///< the dof of a node that is its deflection, from 0 (INDOF - 1)
+  stiffness_matrix stiffness;  ///< includes elastic supports; rows of fixed dofs are decoupled: see in_row
+  std::vector<char> fixed;     ///< [dofs] 1 if a support fixes the dof
+  std::vector<char> settles;   ///< [dofs] 1 if this support prescribes a displacement; empty: none does
   std::vector<matrix_entry> to_settling;  ///< K's entries in rows of free dofs and columns of settling dofs
   std::vector<contact_pair> pairs;        ///< in the order of their numbers
 
-  std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: its own number
+  std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: the dof's number
 
-  int rigid_motions = 0;  ///< 2 for a beam and 1 for each hinge, 3 for a plate, up to 6 for other bodies
+  int rigid_motions = 0;  ///< 2 + number of hinges for a beam, 3 for a plate, up to 6 for a matrix
   std::vector<rigid_row> rigid_rows;  ///< [dofs] the displacements by the rigid-body motions
-  std::vector<int> supported_dofs;    ///< those whose supports stop such motions
-  /// The rigid-body motions without rounding, of beams and plates; null for others.
+  std::vector<int> supported_dofs;    ///< the dofs whose supports stop rigid-body motions
+  /// The exact rigid-body motions of a beam or plate; null for a matrix.
   std::shared_ptr<const rigid_truth> truth;
-  std::optional<rigid_rank> on_supports;  ///< held_by_supports, where `truth` has found it
-  /// The largest error of `rigid_rows`, relative to the largest row: 0 if they follow from a formula, more if
-  /// they are found from the matrix.
+  std::optional<rigid_rank> on_supports;  ///< held_by_supports(), if `truth` is known
+  /// The largest error of `rigid_rows`, relative to the largest row: 0 for beams and plates.
   double rigid_rounding = 0.0;
 
-  /// [dofs] 1 where a displacement is a deflection; empty: `deflection` of a node.
+  /// [dofs] 1 if the dof is a deflection; empty: the dof `deflection` of each node is.
   std::vector<char> lengths;
 
   [[nodiscard]] int dofs() const { return stiffness.order(); }
-  /// The row of the stiffness matrix that belongs to a dof: plates are numbered along their shorter
-  /// side there, for the smaller bandwidth.
+  /// The row of `dof` in the stiffness matrix, where plates are numbered along their shorter side.
   [[nodiscard]] int row_of(std::size_t dof) const { return rows.empty() ? static_cast<int>(dof) : rows[dof]; }
-  /// The right-hand side of K u = f in the row of a dof: its load; at a fixed dof only the force that makes u
-  /// the displacement that `load` prescribes there, or 0. The pivot of a settling dof is a power of four near
-  /// the stiffness that it has lost: rows stay of one size, and u comes out to the bit.
+  /// The right-hand side of K u = f in the row of `dof`. Free dof: its load. Settling dof: the pivot times
+  /// the displacement that `load` prescribes. Other fixed dof: 0. The pivot of a settling dof is a power of
+  /// four near its former stiffness: rows stay of one size, and u is exact.
   [[nodiscard]] double in_row(std::size_t dof, double load) const {
     if (fixed[dof] == 0) return load;
     return !settles.empty() && settles[dof] != 0 ? stiffness.diagonal(row_of(dof)) * load : 0.0;
@@ -229,7 +227,7 @@ struct linear_structure {
     for (std::size_t i = 0; i < supported_dofs.size() && !is_held(rank); ++i) rank.hold(supported_dofs[i]);
     return rank;
   }
-  /// The motions that the supports and those pairs stop, from 0, for which `closed(pair)` is true.
+  /// The motions that are stopped by the supports and by the pairs i, from 0, with `closed(i)`.
   template <class Closed>
   [[nodiscard]] rigid_rank held_by(Closed closed) const {
     rigid_rank rank = held_by_supports();
@@ -237,51 +235,53 @@ struct linear_structure {
       if (closed(i)) hold(rank, i);
     return rank;
   }
-  /// Are these all of its rigid-body motions?
+  /// True if `rank` includes all rigid-body motions.
   [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
-  /// The steepest of the rigid-body motions that `held` leaves free and the load drives; nothing if the load
-  /// does no work on any. Decided by `work` if it is known, otherwise by the rounded `load` [dofs].
+  /// The rigid-body motion in the direction in which the work grows fastest, among those that `held` leaves
+  /// free; nothing if the load does no work on any of them. Decided by `work` if it is known, otherwise by
+  /// the rounded `load` [dofs].
   [[nodiscard]] std::optional<free_motion> driven_motion(const rigid_rank& held, std::span<const double> load,
                                                          const rigid_work& work) const;
-  /// Is there an equilibrium under a load of this work? Nothing if only rounding would decide.
+  /// True if there is an equilibrium under a load of this work. Nothing if `truth` or `work` is unknown, or
+  /// if the supports leave more than 8 rigid-body motions.
   [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
-    constexpr int most_decided = 8;  // the search grows with the powers of 2
+    constexpr int most_decided = 8;  // the time of the search doubles with each
     if (!truth || !work.is_known() || rigid_motions - held_by_supports().rank() > most_decided)
       return std::nullopt;
     return truth->is_carried(work, supported_dofs, pairs);
   }
-  /// The first pairs that stop what `rank` leaves free; they are counted as held.
+  /// The first pairs that stop the motions that `rank` leaves free. Counts these pairs as held.
   [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
   /// The dof, from 0, at which pair `i` (from 0) acts.
   [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
-  /// The dof that has its face; -1 if the face is fixed.
+  /// The dof that carries the face of pair `i`; -1 if the face is fixed.
   [[nodiscard]] int other_of_pair(std::size_t i) const {
     return pairs[i].other < 0 ? -1 : pairs[i].other * dofs_per_node + deflection;
   }
-  /// The relative displacement of pair `i` from displacements [dofs].
+  /// The relative displacement of pair `i`, from the displacements `u` [dofs].
   template <class Vector>
   [[nodiscard]] auto seen_by_pair(std::size_t i, const Vector& u) const {
     return pairs[i].seen_in(u, dofs_per_node, deflection);
   }
-  /// Count pair `i` as in contact.
+  /// Counts pair `i` as held.
   void hold(rigid_rank& rank, std::size_t i) const { rank.hold(dof_of_pair(i), other_of_pair(i)); }
 };
 
-/// Put an assembled structure on its supports and give it its pairs: springs and fixed dofs go into
-/// the stiffness.
+/// Adds supports and pairs to an assembled structure: springs and fixed dofs change its stiffness.
 void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
 
-/// Complete a load vector [dofs], which has the loads of `l` by now: at settling dofs the displacements g
-/// that `l` prescribes, at free ones -K g. Throws std::logic_error where the support of a settlement was not
-/// built to settle.
+/// Completes a load vector `f` [dofs], which already contains the loads of `l`: sets settling dofs to the
+/// displacements g that `l` prescribes, and adds -K g at free dofs. Throws std::logic_error if a support with
+/// a prescribed displacement was not built to settle.
 void add_settlements(const linear_structure& s, const load& l, std::span<double> f);
 
-/// Add the movement of the faces at each dof by `l` to `moved` [dofs].
+/// Adds to `moved` [dofs] how far `l` moves the faces at each dof.
 void add_moves(const load& l, int dofs_per_node, std::span<double> moved);
 
-/// A path counts displacements from moving faces: v = u - m, where m is how far the faces at a dof are moved.
-/// What a pair sees of its face, c + m - u, is then c - v, with the c that never changes, and K u = f becomes
-/// K v = f - K m. Completes such a load [dofs], which has f and the settlements by now.
+/// A path uses displacements relative to the moving faces: v = u - m, where m is how far the faces at a dof
+/// are moved. The distance c + m - u of a pair from its face is then c - v with a constant c, and K u = f
+/// becomes K v = f - K m. Changes `f` [dofs], which already contains the settlements, to the right-hand side
+/// for v.
 void count_from_faces(const linear_structure& s, std::span<const double> moved, std::span<double> f);
 
 }  // namespace contct
