@@ -1,4 +1,4 @@
-// The order of rows that makes a matrix a narrow band: by Boost.Graph, for matrices from files.
+// Reorders the rows of a matrix from a file for a small bandwidth, by Boost.Graph.
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/cuthill_mckee_ordering.hpp>
 #include <boost/graph/properties.hpp>
@@ -10,7 +10,7 @@
 namespace contct {
 namespace {
 
-// Both directions of every entry off the diagonal.
+// Each entry off the diagonal is an edge in both directions.
 using neighbours =
     boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
                                        boost::no_property, std::uint32_t, std::uint64_t>;
@@ -63,7 +63,7 @@ std::vector<int> rows_for_small_band(const sparse_matrix& a) {
   const auto colour = boost::make_iterator_property_map(colours.begin(), get(boost::vertex_index, g));
   const auto degree = boost::make_out_degree_map(g);
   std::deque<std::uint32_t> firsts = first_of_components(g);
-  // Each search for a better first vertex visits the whole graph: too slow for many components.
+  // Each search for a better first vertex visits the whole graph, which is too slow for many components.
   constexpr std::size_t few = 32;
   if (firsts.size() <= few)
     for (std::uint32_t& v : firsts) v = static_cast<std::uint32_t>(find_starting_node(g, v, colour, degree));

@@ -22,7 +22,7 @@ void CONTCT_FC_GLOBAL(dlacn2, DLACN2)(const int* n, double* v, double* x, int* i
 namespace contct {
 namespace {
 
-/// 1 / sqrt of each entry: what scales a matrix with this diagonal to a unit diagonal. Empty when an entry is
+/// 1 / sqrt of each entry, which scales a matrix with this diagonal to a unit diagonal. Empty if an entry is
 /// not positive.
 std::vector<double> unit_scale(std::span<const double> diagonal) {
   std::vector<double> d;
@@ -33,9 +33,9 @@ std::vector<double> unit_scale(std::span<const double> diagonal) {
   return d;
 }
 
-/// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. This is
-/// dpbcon without the guard against overflow inside its solves (dlatbs), which scans the rest of the vector
-/// at every row once the matrix is ill-conditioned: minutes on a beam of 100,000 nodes.
+/// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. dpbcon guards
+/// its solves against overflow (dlatbs): for an ill-conditioned matrix this scans the rest of the vector at
+/// every row, which takes minutes on a beam of 100,000 nodes. This function has no such guard.
 double norm_of_inverse(int n, const in_place_solver& solve) {
   std::vector<double> v(n);
   std::vector<double> x(n);
@@ -45,7 +45,7 @@ double norm_of_inverse(int n, const in_place_solver& solve) {
   double estimate = 0.0;
   do {
     CONTCT_FC_GLOBAL(dlacn2, DLACN2)(&n, v.data(), x.data(), isgn.data(), &estimate, &kase, isave);
-    if (kase != 0) solve(x);  // the matrix is its own transpose
+    if (kase != 0) solve(x);  // the matrix is symmetric
   } while (kase != 0);
   return estimate;
 }
@@ -96,7 +96,7 @@ stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
   if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
-/// Springs between two rows are in the matrix for this factor only.
+/// Adds springs between two rows to the matrix for this factor, and removes them again.
 bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
   std::vector<std::pair<double*, double>> own;
   for (const spring_at& s : springs) {
@@ -110,8 +110,7 @@ bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
   return done;
 }
 
-/// The norm leaves out the off-diagonal entries of springs between two rows: at most twice as large with
-/// them.
+/// The norm omits the off-diagonal entries of springs between two rows, which at most double it.
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
   const std::vector<double> diagonal = k_.diagonal_with(springs);
   if (!k_.is_band()) {

@@ -9,7 +9,7 @@
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 extern "C" {
-// For its address; declared as in cholesky.cpp, since release builds compile both together.
+// Only its address is used; declared as in cholesky.cpp, because release builds compile both files together.
 void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
                                       const int* ldab, int* info, std::size_t uplo_length);
 void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
@@ -18,8 +18,8 @@ void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 namespace contct {
 namespace {
 
-/// The file that the loaded dpbtrf comes from, without its folder; empty if that cannot be found. Throws
-/// bad_alloc.
+/// The name of the library file that contains the loaded dpbtrf, without its folder; empty if it is not
+/// found. Throws bad_alloc.
 std::string library_of_dpbtrf() {
   Dl_info found{};
   // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
@@ -27,11 +27,11 @@ std::string library_of_dpbtrf() {
   std::error_code wrong;
   const std::filesystem::path real = std::filesystem::canonical(found.dli_fname, wrong);
   if (wrong == std::errc::not_enough_memory)
-    throw std::bad_alloc();  // a trace names the file, not a link to it
+    throw std::bad_alloc();  // otherwise the link's name would be returned
   return (wrong ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
-/// The configuration of OpenBLAS with the core type that it uses; empty if it is not loaded.
+/// The configuration and core type of OpenBLAS; empty if it is not loaded.
 std::string openblas_identity() {
   using configuration = char*();
   // NOLINTNEXTLINE(*-reinterpret-cast)

@@ -9,7 +9,7 @@
 #include <new>
 #include <utility>
 
-// Functions of the OpenMP that CHOLMOD links, if it links one.
+// Functions of OpenMP; null if CHOLMOD is linked without OpenMP.
 extern "C" {
 __attribute__((weak)) int omp_get_max_active_levels();
 __attribute__((weak)) void omp_set_max_active_levels(int levels);
@@ -18,8 +18,8 @@ __attribute__((weak)) void omp_set_max_active_levels(int levels);
 namespace contct {
 namespace {
 
-/// While it exists this thread starts no others by OpenMP. CHOLMOD asks for four to copy a supernode: to
-/// start and to await them took a sixth of the time of a plate's path.
+/// Keeps this thread from starting OpenMP threads. CHOLMOD asks for four to copy a supernode: starting them
+/// and waiting for them took a sixth of the time of a plate's path.
 class no_openmp_threads {
  public:
   no_openmp_threads() {
@@ -37,14 +37,15 @@ class no_openmp_threads {
   int before_ = -1;
 };
 
-/// An object allocated by CHOLMOD; throws std::bad_alloc if that failed.
+/// Returns an object allocated by CHOLMOD; throws std::bad_alloc if it is null.
 template <class T>
 T* made(T* by_cholmod) {
   if (by_cholmod == nullptr) throw std::bad_alloc();
   return by_cholmod;
 }
 
-/// CHOLMOD's settings and working space. Never copied: only `cholmod` has one, which cannot be copied.
+/// CHOLMOD's settings and workspace. It must not be copied; `cholmod`, its only owner, cannot be copied
+/// either.
 struct workspace : cholmod_common {
   workspace() : cholmod_common{} {
     cholmod_start(this);
@@ -55,11 +56,11 @@ struct workspace : cholmod_common {
   ~workspace() { cholmod_finish(this); }
 };
 
-/// One row of the right-hand sides that go through a factor together, which is read from memory once for all.
-/// CHOLMOD's own solve leaves them to BLAS, whose reference takes twice as long.
+/// One row of up to eight right-hand sides. They are solved together, so that the factor is read from memory
+/// once. CHOLMOD's own solve leaves this to BLAS; the reference BLAS takes twice as long.
 using row_of_block = std::array<double, 8>;
 
-/// CHOLMOD's L in supernodes: neighbouring columns with the same rows below them, as one dense block.
+/// A supernode of CHOLMOD's L: neighbouring columns with the same rows below them, stored as one dense block.
 class supernode {
  public:
   supernode(const cholmod_factor& l, std::size_t number)
@@ -68,7 +69,8 @@ class supernode {
         height_(static_cast<const int*>(l.pi)[number + 1] - static_cast<const int*>(l.pi)[number]),
         width_(static_cast<const int*>(l.super)[number + 1] - static_cast<const int*>(l.super)[number]) {}
 
-  /// Solves L Y = B for these columns; skipped if their rows are still 0, as most rows of unit vectors are.
+  /// Solves L Y = B for these columns. Returns at once if their rows of B are 0, as is usual for unit
+  /// vectors.
   void go_forward(std::vector<row_of_block>& b) const {
     const auto is_zero = [](const row_of_block& r) { return r == row_of_block{}; };
     if (std::all_of(rows_, rows_ + width_, [&](int row) { return is_zero(b[row]); })) return;
@@ -81,7 +83,7 @@ class supernode {
     }
   }
 
-  /// L^T X = Y, likewise.
+  /// Solves L^T X = Y for these columns.
   void go_back(std::vector<row_of_block>& b) const {
     for (int j = width_; j-- > 0;) {
       const double* const column = entries_ + std::size_t{1} * j * height_;
@@ -105,7 +107,7 @@ class supernode {
 class cholmod final : public sparse_factor {
  public:
   explicit cholmod(sparse_columns a) : a_(std::move(a)) {
-    const bool large = a_.order() >= 25'000;  // here METIS's order saves more than the search for it takes
+    const bool large = a_.order() >= 25'000;  // METIS takes longer, but its order saves more
     order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
                    : std::initializer_list<int>{CHOLMOD_AMD});
     cholmod_sparse view = view_of_a();
@@ -168,10 +170,10 @@ class cholmod final : public sparse_factor {
   [[nodiscard]] double flops() const override { return work_.fl; }
 
  private:
-  /// Room for a factor in this order, and for solutions.
+  /// Allocates a factor in this order, and vectors for solves.
   void prepare() {
     factor_ = made(cholmod_copy_factor(order_, &work_));
-    // x_, y_ and e_ are cholmod_solve2's, which crashes where it cannot make them.
+    // x_, y_ and e_ are for cholmod_solve2, which crashes if it cannot allocate them itself.
     for (cholmod_dense** vector : {&b_, &x_, &y_})
       *vector = made(cholmod_zeros(a_.order(), 1, CHOLMOD_REAL, &work_));
     e_ = made(cholmod_zeros(std::max<std::size_t>(factor_->maxesize, 1), 1, CHOLMOD_REAL, &work_));
@@ -180,13 +182,13 @@ class cholmod final : public sparse_factor {
     for (int i = 0; i < a_.order(); ++i) places_[order[i]] = i;
   }
 
-  /// Take the best of these orders.
+  /// Makes CHOLMOD take the best of these orders.
   void order_by(std::initializer_list<int> orders) {
     work_.nmethods = 0;
     for (const int order : orders) work_.method[work_.nmethods++].ordering = order;
   }
 
-  /// CHOLMOD's view of A; nothing is copied.
+  /// CHOLMOD's view of A, without a copy.
   [[nodiscard]] cholmod_sparse view_of_a() {
     cholmod_sparse view{};
     view.nrow = view.ncol = a_.order();
@@ -194,7 +196,7 @@ class cholmod final : public sparse_factor {
     view.p = a_.starts.data();
     view.i = a_.rows.data();
     view.x = a_.values.data();
-    view.stype = -1;  // symmetric, the lower triangle
+    view.stype = -1;  // symmetric; the lower triangle is stored
     view.itype = CHOLMOD_INT;
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
@@ -209,7 +211,7 @@ class cholmod final : public sparse_factor {
     std::copy_n(static_cast<const double*>(x_->x), b.size(), b.begin());
   }
 
-  /// Up to as many right-hand sides as a block has.
+  /// Solves for as many right-hand sides as a row_of_block has, or fewer.
   void solve_block(std::span<double> b) {
     const std::size_t n = factor_->n;
     block_.assign(n, {});
@@ -221,10 +223,10 @@ class cholmod final : public sparse_factor {
 
   workspace work_;
   sparse_columns a_;
-  std::vector<int> places_;          // of each row in the factor's order
-  cholmod_factor* order_ = nullptr;  // a factor without numbers
+  std::vector<int> places_;          // the factor's row of each row of A
+  cholmod_factor* order_ = nullptr;  // symbolic factor: the order of rows
   cholmod_factor* factor_ = nullptr;
-  std::vector<row_of_block> block_;  // in the factor's order
+  std::vector<row_of_block> block_;  // [rows of the factor]
   cholmod_dense* b_ = nullptr;
   cholmod_dense* x_ = nullptr;
   cholmod_dense* y_ = nullptr;

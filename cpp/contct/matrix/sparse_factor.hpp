@@ -1,5 +1,5 @@
-// CHOLMOD's Cholesky factor of a sparse matrix. Every build has this header; builds without CHOLMOD refuse to
-// make one.
+// CHOLMOD's Cholesky factor of a sparse matrix. Builds without CHOLMOD have this header too, but cannot make
+// a factor.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,15 @@
 
 namespace contct {
 
-/// The factor of a symmetric positive definite matrix A, in an order of little fill. Rows are A's, from 0.
+/// The factor of a symmetric positive definite matrix A, with rows ordered for little fill. Rows are numbered
+/// as in A, from 0.
 class sparse_factor {
  public:
-  /// Is CHOLMOD built in?
+  /// True if CHOLMOD is built in.
   [[nodiscard]] static bool available();
 
-  /// Find the order, AMD's or, if there are many rows, METIS's if that is better, and keep A. Throws
-  /// std::bad_alloc, and std::logic_error if CHOLMOD is not built in.
+  /// Finds the order of rows by AMD; if there are many rows, by METIS or AMD, whichever is better. Keeps A.
+  /// Throws std::bad_alloc, and std::logic_error if CHOLMOD is not built in.
   [[nodiscard]] static std::unique_ptr<sparse_factor> make(sparse_columns a);
 
   sparse_factor() = default;
@@ -27,27 +28,29 @@ class sparse_factor {
   sparse_factor(const sparse_factor&) = delete;
   sparse_factor& operator=(const sparse_factor&) = delete;
 
-  /// Bytes that the factor takes, in dense blocks; known before it is made.
+  /// Bytes of the factor in dense blocks; known before it is computed.
   [[nodiscard]] virtual std::int64_t bytes() const = 0;
 
-  /// Factor A with `diagonal` [order] for its own. False when a pivot is not positive. Throws std::bad_alloc.
+  /// Factors A with `diagonal` [order] as its diagonal. False if a pivot is not positive. Throws
+  /// std::bad_alloc.
   [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
-  /// A, to change off-diagonal entries for the next factor. Throws std::logic_error if it is shared.
+  /// A, for changes of off-diagonal entries before the next `factor`. Throws std::logic_error if MPI ranks
+  /// share the factor.
   [[nodiscard]] virtual sparse_columns& matrix() {
     throw std::logic_error("this factor's matrix cannot be changed");
   }
 
-  /// Solve A x = b in place, for one right-hand side or several, one after the other. Throws std::bad_alloc.
+  /// Solves A x = b in place, for one or several right-hand sides, one after the other. Throws
+  /// std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
 
-  /// L by columns; row i of A is its row places()[i]. This uses the factor up: nothing may be solved by it
-  /// any more.
+  /// L by columns; row i of A is row places()[i] of L. Afterwards the factor cannot solve any more.
   [[nodiscard]] virtual sparse_columns lower() = 0;
   [[nodiscard]] virtual const std::vector<int>& places() const = 0;
 
-  /// One of another matrix with entries in the same places, in this one's order. Throws as make does, and
-  /// std::logic_error where others hold A.
+  /// Makes a factor of another matrix with entries at the same positions, in the same order of rows. Throws
+  /// as `make` does, and std::logic_error if MPI ranks share this factor.
   [[nodiscard]] virtual std::unique_ptr<sparse_factor> likewise(const sparse_columns& /*a*/) const {
     throw std::logic_error("this factor's order cannot be taken over");
   }

@@ -15,8 +15,8 @@ int place_of(int row, std::span<const int> rows) {
   return rows.empty() ? row : rows[row];
 }
 
-/// Column by column, `on(column, value)` for the diagonal and `below(row, column, value)` for the rest.
-/// `Stored`: the variant that a stiffness matrix is, const or not.
+/// Calls on(column, value) for each diagonal entry and below(row, column, value) for the others, column by
+/// column. `Stored`: the variant of storages, const or not.
 template <class Stored, class On, class Below>
 void each_entry(Stored& stored, On on, Below below) {
   if (auto* const band = std::get_if<band_matrix>(&stored)) {
@@ -49,7 +49,7 @@ void subtract(const Stored& k, std::span<const Real> x, std::span<long double> r
 
 double sparse_matrix::doubt(std::span<const double> x) const {
   constexpr double summation_slack =
-      4 * std::numeric_limits<double>::epsilon() / 2;  // of what elements add up to
+      4 * std::numeric_limits<double>::epsilon() / 2;  // relative to sqrt(k_ii k_jj)
   std::vector<double> root(order);
   for (const matrix_entry& e : entries)
     if (e.row == e.column) root[e.row] = std::sqrt(std::abs(e.value));
@@ -170,7 +170,8 @@ void stiffness_matrix::fix(std::span<const double> pivots) {
 
 void stiffness_matrix::scale(std::span<const double> d) {
   each_entry(
-      stored_, [d](std::size_t i, double& value) { value = value * d[i] * d[i]; },  // d * d may overflow
+      stored_,
+      [d](std::size_t i, double& value) { value = value * d[i] * d[i]; },  // d[i] * d[i] may overflow
       [d](std::size_t row, std::size_t column, double& value) { value = value * d[row] * d[column]; });
 }
 

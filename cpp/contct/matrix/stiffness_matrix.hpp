@@ -1,4 +1,5 @@
-// Symmetric matrices without their zeros, in three storages; and the stiffness matrix K of a structure.
+// Symmetric matrices in three storages (band, single entries, columns), and the stiffness matrix K of a
+// structure.
 #pragma once
 
 #include <cmath>
@@ -12,9 +13,9 @@
 
 namespace contct {
 
-/// Symmetric band matrix of order n with kd subdiagonals, in LAPACK's lower band storage. Column j has its
-/// diagonal entry and those below it, one column after the other; for n = 5, kd = 2 (rows and columns from
-/// 0):
+/// Symmetric band matrix of order n with kd subdiagonals, in LAPACK's lower band storage. Column j contains
+/// its diagonal entry and the entries below it; the columns follow each other. For n = 5, kd = 2 (rows and
+/// columns from 0):
 ///
 ///     a00                              column 0: a00 a10 a20
 ///     a10 a11                          column 1: a11 a21 a31
@@ -22,7 +23,7 @@ namespace contct {
 ///         a31 a32 a33                  column 3: a33 a43  *
 ///             a42 a43 a44              column 4: a44  *   *
 ///
-/// The places marked * exist and are never read. Memory: 8 (kd + 1) bytes a row.
+/// The places marked * are allocated but never read. Memory: 8 (kd + 1) bytes a row.
 template <class Number>
 class band_of_numbers {
  public:
@@ -38,10 +39,10 @@ class band_of_numbers {
   [[nodiscard]] const Number& at(std::size_t row, std::size_t column) const {
     return entries_[place(row, column)];
   }
-  /// The first column of a row in the band.
+  /// The first column of `row` inside the band.
   [[nodiscard]] int first(int row) const { return row < subdiagonals_ ? 0 : row - subdiagonals_; }
 
-  /// Add `value` at (row, column) and, by symmetry, at (column, row); any order of the two.
+  /// Adds `value` at (row, column) and, by symmetry, at (column, row).
   void add(std::size_t row, std::size_t column, const Number& value) {
     at(std::max(row, column), std::min(row, column)) += value;
   }
@@ -62,19 +63,19 @@ class band_of_numbers {
 
 using band_matrix = band_of_numbers<double>;
 
-/// One entry of the lower triangle, row >= column; from 0.
+/// One entry of the lower triangle, row >= column, both from 0.
 struct matrix_entry {
   int row;
   int column;
   double value;
 };
 
-/// Symmetric, by single entries, as other programs write it: each place of the lower triangle at most once,
-/// and the others are 0. 16 bytes an entry.
+/// A symmetric matrix as other programs write it: single entries, each place of the lower triangle at most
+/// once; all other entries are 0. 16 bytes an entry.
 struct sparse_matrix {
   int order = 0;
   std::vector<matrix_entry> entries;
-  /// [entries] the power of ten of each entry's last digit in the file; exact_entry if the entry was not
+  /// [entries] the power of ten of each entry's last digit in the file, or exact_entry if the entry was not
   /// rounded. Empty: all are exact.
   std::vector<std::int16_t> last_digits = {};
   static constexpr std::int16_t exact_entry = -32768;
@@ -84,35 +85,35 @@ struct sparse_matrix {
     return 0.5 * std::pow(10.0, last_digits[entry]);
   }
 
-  /// The uncertainty of x'A x: half a unit in the last digits of the entries, and the rounding of a program
-  /// that sums an entry in doubles, two units in the last place of the diagonals.
+  /// The uncertainty of x'A x: half a unit in the last digit of each entry, plus rounding of two units in the
+  /// last place of the diagonals, by the program that summed an entry in doubles.
   [[nodiscard]] double doubt(std::span<const double> x) const;
 
   /// y = A x in long double.
   [[nodiscard]] std::vector<long double> times(std::span<const double> x) const;
 };
 
-/// The largest distance of an entry from the diagonal, with row i of the matrix at `rows[i]`; at i where
-/// `rows` is empty.
+/// The largest distance of an entry from the diagonal, if row i of the matrix is at `rows[i]`; at i if `rows`
+/// is empty.
 [[nodiscard]] int subdiagonals_of(const sparse_matrix& a, std::span<const int> rows);
 
-/// Bytes of the band that holds it in that order.
+/// Bytes of `a` as a band in the order `rows`.
 [[nodiscard]] inline std::int64_t bytes_of_band(const sparse_matrix& a, std::span<const int> rows) {
   return std::int64_t{8} * a.order * (subdiagonals_of(a, rows) + 1);
 }
 
-/// As a band in that order.
+/// `a` as a band in the order `rows`.
 [[nodiscard]] band_matrix band_of(const sparse_matrix& a, std::span<const int> rows);
 
-/// The order that makes it a narrow band, by reverse Cuthill and McKee: the row of each dof, from 0; empty if
-/// the order of `a` is as good. Linear in the entries, except for sorting neighbours by their degree. Needs
-/// Boost.Graph, and has a source of its own.
+/// The row of each dof, from 0, in an order with a small bandwidth, by reverse Cuthill and McKee; empty if
+/// the order of `a` is as good. Linear in the entries, except for sorting neighbours by their degree. It has
+/// its own source file, which needs Boost.Graph.
 [[nodiscard]] std::vector<int> rows_for_small_band(const sparse_matrix& a);
 
-/// The lower triangle by columns, from 0. Every column begins with its diagonal entry, even if it is 0.
+/// The lower triangle by columns, from 0. Every column begins with its diagonal entry, which may be 0.
 /// Memory: 12 bytes an entry.
 struct sparse_columns {
-  /// [order + 1] place of each column's diagonal; the last is the number of entries.
+  /// [order + 1] the place of each column's diagonal, then the number of entries.
   std::vector<int> starts = {0};
   std::vector<int> rows;       ///< [entries] ascending within a column
   std::vector<double> values;  ///< [entries]
@@ -120,18 +121,18 @@ struct sparse_columns {
   [[nodiscard]] int order() const { return static_cast<int>(starts.size()) - 1; }
   [[nodiscard]] double& diagonal(std::size_t row) { return values[starts[row]]; }
   [[nodiscard]] double diagonal(std::size_t row) const { return values[starts[row]]; }
-  /// An entry below the diagonal that has a place, which may be 0. Throws std::out_of_range for any other.
+  /// A stored entry below the diagonal. Throws std::out_of_range if the entry is not stored.
   [[nodiscard]] double& at(int row, int column);
 };
 
-/// Throws std::length_error when there are more entries than an int counts.
+/// `a` by columns. Throws std::length_error if there are more entries than an int can count.
 [[nodiscard]] sparse_columns columns_of(const sparse_matrix& a);
 
-/// The same for a band, without its zeros.
+/// `a` by columns, without its zeros.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
-/// A spring at one row: its stiffness is added to the diagonal. Or between two rows: then -stiffness is also
-/// added off the diagonal, where the matrix must have an entry.
+/// A spring at one row, whose stiffness is added to the diagonal; or between two rows: then -stiffness is
+/// also added off the diagonal, where the matrix must have an entry.
 struct spring_at {
   int row = 0;
   double stiffness = 0.0;
@@ -144,7 +145,7 @@ struct spring_at {
   }
 };
 
-/// K: a band, or, where a band would take too much memory, sparse columns.
+/// The stiffness matrix K, stored as a band, or by columns if a band would take too much memory.
 class stiffness_matrix {
  public:
   stiffness_matrix() = default;
@@ -156,7 +157,7 @@ class stiffness_matrix {
   }
 
   [[nodiscard]] bool is_band() const { return std::holds_alternative<band_matrix>(stored_); }
-  /// These throw std::bad_variant_access when K has another storage.
+  /// The following throw std::bad_variant_access if K has another storage.
   [[nodiscard]] band_matrix& band() { return std::get<band_matrix>(stored_); }
   [[nodiscard]] const band_matrix& band() const { return std::get<band_matrix>(stored_); }
   [[nodiscard]] sparse_columns& columns() { return std::get<sparse_columns>(stored_); }
@@ -170,29 +171,29 @@ class stiffness_matrix {
   }
   void add_to_diagonal(std::size_t row, double value) { diagonal(row) += value; }
 
-  /// The diagonal of K with springs [rows].
+  /// [rows] the diagonal of K with springs.
   [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
-  /// The entries off the diagonal in the columns that are marked [rows], of both triangles.
+  /// The entries off the diagonal, of both triangles, in the columns that are marked in `columns` [rows].
   [[nodiscard]] std::vector<matrix_entry> entries_in(std::span<const char> columns) const;
-  /// Rows and columns `r` with `pivots[r]` > 0 [rows] keep nothing but that on the diagonal.
+  /// Clears every row and column r with `pivots[r]` > 0 [rows], and sets its diagonal entry to this pivot.
   void fix(std::span<const double> pivots);
-  /// K becomes D K D, D diagonal: `d` [rows].
+  /// Replaces K by D K D, where D is diagonal: `d` [rows].
   void scale(std::span<const double> d);
 
-  /// r = r - K x, with every product and sum in long double.
+  /// r = r - K x, computed in long double.
   void subtract_product(std::span<const double> x, std::span<long double> r) const;
   void subtract_product(std::span<const long double> x, std::span<long double> r) const;
 
-  /// The largest sum of magnitudes of a column of D K D, D diagonal: `d` [rows], and with `diagonal` [rows]
-  /// for K's own.
+  /// The largest column sum of magnitudes of D K D, where D is diagonal, `d` [rows], and `diagonal` [rows] is
+  /// used as the diagonal of K.
   [[nodiscard]] double one_norm(std::span<const double> diagonal, std::span<const double> d) const;
 
  private:
   std::variant<band_matrix, sparse_columns> stored_;
 };
 
-/// K by columns where it is a band of which more than half is zeros, as a plate's: its products are the same
-/// to the bit, and take a tenth of the time. Nothing of other matrices.
+/// K by columns, if it is a band with more zeros than other entries, as for a plate: products with it are the
+/// same to the bit and take a tenth of the time. Otherwise nothing.
 [[nodiscard]] std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k);
 
 }  // namespace contct

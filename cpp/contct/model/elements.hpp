@@ -37,7 +37,6 @@ class beam_elements {
   [[nodiscard]] const std::vector<Number>& lengths() const { return h_; }
   [[nodiscard]] const Number& EI(int e) const { return EI_[e]; }
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
-  /// True if both elements have the same stiffness.
   [[nodiscard]] bool are_alike(int e, int other) const {
     return h_[e] == h_[other] && beam_.is_alike(e, other) && is_released(e) == is_released(other);
   }

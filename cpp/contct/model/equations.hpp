@@ -60,7 +60,6 @@ struct equations {
   std::vector<char> fixed;        ///< [dofs]
   std::vector<support_in<Number>> supports;
   std::vector<pair_in<Number>> pairs;
-  /// Returns the loads of a step in this kind of number.
   std::function<loads_in<Number>(const load&)> loads_of;
 
   [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
@@ -83,7 +82,6 @@ void assemble(const assembled& a, const no_elements<Number>& /*none*/, sparse_ro
   }
 }
 
-/// Adds elastic supports to the stiffness.
 template <class Number>
 void put_on_supports(const problem& p, equations<Number>& e) {
   const int per_node = dofs_per_node(p.geometry);

@@ -93,7 +93,6 @@ class extremes {
   extreme least_, most_;
 };
 
-/// The deflection of a node of a beam.
 double w_at(std::span<const double> u, std::size_t node) {
   return u[beam::dofs_per_node * node];
 }

@@ -64,7 +64,6 @@ class beam_sources {
   [[nodiscard]] bool acts_on(int e) const { return !sources_on(e).empty(); }
   [[nodiscard]] rational h(int e) const { return points_.length(e); }
   [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
-  /// The coordinate of the place `t` in element `e`.
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
 
   [[nodiscard]] std::vector<acting> on(int e) const {

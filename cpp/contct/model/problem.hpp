@@ -53,7 +53,6 @@ struct beam {
   [[nodiscard]] int elements() const { return nodes() - 1; }
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
   [[nodiscard]] double length_of(std::size_t element) const { return x[element + 1] - x[element]; }
-  /// True if both elements have the same section.
   [[nodiscard]] bool is_alike(int element, int other) const {
     return EI[element] == EI[other] && (sections.empty() || sections[element] == sections[other]);
   }
@@ -118,7 +117,7 @@ struct placed_node {
   std::array<double, 3> at;
 };
 
-/// A straight line between two nodes (from 0).
+/// A straight line between two nodes, from 0.
 struct mesh_edge {
   int from, to;
   int elements;  ///< the number of elements with this edge; 1 for a coupling

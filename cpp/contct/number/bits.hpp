@@ -16,15 +16,15 @@ namespace contct {
 template <class Real>
 using bits_of = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
 
-/// True when both have the same bits. NaN equals NaN, whatever its payload; -0.0 is not +0.0.
+/// True if both have the same bits. All NaNs are equal; -0.0 and +0.0 differ.
 template <class Real>
 [[nodiscard]] inline bool same_bits(Real a, Real b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
   return std::bit_cast<bits_of<Real>>(a) == std::bit_cast<bits_of<Real>>(b);
 }
 
-/// Place of a number on the line of all floating-point numbers: neighbours differ by one, and
-/// -0.0 is one below +0.0.
+/// The place of a number among all floating-point numbers: neighbours differ by one, and -0.0 is one below
+/// +0.0.
 template <class Real>
 [[nodiscard]] inline std::int64_t place_of(Real x) {
   using bits = bits_of<Real>;
@@ -33,8 +33,8 @@ template <class Real>
   return (b & sign) != 0 ? -static_cast<std::int64_t>(b & ~sign) - 1 : static_cast<std::int64_t>(b);
 }
 
-/// The number of representable numbers between a and b (0 when equal to the bit). The largest possible count
-/// if just one of them is NaN.
+/// The distance of a and b in units in the last place (0 if they have the same bits). The largest possible
+/// count if only one of them is NaN.
 template <class Real>
 [[nodiscard]] inline std::uint64_t ulps_between(Real a, Real b) {
   if (same_bits(a, b)) return 0;
@@ -45,15 +45,15 @@ template <class Real>
                : static_cast<std::uint64_t>(q) - static_cast<std::uint64_t>(p);
 }
 
-/// The exact value as text, such as "0x1.8p+1", "-0x0p+0", "inf", "nan".
+/// The exact value as text: "0x1.8p+1", "-0x0p+0", "inf", "nan".
 [[nodiscard]] inline std::string hexfloat(double x) {
   char text[40];
-  // printf, and not to_chars: %a writes the 0x that every language reads back.
+  // %a writes the prefix 0x, which other languages need to read it; to_chars does not.
   const int length = std::snprintf(text, sizeof text, "%a", x);
   return {text, static_cast<std::size_t>(length)};
 }
 
-/// A decimal that reads as `x`, of as few digits as possible.
+/// The decimal with the fewest digits that reads as `x`.
 [[nodiscard]] inline std::string short_decimal(double x) {
   char text[40];
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {

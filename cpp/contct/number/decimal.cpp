@@ -10,14 +10,13 @@
 namespace contct {
 namespace {
 
-constexpr std::int64_t endless = std::int64_t{1} << 40;  // no exponent that a double has comes near it
+constexpr std::int64_t endless = std::int64_t{1} << 40;  // larger than any exponent of a double
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The digits at the front of `rest`, without the underscores between them, and `rest` becomes the text after
-/// them.
+/// Removes the digits at the front of `rest`, and the underscores between them; returns the digits.
 std::string take_digits(std::string_view& rest) {
   std::string digits;
   while (!rest.empty() && (is_digit(rest.front()) || rest.front() == '_')) {
@@ -27,14 +26,14 @@ std::string take_digits(std::string_view& rest) {
   return digits;
 }
 
-/// Remove a sign at the front; true if it is a minus.
+/// Removes a sign at the front; true if it is a minus.
 bool take_minus(std::string_view& rest) {
   const bool minus = !rest.empty() && rest.front() == '-';
   if (minus || (!rest.empty() && rest.front() == '+')) rest.remove_prefix(1);
   return minus;
 }
 
-/// The exponent that is all of `rest`, saturated; nothing if it is not such a number.
+/// The exponent in `rest`, at most `endless`; 0 if `rest` is empty. Nothing if `rest` is not an exponent.
 std::optional<std::int64_t> exponent_in(std::string_view rest) {
   if (rest.empty()) return 0;
   if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
@@ -54,8 +53,8 @@ struct written_decimal {
   std::int64_t last;  // the power of ten of the last digit
 };
 
-/// The value of the whole of `literal`: "-1_000.5e-3", "1.5D+02". Nothing if it is not a decimal:
-/// hexadecimal, infinite, empty.
+/// The parts of `literal`, such as "-1_000.5e-3" or "1.5D+02". Nothing if it is not a decimal: hexadecimal,
+/// infinite, empty.
 std::optional<written_decimal> written_in(std::string_view literal) {
   written_decimal w{take_minus(literal), false, take_digits(literal), 0};
   w.is_whole = literal.empty();
@@ -72,7 +71,7 @@ std::optional<written_decimal> written_in(std::string_view literal) {
   return w;
 }
 
-/// The same as a number.
+/// The number that `literal` means; nothing if it is not a decimal.
 std::optional<decimal> decimal_in(std::string_view literal) {
   const std::optional<written_decimal> w = written_in(literal);
   if (!w) return std::nullopt;
@@ -99,7 +98,7 @@ decimal shortest_decimal(double x) {
 }
 
 bool is_shortest(std::string_view literal, double x) {
-  // Of normal doubles, no two decimals of up to 15 digits read as the same one.
+  // No two decimals of up to 15 digits read as the same normal double.
   constexpr int always_kept = 15;
   if (std::ranges::count_if(literal, is_digit) <= always_kept && std::isnormal(x)) return true;
   const std::optional<decimal> written = decimal_in(literal);
@@ -107,7 +106,7 @@ bool is_shortest(std::string_view literal, double x) {
 }
 
 std::string rounding_words(std::string_view literal, double x) {
-  // Without a format, a whole number beyond 2^53 would get all of its binary digits.
+  // Without a format, to_chars writes all binary digits of a whole number beyond 2^53.
   std::array<char, 32> shortest{};
   char* const last = shortest.data() + shortest.size();
   const auto end = std::abs(x) < 1e16

@@ -8,8 +8,8 @@
 
 namespace contct {
 
-/// The number digits * 10^exponent, or its negative. There are no zeros at either end of the digits, so that
-/// equal numbers are equal in all members; 0 is "0" with exponent 0.
+/// The number digits * 10^exponent, or its negative. `digits` neither begins nor ends with a zero, so that
+/// equal numbers have equal members; 0 is "0" with exponent 0.
 struct decimal {
   bool negative = false;
   std::string digits;
@@ -18,18 +18,18 @@ struct decimal {
   [[nodiscard]] bool operator==(const decimal&) const = default;
 };
 
-/// The power of ten of the last digit that is written: -3 of "1.250", 2 of "1.25e4". Nothing if `literal` is
-/// not a decimal, and for whole numbers without point and exponent, which are not rounded.
+/// The power of ten of the last digit in `literal`: -3 for "1.250", 2 for "1.25e4". Nothing if `literal` is
+/// not a decimal, or if it is a whole number without point and exponent, which is exact.
 [[nodiscard]] std::optional<int> last_written_digit(std::string_view literal);
 
 /// The shortest decimal that reads as `x`, which is finite.
 [[nodiscard]] decimal shortest_decimal(double x);
 
-/// Is the literal, which reads as `x`, the shortest decimal that does? True if it is not a decimal.
+/// True if `literal` is the shortest decimal that reads as `x`, or is not a decimal.
 [[nodiscard]] bool is_shortest(std::string_view literal, double x);
 
-/// For a warning, where it is not: "found 0.10000000000000000555; the shortest decimal of its double, 0.1, is
-/// used everywhere".
+/// A warning that `literal` is not the shortest decimal: "found 0.10000000000000000555; the shortest decimal
+/// of its double, 0.1, is used everywhere".
 [[nodiscard]] std::string rounding_words(std::string_view literal, double x);
 
 }  // namespace contct

@@ -1,12 +1,12 @@
-// Numbers of about 32 digits: the sum of two doubles (T. J. Dekker 1971). No operation is exact, but those
-// named so; all others are off by at most 2^-100 of their result.
+// Numbers of about 32 digits: the sum of two doubles (T. J. Dekker 1971). The functions named exact_.. are
+// exact; all other operations have errors of at most 2^-100 of their result.
 #pragma once
 
 #include <cmath>
 
 namespace contct {
 
-/// hi + lo, where hi is that sum rounded to a double.
+/// The number hi + lo; hi is this sum rounded to a double.
 struct double_double {
   double hi = 0.0, lo = 0.0;
 
@@ -25,13 +25,13 @@ struct double_double {
   return {sum, (a - (sum - of_b)) + (b - of_b)};
 }
 
-/// a * b, exactly, unless it is below the smallest doubles.
+/// a * b, exactly, unless its rounding error is too small for a double.
 [[nodiscard]] inline double_double exact_product(double a, double b) {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};
 }
 
-/// The same sum, of which |hi| is at least |lo| already.
+/// hi + lo, exactly, if |hi| >= |lo|.
 [[nodiscard]] inline double_double renormalized(double hi, double lo) {
   const double sum = hi + lo;
   return {sum, lo - (sum - hi)};

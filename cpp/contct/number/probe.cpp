@@ -7,14 +7,14 @@
 namespace contct {
 namespace {
 
-// Operands pass through volatile, so that the compiler does not compute with them.
+// Passes through volatile, so that the compiler does not compute the result.
 double opaque(double x) {
   volatile double held = x;
   return held;
 }
 
 bool contraction_happens() {
-  // (1 + e)(1 - e) - 1 is -e^2 in one rounding, and 0 in two, for e = 2^-30.
+  // For e = 2^-30, (1 + e)(1 - e) - 1 is -e^2 with one rounding, and 0 with two.
   const double e = opaque(0x1p-30);
   const double a = 1.0 + e;
   const double b = 1.0 - e;
@@ -34,7 +34,7 @@ bool results_are_flushed() {
   const double smallest_normal = opaque(std::numeric_limits<double>::min());
   const double half = smallest_normal * opaque(0.5);
   volatile double held = half;
-  // Compare by scaling up: under DAZ a comparison with zero would be wrong, too.
+  // Scales up before comparing: under DAZ a comparison with zero would be wrong, too.
   return opaque(held) * opaque(0x1p+60) * opaque(0x1p+60) == 0.0;
 }
 
@@ -43,7 +43,7 @@ bool operands_are_flushed() {
   return subnormal * opaque(0x1p+60) == 0.0;
 }
 
-/// The compiler's permissions cannot be measured, but its macros show them.
+/// Optimisation flags cannot be measured, but the compiler's macros show them.
 constexpr bool may_rearrange() {
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
   return true;

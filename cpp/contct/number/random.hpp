@@ -1,12 +1,11 @@
-// Random numbers that are the same everywhere: splitmix64, integer arithmetic only.
+// Random numbers that are the same on every platform: splitmix64, in integer arithmetic.
 #pragma once
 
 #include <cstdint>
 
 namespace contct {
 
-/// Sebastiano Vigna's splitmix64. The standard library's distributions differ between
-/// implementations; these do not.
+/// Sebastiano Vigna's splitmix64. Distributions of the standard library differ between implementations.
 class random_numbers {
  public:
   explicit constexpr random_numbers(std::uint64_t seed) : state_(seed) {}
@@ -19,16 +18,15 @@ class random_numbers {
     return z ^ (z >> 31);
   }
 
-  /// From `least` to `most`, both included. The bias of the remainder is below 2^-32.
+  /// A whole number from `least` to `most`, both included. The bias is below 2^-32.
   constexpr int whole(int least, int most) {
     const auto choices = static_cast<std::uint64_t>(most - least) + 1;
     return least + static_cast<int>((bits() >> 32) % choices);
   }
 
-  /// At least 0 and less than 1, a multiple of 2^-53.
+  /// A multiple of 2^-53, at least 0 and less than 1.
   constexpr double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  /// True with probability `p`.
   constexpr bool chance(double p) { return unit() < p; }
 
  private:

@@ -30,7 +30,7 @@ int leading_exponent(const rational& x) {
   return e;
 }
 
-/// "123" with exponent -1 is 0.123: as a decimal if that is short, otherwise with an exponent.
+/// Digits "123" with exponent -1 are "0.123": a plain decimal if that is short, otherwise with an exponent.
 std::string decimal_words(std::string digits, int exponent) {
   const int count = static_cast<int>(digits.size());
   if (exponent < -5 || exponent > 20) {
@@ -43,7 +43,7 @@ std::string decimal_words(std::string digits, int exponent) {
 }
 
 #ifdef CONTCT_HAS_GMP
-/// `got`, which malloc or realloc has returned.
+/// Returns `got`, a result of malloc or realloc; calls the new handler if it is null.
 void* or_end(void* got) {
   if (got != nullptr) return got;
   if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
@@ -86,8 +86,8 @@ rational binary_value(double x) {
 }
 
 double rounded(const rational& x) {
-  // |x| = n 2^unit, with n < 2^53 rounded once: subnormal numbers have fewer bits. Boost's own conversion
-  // overflows where numerator and denominator do.
+  // |x| = n 2^unit, where n < 2^53 is rounded once; subnormal numbers have fewer bits. Boost's own conversion
+  // overflows if numerator or denominator does.
   const integer top = abs(numerator(x));
   const integer bottom = denominator(x);
   constexpr int least_unit = DBL_MIN_EXP - DBL_MANT_DIG;
@@ -139,7 +139,7 @@ std::string fraction_words(const rational& x) {
 std::string short_words(const rational& x, int digits) {
   constexpr double digits_of_bit = 0.30103;
   const auto bits = static_cast<double>(length_in_bits(numerator(x)) + length_in_bits(denominator(x)));
-  if (bits * digits_of_bit <= digits + 2) {  // a digit more than that, and the fraction is too long
+  if (bits * digits_of_bit <= digits + 2) {  // two more digits: the estimate may be too large
     std::string words = fraction_words(x);
     const auto counted = static_cast<int>(words.size()) - (x < 0 ? 1 : 0) - (denominator(x) == 1 ? 0 : 1);
     if (counted <= digits) return words;
@@ -153,7 +153,7 @@ std::string short_words(const rational& x, int digits) {
     shown.pop_back();
     ++exponent;
   }
-  const bool all = denominator(scaled) == 1;  // then zeros at the end say nothing
+  const bool all = denominator(scaled) == 1;  // then zeros at the end can be omitted
   while (all && shown.size() > 1 && shown.back() == '0') shown.pop_back();
   return (x < 0 ? "-" : "") + decimal_words(shown, exponent);
 }

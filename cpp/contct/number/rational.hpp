@@ -1,4 +1,4 @@
-// Exact numbers, by GMP if it is found; decimals in and out.
+// Rational numbers, by GMP if it is found, and their conversion from and to decimals.
 #pragma once
 
 #ifdef CONTCT_HAS_GMP
@@ -28,28 +28,26 @@ using rational =
     boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
 #endif
 
-/// A number that has become too long to go on with.
+/// Thrown when a number has too many digits to continue.
 struct too_long : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// From now on GMP, which otherwise aborts the process without memory, does then what new does: it calls the
-/// new handler, which must not return.
+/// Makes GMP call the new handler, which must not return, when memory runs out; by default GMP aborts the
+/// process.
 void allocate_as_new_does();
 
-/// The shortest decimal that reads as `x`, which is finite: 0.1 is 1/10. This is what every number of a file
-/// means.
+/// The shortest decimal that reads as the finite `x`: 1/10 for 0.1. Every number of a file has this meaning.
 [[nodiscard]] rational decimal_of(double x);
 
-/// The exact value of a double, bit for bit. Throws std::domain_error where `x` is not finite.
+/// The exact value of a double. Throws std::domain_error if `x` is not finite.
 [[nodiscard]] rational binary_value(double x);
 
-/// The nearest double, the even one of two that are equally near; infinite beyond their range.
+/// The nearest double, ties to even; infinite if it is out of range.
 [[nodiscard]] double rounded(const rational& x);
-/// The nearest double, and the nearest one to what that leaves.
+/// hi: the nearest double; lo: the double nearest to the rest.
 [[nodiscard]] double_double long_rounded(const rational& x);
 
-/// The number of a kind that is nearest to an exact one.
 template <class Number>
 [[nodiscard]] Number nearest(const rational& x) {
   if constexpr (std::is_same_v<Number, double>) return contct::rounded(x);
@@ -72,7 +70,7 @@ void add(rational_vector& sum, const rational_vector& part, const rational& shar
 /// only if no other digits follow.
 [[nodiscard]] std::string short_words(const rational& x, int digits);
 
-/// Bits of the numerator or the denominator, whichever has more.
+/// The larger length in bits of the numerator and the denominator.
 [[nodiscard]] std::size_t length_in_bits(const rational& x);
 
 }  // namespace contct

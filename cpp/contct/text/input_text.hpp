@@ -1,4 +1,4 @@
-// Input files: a whole file as text, its lines and fields, and error messages with file and line.
+// Reading input files: a whole file as text, its lines and fields; errors name file and line.
 #pragma once
 
 #include <charconv>
@@ -14,28 +14,28 @@
 
 namespace contct {
 
-/// An error in a file: its position, the text found, and the allowed values. what() is the whole message:
+/// An error in a file. what() is the whole message, with the position, the text found and the allowed values:
 /// "pb.toml:12:3: contact[2].stiffness: found -5; allowed: a number greater than 0".
 class input_error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Throw the input_error "file:line: found ...; allowed: ...". Lines count from 1; 0 names the file alone.
+/// Throws the input_error "file:line: found ...; allowed: ...". Lines count from 1; line 0 is not printed.
 [[noreturn]] void refuse_line(std::string_view file, std::int64_t line, std::string_view found,
                               std::string_view allowed);
 
-/// Read the file at `path`, or standard input for "-". `kind` names the expected file in messages: "problem
-/// file". Throws input_error when there is no such file, when it is a directory, cannot be read, or is as
-/// large as `most_mib`: a beam of 100,000 nodes with every coordinate written out takes 2.
+/// Reads the file at `path`, or standard input for "-". `kind` names the expected file in messages: "problem
+/// file". Throws input_error if the file does not exist, is a directory, cannot be read, or has `most_mib` or
+/// more. A beam of 100,000 nodes with every coordinate takes 2 MiB.
 [[nodiscard]] std::string read_input(const std::string& path, const std::string& kind = "problem file",
                                      std::size_t most_mib = 32);
 
 /// The characters that separate the fields of a line and are trimmed from its ends.
 inline constexpr std::string_view blanks = " \t\r\v\f";
 
-/// The number that the whole of `text` is, as std::from_chars reads it: no blanks, no plus sign. Nothing if
-/// it is anything else or out of range. `format`: a std::chars_format, for reals.
+/// The number in `text`, all of it, as std::from_chars reads it: no blanks, no plus sign. Nothing if `text`
+/// is not such a number or is out of range. `format`: a std::chars_format, for reals.
 template <class Number, class... Format>
 [[nodiscard]] std::optional<Number> number_in(std::string_view text, Format... format) {
   Number value{};
@@ -44,13 +44,13 @@ template <class Number, class... Format>
   return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
-/// Goes through a text line by line. Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
+/// Reads a text line by line. Refusals are input_errors: "K.mtx:12: found ...; allowed: ...".
 class text_lines {
  public:
   /// `text` must outlive this object; `file` is its name in messages.
   text_lines(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
 
-  /// Go to the next line; false if there is none.
+  /// Goes to the next line; false if there is none.
   bool next();
 
   [[nodiscard]] std::string_view here() const { return here_; }  ///< the line without its end
@@ -58,14 +58,14 @@ class text_lines {
   [[nodiscard]] std::int64_t line() const { return line_; }      ///< counted from 1; 0 before the first
   [[nodiscard]] const std::string& file() const { return file_; }
 
-  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what`: its description in
-  /// messages. With `fortran`, D may stand for E in a real.
+  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what` describes the number in
+  /// messages. With `fortran`, a real may have D instead of E.
   [[nodiscard]] int whole(std::string_view field, std::int64_t least, std::int64_t most,
                           std::string_view what) const;
   [[nodiscard]] double real(std::string_view field, std::string_view what, bool fortran = false) const;
 
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
-  /// Refuse a last line that has no end: a truncated number would still parse.
+  /// Refuses a last line without a line end: if it is truncated, its numbers may still parse.
   void refuse_unended() const;
 
  private:
@@ -75,13 +75,13 @@ class text_lines {
   bool ended_ = true;
 };
 
-/// Lines of a few fields, which blanks and tabs separate. Blank lines are skipped; a last line without an end
-/// is refused. Linear in the text.
+/// Reads lines of fields that blanks and tabs separate. Skips blank lines; refuses a last line without a line
+/// end. Linear in the text.
 class field_lines : public text_lines {
  public:
   using text_lines::text_lines;
 
-  /// Go to the next line that is not blank; false if there is none.
+  /// Goes to the next line that is not blank; false if there is none.
   bool next();
 
   [[nodiscard]] std::size_t fields() const { return fields_.size(); }
@@ -95,7 +95,7 @@ class field_lines : public text_lines {
     return text_lines::real(field(i), what, fortran);
   }
 
-  /// Refuse the line when it has another number of fields.
+  /// Refuses the line if it has another number of fields.
   void expect(std::size_t fields, std::string_view allowed) const;
 
  private:

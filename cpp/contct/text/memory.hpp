@@ -1,4 +1,4 @@
-// How much memory work may take, and amounts of it in words.
+// The memory limit, and sizes in words.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace contct {
 
-/// The bytes that a structure may take: three quarters of the machine's memory.
+/// The bytes that a run may use: three quarters of the machine's memory.
 [[nodiscard]] std::int64_t memory_limit();
 
 /// "1.5 GiB", "12 MiB".

@@ -16,11 +16,12 @@
 namespace contct {
 namespace {
 
-int why_lost = 0;  // errno, when something first could not be printed
+int why_lost = 0;  // errno of the first print that failed
 
 namespace fs = std::filesystem;
 
-/// The file that writing to `path` makes: symbolic links are followed, also to a target that does not exist.
+/// The file that is written if `path` is opened: follows symbolic links, also to a target that does not
+/// exist.
 fs::path followed(fs::path path) {
   std::error_code ignored;
   if (fs::exists(path, ignored)) return fs::canonical(path);
@@ -33,15 +34,15 @@ fs::path followed(fs::path path) {
   return (wrong ? folder : resolved) / path.filename();
 }
 
-/// A new file with a temporary name beside `target`, since a rename cannot leave its file system: its
-/// descriptor, or -1.
+/// Opens a new file with a temporary name in the folder of `target`, because a rename must stay in one file
+/// system. Returns its descriptor, or -1.
 int open_beside(const std::string& target, std::string& name) {
   name = (fs::path(target).parent_path() / ".contct-partial-XXXXXX").string();
   return mkostemp(name.data(), O_CLOEXEC);
 }
 
-/// Waits until what was written is on the disk; 0, or what went wrong. Some file systems have nothing to wait
-/// for.
+/// Waits until written data are on the disk. Returns 0, or errno; 0 too if the file system does not support
+/// it.
 int sync_to_disk(int descriptor) {
   int error = 0;
   do {
@@ -50,7 +51,7 @@ int sync_to_disk(int descriptor) {
   return error == EINVAL || error == ENOSYS || error == EROFS ? 0 : error;
 }
 
-/// Copy all of one file to another, which gets the rights of any new file; 0, or what went wrong.
+/// Copies one file to another, with the permissions of any new file. Returns 0, or errno.
 int copy_all(int from, int to) {
   const mode_t removed = umask(0);
   umask(removed);
@@ -71,8 +72,7 @@ int copy_all(int from, int to) {
 
 }  // namespace
 
-/// The file without a name is in the target's own folder, so that a place that cannot be written is refused
-/// at once.
+/// The file without a name is in the target's own folder, so that an unwritable folder is refused at once.
 output_file::output_file(std::string path) : path_(std::move(path)) {
   if (is_standard_output()) {
     file_ = stdout;
@@ -116,12 +116,12 @@ void output_file::finish() {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(errno);
 }
 
-/// A copy takes a temporary name and then the target's. It is on the disk before it replaces another file:
-/// otherwise a loss of power could leave neither.
+/// Copies the file to a temporary name, then renames the copy to the target. The copy is on the disk before
+/// it replaces another file; otherwise a power failure could lose both.
 void output_file::give_name() const {
   const signals_wait until_named;
   std::error_code ignored;
-  const bool replaces = fs::exists(target_, ignored);  // before the copy: without memory it would stay
+  const bool replaces = fs::exists(target_, ignored);  // before the copy exists: without memory this throws
   std::string name;
   const int copy = open_beside(target_, name);
   if (copy < 0) fail(errno);
@@ -162,7 +162,7 @@ bool same_file(const std::string& a, const std::string& b) {
   if (kind == fs::file_type::regular) return fs::equivalent(a, b, error);
   if (kind != fs::file_type::not_found || fs::exists(b, error)) return false;
   const auto is_link = [&error](const fs::path& p) { return fs::is_symlink(fs::symlink_status(p, error)); };
-  // The checks below cost more: a run with --vtu compares thousands of names.
+  // Returns early, because the checks below are slow: a run with --vtu compares thousands of names.
   if (fs::path(a).filename() != fs::path(b).filename() && !is_link(a) && !is_link(b)) return false;
   return followed(a) == followed(b);
 }

@@ -9,8 +9,8 @@
 
 namespace contct {
 
-/// Blocks every signal to this thread except SIGKILL while this object lives, so that a file with a temporary
-/// name is not left behind.
+/// Blocks all signals of this thread except SIGKILL while this object exists, so that no temporary file is
+/// left behind.
 class signals_wait {
  public:
   signals_wait() {
@@ -26,19 +26,19 @@ class signals_wait {
   sigset_t before_{};
 };
 
-/// Thrown when an output file cannot be made; what() names the file and the reason.
+/// Thrown if an output file cannot be written; what() names the file and the reason.
 class output_error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A file that has no name until `finish` gives it one: if the process ends before, nothing remains. A
-/// symbolic link is followed, and its target replaced. "-" is standard output; a path that exists and is not
-/// a regular file, such as a device, is written directly.
+/// A file that gets its name in `finish`: if the process ends before, nothing remains. A symbolic link is
+/// followed, and its target is replaced. "-" is standard output. If the path exists and is not a regular
+/// file, such as a device, it is written directly.
 class output_file {
  public:
   explicit output_file(std::string path);
-  /// No file: output is appended to `kept`, which must outlive this object.
+  /// Appends the output to `kept`, which must outlive this object, instead of writing a file.
   explicit output_file(std::string* kept) : path_("a text"), kept_(kept) {}
   ~output_file();
   output_file(const output_file&) = delete;
@@ -53,26 +53,26 @@ class output_file {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_;  // path_ with links followed; empty when written directly
+  std::string target_;  // path_ with links followed; empty if it is written directly
   std::string* kept_ = nullptr;
   std::FILE* file_ = nullptr;
 };
 
-/// Standard output is a pipe whose reader has ended.
+/// Thrown if standard output is a pipe whose reader has ended.
 struct reader_gone : output_error {
   using output_error::output_error;
 };
 
-/// Print to standard output, escaped by `terminal_text`; on a terminal colours stay. A failure is reported by
-/// flush_standard_output, after the files are written.
+/// Prints to standard output, escaped by `terminal_text`; on a terminal, colour codes are kept.
+/// flush_standard_output reports a failure, after the files are written.
 void print_text(std::string_view raw);
 
-/// Flush standard output. Throws output_error when anything printed, now or before, could not be written;
-/// reader_gone if it is a pipe without a reader.
+/// Flushes standard output. Throws output_error if anything printed so far could not be written; reader_gone
+/// if standard output is a pipe without a reader.
 void flush_standard_output();
 
-/// Would writing to one of these paths change what the other names? True for two names of one file, whether
-/// it exists or not; false for devices, pipes and terminals.
+/// True if writing to one path would change the file at the other: two names of one file, which need not
+/// exist. False for devices, pipes and terminals.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace contct

@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4): identifies the files of a report.
+// SHA-256 (FIPS 180-4), which identifies files in reports.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace contct {
 
-/// As 64 hexadecimal digits.
+/// The hash of `bytes` as 64 hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 }  // namespace contct

@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-/// The character of UTF-8 that a text begins with, and how many bytes it takes; 0 bytes if there is none.
+/// The first UTF-8 character of a text, and its length in bytes; 0 bytes if the text does not begin with one.
 struct decoded {
   char32_t character = 0;
   std::size_t bytes = 0;
@@ -18,7 +18,7 @@ decoded first_character(std::string_view text) {
   const unsigned lead = byte(0);
   if (lead < 0x80) return {lead, 1};
   const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // what as many bytes are needed for
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // by bytes: the least character that needs them
   if (lead < 0xc2 || lead > 0xf4 || bytes > text.size()) return {};
   char32_t character = lead & (0x7fU >> bytes);
   for (std::size_t i = 1; i < bytes; ++i) {
@@ -30,14 +30,14 @@ decoded first_character(std::string_view text) {
   return {character, bytes};
 }
 
-/// Would a terminal obey this character, or write what follows it in another order?
+/// True for control characters, and for characters that change the direction of the text after them.
 bool is_obeyed(char32_t c) {
   const bool control = c < 0x20 || (c >= 0x7f && c <= 0x9f);
   return control || (c >= 0x202a && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
 }
 
-/// `text` with `replacement(bytes)` for every control character, except those in `kept`, and for every byte
-/// that is not UTF-8.
+/// Replaces by `replacement(bytes)` every control character that is not in `kept`, and every byte that is not
+/// UTF-8.
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
   const auto plain = [](char c) { return c >= ' ' && c <= '~'; };
@@ -64,15 +64,15 @@ std::string in_hexadecimal(std::string_view bytes) {
   return text;
 }
 
-/// Does a character of UTF-8 go on with this byte?
+/// True for a byte of a UTF-8 character after its first byte.
 bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-/// The least number of edits between two words (Damerau-Levenshtein): a character inserted, deleted or
-/// replaced, or two neighbours swapped.
+/// The least number of edits from one word to another (Damerau-Levenshtein). An edit inserts, deletes or
+/// replaces a character, or swaps two neighbours.
 int edits_between(const std::string& a, const std::string& b) {
-  // edits[i][j]: from the first i characters of a to the first j of b.
+  // edits[i][j]: from the first i characters of a to the first j characters of b.
   std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
   for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
@@ -132,7 +132,7 @@ std::string terminal_text(std::string_view text) {
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::size_t end = std::min(text.size(), longest);
-  constexpr std::size_t most_back = 3;  // a character has no more bytes after its first
+  constexpr std::size_t most_back = 3;  // bytes of a UTF-8 character after its first
   for (std::size_t i = 0; i < most_back && end > 0 && end < text.size() && continues_character(text[end]);
        ++i)
     --end;
@@ -159,7 +159,8 @@ std::string field_words(std::string_view text, std::string_view kind) {
   constexpr std::size_t no_secret = 3;
   constexpr std::string_view of_numbers = "0123456789+-.,_eEdDxXpP \t";
   constexpr escape lower[] = {{'A', "a"}, {'F', "f"}, {'I', "i"}, {'N', "n"}, {'+', ""}, {'-', ""}};
-  const std::string word = text.size() <= longest ? escaped(text, lower) : "";  // without its sign
+  const std::string word =
+      text.size() <= longest ? escaped(text, lower) : "";  // without signs, in lower case
   const bool number_like = text.find_first_of("0123456789") < text.size() &&
                            text.find_first_not_of(of_numbers) == std::string_view::npos;
   if (number_like || text.size() <= no_secret || word == "nan" || word == "inf")
@@ -181,7 +182,7 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string did_you_mean(std::string_view found, std::span<const std::string> known) {
-  constexpr std::size_t longest_word = 64;  // the table of edits grows with its square
+  constexpr std::size_t longest_word = 64;  // time and memory grow with its square
   if (found.size() > longest_word) return "";
   std::string_view nearest;
   int least = 0;

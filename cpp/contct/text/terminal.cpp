@@ -13,16 +13,16 @@
 namespace contct {
 namespace {
 
-/// The value of an environment variable; empty when it is not set.
+/// Empty if the variable is not set.
 std::string_view environment(const char* name) {
   const char* const value = std::getenv(name);
   return value == nullptr ? std::string_view() : value;
 }
 
-/// The code of each `paint`, and the one that ends it.
+/// The code of each `paint`, then the code that ends a colour.
 constexpr std::array<std::string_view, 5> codes = {"\033[32m", "\033[1;31m", "\033[2m", "\033[1m", "\033[0m"};
 
-/// The colour code at the start of a text; empty if there is none.
+/// The colour code at the start of `text`; empty if there is none.
 std::string_view leading_code(std::string_view text) {
   const auto* const found =
       std::ranges::find_if(codes, [text](std::string_view c) { return text.starts_with(c); });

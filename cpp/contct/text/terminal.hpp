@@ -10,11 +10,11 @@ namespace contct {
 /// How to print to standard output.
 struct terminal {
   int width = 80;      ///< columns
-  bool color = false;  ///< ANSI colours are understood and wanted
+  bool color = false;  ///< print ANSI colours
 };
 
-/// Look at standard output: a terminal gives its own width, anything else has 80 columns unless
-/// COLUMNS says otherwise. Colour only on a terminal, and never under NO_COLOR or TERM=dumb.
+/// Finds out how to print to standard output. The width is COLUMNS if set, else the terminal's, else 80
+/// columns. Colours are used only on a terminal, and not under NO_COLOR or TERM=dumb.
 [[nodiscard]] terminal look_at_terminal();
 
 enum class paint { good, bad, quiet, strong };
@@ -22,11 +22,11 @@ enum class paint { good, bad, quiet, strong };
 /// `text`, escaped by `terminal_text`, in colour if `t` has colours.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
 
-/// As `terminal_text`, but the codes of `painted` stay.
+/// As `terminal_text`, but keeps the codes of `painted`.
 [[nodiscard]] std::string shown_in_colour(std::string_view text);
 
-/// Items joined by "; ", in lines of at most `width` bytes. An item longer than a line is broken at blanks; a
-/// word longer than a line has one of its own.
+/// Joins items by "; " in lines of at most `width` bytes. Breaks an item that is longer than a line at
+/// blanks; a word that is longer than a line has a line to itself.
 [[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
 }  // namespace contct
