@@ -170,8 +170,7 @@ void stiffness_matrix::fix(std::span<const double> pivots) {
 
 void stiffness_matrix::scale(std::span<const double> d) {
   each_entry(
-      stored_,
-      [d](std::size_t i, double& value) { value = value * d[i] * d[i]; },  // d[i] * d[i] may overflow
+      stored_, [d](std::size_t i, double& value) { value = value * d[i] * d[i]; },  // d * d may overflow
       [d](std::size_t row, std::size_t column, double& value) { value = value * d[row] * d[column]; });
 }
 

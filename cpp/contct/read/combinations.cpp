@@ -12,7 +12,7 @@
 namespace contct {
 namespace {
 
-/// sum += factor * part. Exact arithmetic multiplies the decimals of both.
+/// sum += factor * part. Each load keeps `factor`, for exact arithmetic.
 void add(load& sum, const load& part, double factor) {
   for (const auto values : nodal_values) {
     for (nodal_value v : part.*values) {
@@ -33,7 +33,7 @@ void add(load& sum, const load& part, double factor) {
   }
 }
 
-/// The name of a table, which has one, once among `names`.
+/// The name of a table. Refuses a table without a name, and a name that is already in `names`.
 std::string unique_name(const toml_value& t, std::set<std::string>& names) {
   std::string name = t["name"].text();
   if (name.find_first_not_of(blanks) == std::string::npos) t["name"].refuse("a name");
@@ -41,7 +41,7 @@ std::string unique_name(const toml_value& t, std::set<std::string>& names) {
   return name;
 }
 
-/// Makes a step of each combination, and of each place of a train.
+/// Makes a step for each combination and for each place of a train.
 class combination_reader {
  public:
   combination_reader(const model& m, std::vector<load> cases) : model_(m), cases_(std::move(cases)) {}
@@ -53,7 +53,7 @@ class combination_reader {
     put(t, std::move(l));
   }
 
-  /// A combination for each place of the axles.
+  /// Makes a step for each place of the axles.
   void read_train(const toml_value& t) {
     t.allow_only({"name", "axles", "from", "to", "by", "terms", "factor"});
     const auto* const b = std::get_if<beam>(&model_.kind);
@@ -125,7 +125,7 @@ class combination_reader {
     return all;
   }
 
-  /// The number of positions from `from` on, the last one at or before `to`.
+  /// The number of positions of a train from `from` to `to`.
   [[nodiscard]] static int places_of(const toml_value& t, const rational& from, const rational& by) {
     constexpr int most = 10'000;
     const rational way = decimal_of(t["to"].real(any_real)) - from;
@@ -137,7 +137,7 @@ class combination_reader {
     return static_cast<int>(rounded(rational(numerator(steps) / denominator(steps)))) + 1;
   }
 
-  /// A force at x, `factor` times w; no force beyond the beam.
+  /// Adds the force factor * w at x, unless x is beyond the beam.
   static void put_axle(const beam& b, double x, double w, double factor, load& l) {
     if (x < b.x.front() || x > b.x.back()) return;
     if (const std::optional<int> node = find_coordinate(b.x, x))
@@ -148,10 +148,10 @@ class combination_reader {
 
   const model& model_;
   std::vector<load> cases_;
-  std::set<std::string> names_;  // of combinations and trains
+  std::set<std::string> names_;  // names of combinations and trains
 };
 
-/// Refuse steps together with combinations, and unused cases.
+/// Refuses steps together with combinations or trains, and cases without either.
 void refuse_mixed(const toml_value& top) {
   constexpr const char* allowed =
       "[[step]]s, each going on from the one before, or [[combination]]s and [[train]]s of [[case]]s, each "

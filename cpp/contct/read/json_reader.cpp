@@ -22,7 +22,7 @@ class json_parser {
   }
 
  private:
-  /// the next character that is not a blank, where the parser stays; 0 at the end.
+  /// Skips blanks and returns the next character without taking it; 0 at the end.
   char next() {
     at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
     return at_ < text_.size() ? text_[at_] : '\0';
@@ -46,7 +46,7 @@ class json_parser {
         at_ == text_.size() ? "the end" : in_quotes(text_.substr(at_, 1)), allowed));
   }
 
-  /// A text, a number, true, false or null.
+  /// Reads a text, a number, true or false.
   nlohmann::json token() {
     std::size_t end = text_.find_first_of(" \t\r\n,:{}[]\"", at_);
     if (next() == '"') {
@@ -60,7 +60,7 @@ class json_parser {
     return read;
   }
 
-  /// A value of any kind; `put` puts it into what holds it, and returns it there.
+  /// Reads a value of any kind. `put` stores the value and returns its node.
   template <class Put>
   void value(const Put& put) {
     constexpr int deepest = 16;

@@ -1,4 +1,4 @@
-// JSON as the tree that TOML is read into, so that toml_value reports errors in either with their places.
+// Reads JSON into the tree for TOML, so that toml_value reports errors with line and column.
 #pragma once
 
 #include "contct/read/toml_reader.hpp"
@@ -10,8 +10,8 @@ struct json_tree {
   toml_places places;
 };
 
-/// Parse a whole document, an object. Throws input_error with line and column for text that is not JSON, a
-/// null, a key that an object has twice, and values that are more than 16 deep.
+/// Parses a document, which is one object. Throws input_error with line and column if the text is not JSON,
+/// contains null, repeats a key in an object, or is nested more than 16 deep.
 [[nodiscard]] json_tree parse_json(std::string_view text, std::string_view file);
 
 }  // namespace contct

@@ -18,35 +18,35 @@
 namespace contct {
 namespace {
 
-/// Rows, and entries, that a file may say it has.
+/// The largest numbers of rows and of entries that a file may declare.
 constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
 constexpr std::int64_t most_entries = most_rows;
 
-/// An entry of the lower triangle, row >= column, from 0, and the line that it was read from. 32 bytes.
+/// An entry of the lower triangle, row >= column, both from 0, and its line in the file. 32 bytes.
 struct read_entry {
   int row, column;
   double value;
   std::int64_t line;
-  int last_digit;  // its power of ten, or sparse_matrix::exact_entry
+  int last_digit;  // a power of ten, or sparse_matrix::exact_entry
 };
 
-/// Matrix Market's files have the lower triangle, CalculiX's the upper one.
+/// Matrix Market files contain the lower triangle, CalculiX files the upper triangle.
 enum class entry_format { matrix_market, calculix };
 
-/// A line that resembles a header may be quoted; any other may hold text that the message must not reveal.
+/// True for a line that looks like a header. A message may quote it; any other line may contain text that
+/// must not be revealed.
 bool is_like_header(std::string_view line) {
   return line.front() == '%' || lower_case(line).find("market") != std::string::npos;
 }
 
-constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and its line's end
+constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and a line end
 
-/// Lines of a file with numbers. One warning tells how many of these are not the shortest decimals of their
-/// doubles, and the first.
+/// Lines with numbers. `warn` makes one warning: the first number that is not the shortest decimal of its
+/// double, and the count of such numbers.
 class number_lines : public field_lines {
  public:
   using field_lines::field_lines;
 
-  /// Field `i`.
   double number(std::size_t i, std::string_view what, bool fortran = false) {
     const double value = real(i, what, fortran);
     if (!is_shortest(field(i), value) && rounded_++ == 0)
@@ -66,8 +66,8 @@ class number_lines : public field_lines {
   std::string first_;
 };
 
-/// The first line: "%%MatrixMarket matrix coordinate real" and `symmetry`, in any case; true where it says
-/// "array" in place of "coordinate".
+/// Reads the first line, in any case: "%%MatrixMarket matrix coordinate real" and `symmetry`. True if it has
+/// "array" instead of "coordinate".
 bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_array) {
   const std::string allowed = fmt::format("%%MatrixMarket matrix {} real {}",
                                           may_be_array ? "array (or coordinate)" : "coordinate", symmetry);
@@ -85,7 +85,7 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
   return array;
 }
 
-/// Go to the line after the comments: the size.
+/// Goes to the line with the size, after the comments.
 void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed) {
   do {
     if (!lines.next()) lines.refuse("the end of the file", allowed);
@@ -93,7 +93,8 @@ void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed
   lines.expect(fields, allowed);
 }
 
-/// The line "row column value", from 1 in the file and from 0 in the answer; `what` the value is.
+/// Reads a line "row column value". Rows and columns are from 1 in the file, from 0 in the result. `what`
+/// describes the value in messages.
 read_entry entry_in(number_lines& lines, int rows, int columns, std::string_view what, bool fortran = false) {
   lines.expect(3, "row, column and value");
   return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
@@ -101,7 +102,7 @@ read_entry entry_in(number_lines& lines, int rows, int columns, std::string_view
           last_written_digit(lines.field(2)).value_or(sparse_matrix::exact_entry)};
 }
 
-/// The same of a stiffness: in its triangle, and turned into the lower one.
+/// Reads an entry of a stiffness matrix in the triangle of its format, and returns it in the lower triangle.
 read_entry parse_entry(number_lines& lines, int rows, entry_format format) {
   const bool is_upper = format == entry_format::calculix;
   read_entry e = entry_in(lines, rows, rows, "an entry", is_upper);
@@ -125,7 +126,7 @@ void refuse_repeated(std::span<const read_entry> entries, std::string_view file)
               "each place once: write the sum of its entries");
 }
 
-/// Refuse a negative diagonal, and an entry in a row or column that has 0 on its diagonal.
+/// Refuses a negative diagonal entry, and an entry in a row or column whose diagonal entry is 0.
 void refuse_indefinite(std::span<const read_entry> entries, int order, std::string_view file) {
   std::vector<char> stiff(order, 0);
   for (const read_entry& e : entries) {
@@ -147,11 +148,11 @@ int first_digit(const read_entry& e) {
   return static_cast<int>(std::floor(std::log10(std::abs(e.value))));
 }
 
-/// The rounding of a program's output: to a number of decimal places, or of digits, without trailing zeros.
-/// Whole numbers are exact.
+/// How a program rounded its output: to a number of decimal places or to a number of digits, without trailing
+/// zeros. Whole numbers are exact.
 struct written_digits {
   int most_digits = 0;
-  std::optional<int> lowest, highest;  // the last digits' places that there are; none: all are exact
+  std::optional<int> lowest, highest;  // of last_digit; empty: all entries are exact
 
   void include(const read_entry& e) {
     if (e.value == 0 || e.last_digit == sparse_matrix::exact_entry) return;
@@ -159,14 +160,14 @@ struct written_digits {
     lowest = std::min(lowest.value_or(e.last_digit), e.last_digit);
     highest = std::max(highest.value_or(e.last_digit), e.last_digit);
   }
-  /// The last digit that an entry other than 0 was rounded to, or sparse_matrix::exact_entry.
+  /// The power of ten of the digit that an entry other than 0 was rounded to, or sparse_matrix::exact_entry.
   [[nodiscard]] int last_digit_of(const read_entry& e) const {
     if (e.last_digit == sparse_matrix::exact_entry) return e.last_digit;
     return lowest == highest ? *lowest : first_digit(e) - most_digits + 1;
   }
 };
 
-/// The last digits of all entries that are not 0; nothing if all are exact.
+/// last_digit_of for every entry that is not 0; empty if all entries are exact.
 std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries) {
   written_digits written;
   for (const read_entry& e : entries) written.include(e);
@@ -177,9 +178,9 @@ std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries)
   return digits;
 }
 
-/// The matrix, without entries that are 0. Linear in the entries, except for sorting them.
+/// Makes the matrix, without entries that are 0. Linear in the entries, except for sorting.
 sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
-  // The order is only declared by a line, so it is checked before memory of its size is allocated.
+  // The file only declares the order, so the order is checked before memory of this size is allocated.
   if (order > static_cast<std::int64_t>(entries.size()))
     refuse_line(file, 0, fmt::format("{} rows and {} entries", order, entries.size()),
                 "an entry on the diagonal of every row");
@@ -192,8 +193,7 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   return matrix;
 }
 
-/// Call `read`, with the number of the line from 0, at each line after that of the size, which gives their
-/// number.
+/// Calls read(i) for each line i, from 0, after the line with the size, which declares `said` such lines.
 template <class Read>
 void read_lines(field_lines& lines, int said, std::string_view kind, const Read& read) {
   const std::int64_t size_line = lines.line();
@@ -208,10 +208,10 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
                  fmt::format("{} entries, as line {} declares", said, size_line));
 }
 
-/// The line of each name.
+/// The line of the file in which each name occurs.
 using line_numbers = std::unordered_map<std::string_view, std::int64_t>;
 
-/// Refuse a name that a line before has.
+/// Refuses a name that an earlier line has.
 void refuse_again(const field_lines& lines, std::string_view what, std::string_view name,
                   line_numbers& line_of) {
   const auto [before, is_new] = line_of.try_emplace(name, lines.line());
@@ -220,7 +220,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
                  fmt::format("each {} once", what));
 }
 
-/// The number of fields before a comment.
+/// The number of fields before a comment, which begins with #.
 std::size_t fields_before_comment(const field_lines& lines) {
   std::size_t count = 0;
   while (count < lines.fields() && lines.field(count).front() != '#') ++count;
@@ -288,7 +288,7 @@ std::vector<std::string> parse_labels(std::string_view text, std::string_view fi
   constexpr std::size_t longest = 100;
   field_lines lines(text, file);
   std::vector<std::string> labels;
-  line_numbers line_of;  // views of the text: the labels move
+  line_numbers line_of;  // views of `text`, because `labels` reallocates
   while (lines.next()) {
     lines.expect(1, "one label a line, without blanks");
     const std::string_view label = lines.field(0);
@@ -305,7 +305,7 @@ std::vector<placed_node> parse_coordinates(std::string_view text, std::string_vi
   constexpr std::string_view allowed = "name x y, or name x y z";
   field_lines lines(text, file);
   std::vector<placed_node> nodes;
-  line_numbers line_of;  // views of the text
+  line_numbers line_of;  // views of `text`
   std::size_t alike = 0;
   while (lines.next()) {
     const std::size_t fields = fields_before_comment(lines);

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int any_number = std::numeric_limits<int>::max();
 
-/// The direction of a label's last part: x, y, z or 1, 2, 3 are 1 to 3, rx, ry, rz or 4, 5, 6 are 4 to 6, and
-/// r, the turn of a plane structure, is 6; 0 for anything else.
+/// The direction that the last part of a label names: x, y, z or 1, 2, 3 give 1 to 3; rx, ry, rz or 4, 5, 6
+/// give 4 to 6; r, the rotation of a plane structure, gives 6; any other text gives 0.
 int direction_of(std::string_view name) {
   constexpr std::string_view names[] = {"x", "y", "z", "rx", "ry", "rz"};
   for (int i = 0; i < 6; ++i)
@@ -26,7 +26,7 @@ int direction_of(std::string_view name) {
   return name == "r" ? 6 : 0;
 }
 
-/// "185" and 3 of "185.3".
+/// Node "185" and direction 3 for the label "185.3"; empty if the node or the direction is unknown.
 placed_dof place_of_label(std::string_view label, const std::unordered_map<std::string_view, int>& nodes) {
   const std::size_t dot = label.rfind('.');
   if (dot == std::string_view::npos) return {};
@@ -49,8 +49,8 @@ void say_what_is_not_drawn(const assembled& a, placed_nodes& places) {
     places.notes.push_back(fmt::format("Rotations, {} of {} dofs, are not drawn.", turns, a.dofs()));
 }
 
-/// Find each dof's node by its label; of two labels for one place the second has none. False where no label
-/// has a node: nothing is known then.
+/// Finds the node of each dof by its label. If two labels name the same node and direction, ignores the
+/// second. False if no label names a node; then no position is known.
 bool place_dofs(const assembled& a, placed_nodes& places) {
   std::unordered_map<std::string_view, int> nodes;
   for (const placed_node& n : places.nodes) nodes.emplace(n.name, static_cast<int>(nodes.size()));
@@ -68,7 +68,7 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   return any;
 }
 
-/// `pairs` of nodes as edges, each once and with how many there are. Linear, except for a sort.
+/// The edges between these pairs of nodes, each edge once with the number of its pairs.
 std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   std::sort(pairs.begin(), pairs.end());
   std::vector<mesh_edge> edges;
@@ -79,9 +79,8 @@ std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   return edges;
 }
 
-/// Edges for a structure of which only the matrix is known: between nodes that it couples. No edges if there
-/// are more than this many for each node, as in a solid or a plate, whose couplings are not members. A space
-/// frame has 3 at most, a plane one 2.
+/// Adds edges between nodes that the matrix couples. Adds none if there are more than 3 for each node, as in
+/// a solid or a plate, whose couplings are not members. A space frame has at most 3, a plane frame 2.
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
   constexpr std::size_t most_couplings_of_a_node = 3;
   std::vector<std::pair<int, int>> couples;
@@ -99,7 +98,7 @@ void add_coupling_edges(const assembled& a, placed_nodes& places) {
   places.edges.clear();
 }
 
-/// Leaves out the nodes that have neither a dof nor an edge.
+/// Removes the nodes that have neither a dof nor an edge.
 void drop_idle_nodes(placed_nodes& places) {
   std::vector<int> now(places.nodes.size(), -1);
   for (const placed_dof& d : places.dofs)
@@ -123,7 +122,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(blanks) - from + 1);
 }
 
-/// The fields between a line's commas; one that is empty at the end does not count.
+/// The fields between the commas of a line, without an empty last field.
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
   for (;;) {
@@ -146,8 +145,8 @@ std::string without_case_and_blanks(std::string_view text) {
   return plain;
 }
 
-/// The edges of a solid between its corners, from 0. Midside nodes, if any, follow the corners in the order
-/// of the edges.
+/// A type of solid element. `edges`: pairs of corners, from 0. Midside nodes, if any, follow the corners in
+/// the order of the edges.
 struct solid {
   std::string_view type;
   std::size_t corners;
@@ -166,7 +165,7 @@ constexpr solid known_solids[] = {{"C3D4", 4, false, tetrahedron}, {"C3D6", 6, f
                                   {"C3D8", 8, false, brick},       {"C3D10", 4, true, tetrahedron},
                                   {"C3D15", 6, true, wedge},       {"C3D20", 8, true, brick}};
 
-/// The solid that a type names, with any letters after it; null for other types.
+/// The solid of a type, also with letters after it; null for other types.
 const solid* solid_of(std::string_view type) {
   for (const solid& s : known_solids) {
     if (type.substr(0, s.type.size()) != s.type) continue;
@@ -176,12 +175,12 @@ const solid* solid_of(std::string_view type) {
   return nullptr;
 }
 
-/// Reads an input file line by line. Nodes may come after the elements that name them.
+/// Reads an input file of CalculiX. Nodes may come after the elements that name them.
 class inp_reader {
  public:
   inp_reader(std::string_view text, std::string_view file) : lines_(text, file) {}
 
-  /// The nodes and edges, and the names of omitted parts.
+  /// Returns the nodes, the edges, and notes on parts that are not drawn.
   placed_nodes read() {
     while (next_line()) {
       if (line_.front() == '*') {
@@ -202,13 +201,13 @@ class inp_reader {
  private:
   enum class data { ignored, nodes, solids, others };
 
-  /// From node to node, by their numbers.
+  /// An edge, or half of an edge with a midside node, between two node numbers.
   struct side {
     int from, to;
     std::int64_t line_of_element;
   };
 
-  /// To the next line that is neither blank nor a comment.
+  /// Goes to the next line that is neither blank nor a comment; false at the end.
   bool next_line() {
     do {
       if (!lines_.next()) return false;
@@ -241,7 +240,7 @@ class inp_reader {
     const int number = lines_.whole(fields[0], 1, any_number, "the node's number");
     if (fields.size() < 2) lines_.refuse(field_words(line_, "a line"), "number, x, y, z");
     placed_node node{std::to_string(number), {}};
-    // As CalculiX has it: a coordinate that is left out is 0.
+    // In CalculiX a missing coordinate is 0.
     for (std::size_t i = 0; i < 3 && i + 1 < fields.size(); ++i)
       node.at[i] = fields[i + 1].empty() ? 0.0 : lines_.real(fields[i + 1], "a coordinate", true);
     const auto [before, is_new] = index_.try_emplace(number, static_cast<int>(nodes_.size()));
@@ -294,7 +293,7 @@ class inp_reader {
     return at->second;
   }
 
-  /// From node to node along the edges of all solids.
+  /// The two nodes of each side, by index.
   [[nodiscard]] std::vector<std::pair<int, int>> indexed_sides() const {
     std::vector<std::pair<int, int>> sides;
     for (const side& s : sides_) {
@@ -320,17 +319,17 @@ class inp_reader {
   }
 
   text_lines lines_;
-  std::string_view line_;  // without the blanks around it
+  std::string_view line_;  // the current line, without blanks around it
   data holds_ = data::ignored;
-  std::string type_;        // of the elements
-  bool continues_ = false;  // the line before, of an element of another type: it ends with a comma
+  std::string type_;        // type of the block's elements
+  bool continues_ = false;  // the line before ends with a comma, in an element of unknown type
   std::vector<placed_node> nodes_;
-  std::unordered_map<int, int> index_;  // of nodes, by number
-  const solid* solid_ = nullptr;        // null: not elements of a known solid
-  std::vector<int> element_;            // the nodes, by number, of the one that is not complete yet
+  std::unordered_map<int, int> index_;  // index in nodes_ of each node number
+  const solid* solid_ = nullptr;        // null: the type is unknown
+  std::vector<int> element_;            // node numbers of an element that is not complete yet
   std::int64_t line_of_element_ = 0;
   std::vector<side> sides_;
-  std::map<std::string, int> others_;  // how many of each type whose edges are not known
+  std::map<std::string, int> others_;  // number of elements of each unknown type
   bool includes_ = false;
 };
 

@@ -9,13 +9,13 @@
 namespace contct {
 namespace {
 
-/// The largest difference of two coordinates among these that count as the same decimal.
+/// The largest difference at which two coordinates count as equal decimals.
 double rounding_of(std::span<const double> among) {
   return 4 * std::numeric_limits<double>::epsilon() *
          std::max(std::abs(among.front()), std::abs(among.back()));
 }
 
-/// Every x that the document names outside the beam's own x.
+/// Every x that the document names, except those of `x` in [beam].
 std::vector<double> named_coordinates(const toml_value& beam, const toml_value& top) {
   std::vector<double> named;
   const auto take = [&named](const toml_value& t, const char* key) {
@@ -34,7 +34,8 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
   return named;
 }
 
-/// `named` and `ends`, rising, each once: those outside the ends are refused when they are read.
+/// `named` and `ends`, ascending, each once. Omits coordinates outside the ends, which are refused when they
+/// are read.
 std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector<double> named) {
   std::erase_if(named, [&ends](double x) {
     return x < ends.front() || x > ends.back() || find_coordinate(ends, x).has_value();
@@ -48,8 +49,8 @@ std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector
   return named;
 }
 
-/// The decimal of 15 digits nearest to x if it is within `same`: the number that a user would write for this
-/// node. 0.2 rather than 0.6 / 3.
+/// The decimal with 15 digits nearest to x if it is within `same`, otherwise x. A user would write this
+/// decimal for the node: 0.2 rather than 0.6 / 3.
 double as_written(double x, double same) {
   const double decimal = number_in<double>(fmt::format("{:.15g}", x)).value_or(x);
   return std::abs(decimal - x) <= same ? decimal : x;
@@ -109,7 +110,7 @@ mesh_line sized_mesh(const toml_value& beam, const toml_value& top, const std::v
   const toml_value element_size = beam["element_size"];
   const double size = element_size.real(positive_real);
   const std::vector<double> corners = corners_of_mesh(ends, named_coordinates(beam, top));
-  // The quotient of a length of 0.9 and a size of 0.3 is rounded to more than 3.
+  // Rounding must not add an element: 2.1 / 0.7 is rounded to more than 3.
   const auto elements_between = [&](std::size_t i) {
     return std::max(1.0, std::ceil((corners[i] - corners[i - 1]) / size - 1e-9));
   };

@@ -17,13 +17,13 @@
 namespace contct {
 namespace {
 
-// Two bands of this size are held: 8 GB together.
+// Two bands of this size take 8 GB.
 constexpr std::int64_t most_band_entries = 500'000'000;
-/// No file of coordinates or of a mesh may be larger, in MiB: a million nodes take some 50.
+/// The largest size of a file of coordinates or of a mesh, in MiB; a million nodes take some 50.
 constexpr std::size_t largest_mesh_file = 256;
 constexpr real_range poisson{-1.0, false, "a number greater than -1 and at most 0.5", 0.5};
 
-/// The increasing coordinates of `what`.
+/// Reads coordinates, which must increase; `what` names one of them in messages.
 std::vector<double> read_coordinates(const toml_value& t, const char* key, const char* what) {
   std::vector<double> x = t[key].reals(any_real, 2);
   for (std::size_t i = 1; i < x.size(); ++i) {
@@ -33,8 +33,8 @@ std::vector<double> read_coordinates(const toml_value& t, const char* key, const
   return x;
 }
 
-/// EI or section piece by piece, each from the end of the one before it to the node at its own. read(piece,
-/// elements) reads the other keys of a piece, which are these.
+/// Reads EI or section in pieces: each piece extends from the end of the piece before it to the node at its
+/// `to`. read(piece, elements) reads the other `keys` of a piece.
 template <class Read>
 void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::string_view> keys,
                  const Read& read) {
@@ -58,8 +58,8 @@ struct section_key {
   const char* name;
   double beam_section::*value;
 };
-/// The optional keys of a section besides E and I, which every piece has or none: stresses and self-weight
-/// are the whole beam's.
+/// The optional keys of a section. Either all pieces have such a key or none, because stresses and
+/// self-weight are for the whole beam.
 constexpr section_key more_of_sections[] = {
     {"W", &beam_section::W}, {"A", &beam_section::A}, {"weight", &beam_section::weight}};
 
@@ -97,7 +97,7 @@ void read_stiffness(const toml_value& t, beam& b) {
   b.EI.resize(elements, b.EI.front());
 }
 
-/// Finite numbers can still make a stiffness that is not.
+/// Refuses an element whose stiffness is out of the range of doubles although its numbers are finite.
 void check_elements(const toml_value& t, const beam& b) {
   for (int e = 0; e < b.elements(); ++e) {
     const double h = b.length_of(e);
@@ -112,7 +112,7 @@ void check_elements(const toml_value& t, const beam& b) {
   }
 }
 
-/// With element_size, the coordinates that the table gives are some of the nodes'.
+/// With element_size, nodes are added between the coordinates of the table.
 mesh_line read_nodes(const toml_value& t, const toml_value& top) {
   if (t.has("x")) t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
   if (t.has("element_size")) t.refuse_beside({"elements"}, "element_size", "either elements or element_size");
@@ -138,7 +138,7 @@ beam read_beam(const toml_value& t, const toml_value& top) {
   return b;
 }
 
-/// Refuse a grid that no machine could solve, before anything of its size is allocated.
+/// Refuses a grid that is too large, before memory of its size is allocated.
 void check_size(const toml_value& t, std::int64_t along_x, std::int64_t along_y) {
   constexpr double gigabyte = 1e9 / sizeof(double);
   const std::int64_t shorter = std::min(along_x, along_y);
@@ -193,7 +193,7 @@ void read_material(const toml_value& t, plate& p) {
              "D = E t^3 / 12 (1 - nu^2) within the range of double precision");
 }
 
-/// The same for plates: D b / a^3 along x and y, with the moments and twists that go with it.
+/// The same for a plate: checks D b / a^3 along x and y, and the stiffnesses of slopes and twist.
 void check_elements(const toml_value& t, const plate& p) {
   const auto sound = [&](double a, double b) {
     const double along = p.D * b / a / a / a;
@@ -219,18 +219,18 @@ plate read_plate(const toml_value& t) {
   return p;
 }
 
-/// Bytes that a run holds at its largest, K as it is stored: the structure's, an engine's and the reference
-/// solution's. Where K is sparse, CHOLMOD finds an ordering for it.
+/// The most bytes that a run needs at a time, with K as it is stored: for the structure, an engine and the
+/// reference solution. If K is sparse, CHOLMOD orders it for this estimate.
 std::int64_t bytes_of_run(const assembled& a) {
   if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
-  // An engine has columns of the inverse besides: half a factor more is room enough.
+  // An engine also stores columns of the inverse, for which half a factor is enough.
   constexpr std::int64_t as_read = sizeof(matrix_entry);
   constexpr std::int64_t in_columns = sizeof(double) + sizeof(int);
   const auto entries = static_cast<std::int64_t>(a.stiffness.entries.size());
   return (as_read + 3 * in_columns) * entries + 5 * sparse_factor::make(columns_of(a.stiffness))->bytes() / 2;
 }
 
-/// "band", "sparse", or nothing if the table does not have it.
+/// "band" or "sparse"; empty if the table has no storage.
 std::string read_storage(const toml_value& t) {
   if (!t.has("storage")) return "";
   constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
@@ -240,8 +240,8 @@ std::string read_storage(const toml_value& t) {
   return storage;
 }
 
-/// A band, unless CHOLMOD is built in and the band is too large, or so wide that sparse factors take far
-/// less. Decided before any of it is allocated.
+/// Chooses a band, unless CHOLMOD is built in and the band is too large or sparse factors take far less
+/// memory. Decides before memory is allocated.
 void choose_storage(const toml_value& t, assembled& a) {
   constexpr std::int64_t small_band = std::int64_t{256} << 20;
   constexpr std::int64_t far_less = 4;
@@ -269,7 +269,6 @@ void choose_storage(const toml_value& t, assembled& a) {
                          bytes_words(limit), remedy));
 }
 
-/// A path for messages and pages: on one line, whatever it is.
 std::string shown_name(const std::string& path) {
   return printable(path, std::string::npos);
 }
@@ -279,21 +278,21 @@ void read_labels(const std::string& path, assembled& a) {
   a.labels = parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
 }
 
-/// The keys that both tables have, and the ordering.
+/// Reads the keys that [matrix] and [calculix] have in common, and orders the rows.
 void finish(const toml_value& t, assembled& a) {
   if (t.has("free_motions")) a.free_motions = t["free_motions"].integer(0, most_rigid_motions);
   a.rows = rows_for_small_band(a.stiffness);
   choose_storage(t, a);
 }
 
-/// Refuse a file without any of the nodes: it belongs to another structure.
+/// Refuses a file that contains no node of any label: it belongs to another structure.
 void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
   if (a.places.known()) return;
   named.refuse(fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
-/// The mesh that the table names, or else the one beside the job's matrix, if there is one.
+/// Reads the mesh that the table names, or else the job's .inp file, if it exists.
 void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
   const std::string path = t.has("mesh") ? files.path_of(t["mesh"]) : files.path_of(t["job"], ".inp");
   if (!t.has("mesh") && !std::filesystem::exists(path)) return;

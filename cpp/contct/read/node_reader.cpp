@@ -17,7 +17,7 @@ std::string_view list_words(std::string_view key) {
   return key == "x" ? "a number, or a list of numbers" : "a list of labels";
 }
 
-/// The grid point [x, y] of a plate.
+/// The node at the grid point [x, y] of a plate.
 int grid_point(const plate& p, const toml_value& named) {
   const std::vector<toml_value> point = named.entries(point_words, 2, 2);
   constexpr std::string_view remedy = "grid lines are set by x and y, or elements, in [plate]";
@@ -69,7 +69,7 @@ std::string node_reader::labels_allowed() const {
 int node_reader::dof_at(const toml_value& named) const {
   const std::string label = named.text(labels_allowed());
   if (const auto at = dofs_.find(label); at != dofs_.end()) return at->second;
-  // "01" and "+1" are not labels: a dof has one name.
+  // "01" and "+1" are not labels: each dof has one label.
   const int number = label.starts_with('0') ? 0 : number_in<int>(label).value_or(0);
   if (!dofs_.empty() || number < 1 || number > matrix_->dofs())
     named.refuse(in_quotes(label) + did_you_mean(label, matrix_->labels), labels_allowed());

@@ -1,5 +1,5 @@
-// Which nodes a table of a problem file names: by their numbers, by coordinates, or by the labels of a
-// matrix; and the nodes of a beam whose elements have a largest length.
+// Finds the nodes that a table of a problem file names by number, coordinate or label; makes the nodes of a
+// beam with element_size.
 #pragma once
 
 #include <optional>
@@ -16,33 +16,34 @@ namespace contct {
 
 inline constexpr int most_elements = 2'000'000;
 
-/// Which of the rising coordinates `among`, from 0, is the nearest to x; nothing if it is not equal to x as a
-/// decimal. A mesh computes its coordinates, with two roundings: 3 * 0.7 / 7 is not the double nearest to
-/// 0.3. So coordinates are equal up to 4 roundings of the larger end of the structure.
+/// The index, from 0, of the coordinate in `among`, which ascends, that is equal to x as a decimal; nothing
+/// if there is none. A mesh computes its coordinates with two roundings: 3 * 0.7 / 7 is not the double
+/// nearest to 0.3. So coordinates count as equal up to 4 roundings of the larger end of the structure.
 [[nodiscard]] std::optional<int> find_coordinate(std::span<const double> among, double x);
 
 /// Coordinates that a value in a problem file may name.
 struct coordinate_row {
-  std::span<const double> values;  ///< rising, at least two
+  std::span<const double> values;  ///< ascending, at least two
   std::string_view what;           ///< "node" or "grid line"
-  std::string_view remedy;         ///< what makes another coordinate one of these
+  std::string_view remedy;         ///< advice in messages: how to add a coordinate
 
-  /// The number, from 0, of the coordinate that `named` is. Refuses any other number with the two nearest.
+  /// The index, from 0, of the coordinate equal to `named`. Refuses any other number and names the two
+  /// nearest coordinates.
   [[nodiscard]] int index_of(const toml_value& named) const;
-  /// The coordinate equal to `named`, or `named` itself if there is none; it must lie between the first and
-  /// the last.
+  /// The coordinate equal to `named`; if there is none, `named` itself, which must be between the first and
+  /// the last coordinate.
   [[nodiscard]] double place_of(const toml_value& named) const;
 
  private:
   void refuse_outside(const toml_value& named, double x) const;
 };
 
-/// The nodes of a beam.
+/// The coordinates of a beam's nodes.
 [[nodiscard]] inline coordinate_row nodes_along(std::span<const double> x) {
   return {x, "node", "element_size in [beam] puts a node at every x that the file names"};
 }
 
-/// Is EI, or section, in the beam's table a list of pieces, each up to the x that it names?
+/// True if `key` in the beam's table, EI or section, is a list of pieces, each with its end `to`.
 [[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
 
 /// Coordinates, and the runs of equal parts that they consist of.
@@ -51,12 +52,12 @@ struct mesh_line {
   std::vector<even_run> runs;
 };
 
-/// A line from 0 to `length`, in so many equal parts.
+/// A line from 0 to `length` with `elements` equal elements.
 [[nodiscard]] mesh_line even_line(double length, int elements);
 
-/// The nodes of a beam with `element_size` in its table: at the coordinates `ends`, which rise, and at
-/// every x that a table of the document `top` names between them, and elements of equal length between each
-/// two of these, none longer than that.
+/// The nodes of a beam whose table has element_size: the coordinates `ends`, which ascend; every x between
+/// the ends that a table of the document `top` names; and between each two of these, nodes at equal distances
+/// of at most element_size.
 [[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
@@ -66,10 +67,9 @@ class node_reader {
   /// `m` must outlive this object.
   explicit node_reader(const model& m);
 
-  /// These keys and `others`, for toml_value::allow_only.
+  /// The keys that name nodes, and `others`, for toml_value::allow_only.
   [[nodiscard]] std::vector<std::string_view> keys_with(std::vector<std::string_view> others) const;
 
-  /// Does a table name nodes?
   [[nodiscard]] bool named_in(const toml_value& t) const { return t.has(key_in(t)); }
 
   /// The nodes that a table names, from 0, in its order, each once; at least one.
@@ -78,16 +78,15 @@ class node_reader {
   [[nodiscard]] const model& structure() const { return structure_; }
   [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
 
-  /// The dofs of a matrix that a value names by labels, from 0: one for all of `count`, or one for each.
+  /// [count] the dofs of a matrix, from 0, that a value names by labels: one label for all, or one for each.
   [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;
 
-  /// The dofs of a node that stand as keys in a table, from 0; refuses a table with none.
+  /// The dofs of a node, from 0, whose names are keys of a table. Refuses a table without such a key.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 
-  /// Refuse `named`, which acts on dof `dof` of `node`, if that is one of the two slopes at a hinge.
+  /// Refuses `named` if its dof `dof` of `node` is theta at a hinge, where the beam has two slopes.
   void refuse_hinge(const toml_value& named, int node, int dof) const;
 
-  /// The names of a node's dofs.
   [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }
 
  private:
@@ -98,9 +97,9 @@ class node_reader {
 
   const model& structure_;
   const assembled* matrix_;                         // null: the structure is a beam or a plate
-  std::unordered_map<std::string_view, int> dofs_;  // of a matrix, by label; empty if labels are numbers
-  std::vector<std::string_view> keys_;              // that for a single node first
-  std::vector<std::string_view> dof_names_;         // of a node
+  std::unordered_map<std::string_view, int> dofs_;  // by label; empty if labels are numbers
+  std::vector<std::string_view> keys_;              // the key for a single node first
+  std::vector<std::string_view> dof_names_;
 };
 
 }  // namespace contct

@@ -16,13 +16,13 @@
 namespace contct {
 namespace {
 
-/// The keys that the pairs of one table share.
+/// The keys that apply to all pairs of a table.
 struct facing {
   int surface;
-  std::optional<bool> closed;  ///< as the file says; otherwise where the face is at 0
+  std::optional<bool> closed;  ///< from `state`; empty: in contact if the face is 0
 };
 
-/// surface and state of a pair or a bed. `default_surface` is 0 where the surface must be named.
+/// Reads surface and state of pairs or of a bed. `default_surface` is 0 if the file must name the surface.
 facing read_facing(const toml_value& t, int default_surface) {
   facing f{default_surface, std::nullopt};
   if (default_surface == 0 || t.has("surface"))
@@ -31,7 +31,7 @@ facing read_facing(const toml_value& t, int default_surface) {
   return f;
 }
 
-/// The largest number of 3 digits that is not above x, which is positive: it may be typed as it is printed.
+/// The positive number x, rounded down to 3 digits, so that a user can type it as printed.
 double rounded_down(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
   return std::floor(x / unit * (1 + 1e-12)) * unit;
@@ -72,7 +72,7 @@ class problem_reader {
     return node * nodes_->dof_names().size() + dof;
   }
 
-  /// Does a support fix the node's deflection?
+  /// True if a support fixes the node's deflection.
   [[nodiscard]] bool fixed_in_w(int node) const { return fixed_[dof_of(node, 0)] != 0; }
 
   void read_units(const toml_value& t) {
@@ -85,7 +85,7 @@ class problem_reader {
     problem_.units = {label("length"), label("force")};
   }
 
-  /// At an end of the beam a hinge would only say that no support fixes theta.
+  /// Refuses a hinge at an end of the beam, where it would only mean that no support fixes theta.
   void read_hinge(const toml_value& t) {
     beam* const b = std::get_if<beam>(&problem_.geometry.kind);
     if (b == nullptr) t.refuse("this without a beam", "a [[hinge]] of a [beam]");
@@ -154,7 +154,7 @@ class problem_reader {
     }
   }
 
-  /// A pair of the table `t` at `node`, whose face is the i-th that the table has.
+  /// Makes a pair of the table `t` at `node` with face `face`, the table's i-th face (from 0).
   [[nodiscard]] contact_pair pair_at(const toml_value& t, const facing& f, int node, double face,
                                      std::size_t i) const {
     const std::string found = fmt::format("{:g} at {}", face, place_words(problem_.geometry, node));
@@ -173,7 +173,7 @@ class problem_reader {
     return {node, f.surface, face, 0.0, f.closed.value_or(face == 0)};
   }
 
-  /// The dofs with the faces of a table's pairs; -1 for fixed faces.
+  /// [pairs] the dof with the face of each pair of a table; -1 if the face is fixed.
   [[nodiscard]] std::vector<int> read_others(const toml_value& t, const std::vector<int>& at) const {
     std::vector<int> none(at.size(), -1);
     if (!t.has("other")) return none;
@@ -219,8 +219,8 @@ class problem_reader {
     }
   }
 
-  /// The faces of a bed: one for all of its nodes, or one for each, including those fixed in w. For a
-  /// polynomial, its coefficients too.
+  /// Reads the faces of a bed: one for all nodes or one for each, fixed in w or not. For a polynomial, also
+  /// writes its coefficients.
   [[nodiscard]] std::vector<double> read_faces(const toml_value& t, const std::vector<int>& at,
                                                std::vector<double>& coefficients) const {
     const toml_value face = t["face"];
@@ -234,7 +234,7 @@ class problem_reader {
     return values;
   }
 
-  /// A pair at every node that is free to deflect, each with its tributary length or area.
+  /// Adds a pair at every node of the bed that can deflect, with its tributary length or area.
   void read_bed(const toml_value& t) {
     t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
@@ -260,8 +260,8 @@ class problem_reader {
     if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) warn_of_spacing(t, *b, modulus, at);
   }
 
-  /// Ground of this modulus bends a beam in waves of (4 EI / modulus)^(1/4): warn where neighbouring nodes of
-  /// the bed are further apart than half of that, of the worst place only.
+  /// On ground of this modulus a beam bends over a length of (4 EI / modulus)^(1/4). Warns if neighbouring
+  /// nodes of the bed are more than half of this length apart; names only the worst place.
   void warn_of_spacing(const toml_value& t, const beam& b, double modulus, const std::vector<int>& at) {
     std::vector<char> is_on_bed(nodes(), 0);
     for (const int node : at) is_on_bed[node] = 1;
@@ -290,9 +290,9 @@ class problem_reader {
   named_files files_;
   toml_value top_;
   problem problem_;
-  std::optional<node_reader> nodes_;  // of `problem_`, once its structure is known
+  std::optional<node_reader> nodes_;  // set once the structure is known
   std::vector<char> fixed_;           // [dofs]
-  std::vector<double> shares_;        // tributary shares [nodes], once a bed has asked for them
+  std::vector<double> shares_;        // [nodes] tributary lengths or areas; empty until a bed needs them
 };
 
 }  // namespace

@@ -10,10 +10,9 @@
 
 namespace contct {
 
-/// Read and check the problem in the file at `path`; "-" is standard input.
-/// Throws input_error: nothing is half-accepted. A number means the shortest decimal that reads as its
-/// double; one that is written as another is in problem::warnings. `allowed`: where files may be that it
-/// names.
+/// Reads and checks the problem in the file at `path`; "-" is standard input. Throws input_error if anything
+/// in it is not allowed. A number means the shortest decimal that reads as its double; problem::warnings
+/// names numbers that are written differently. `allowed`: where the files that it names may be.
 [[nodiscard]] problem read_problem(const std::string& path, reach allowed = reach::own_folder);
 
 /// The same for text already in memory; `file` is its name in messages.

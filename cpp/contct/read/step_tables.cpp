@@ -14,7 +14,7 @@
 namespace contct {
 namespace {
 
-/// Reads one table after the other.
+/// Reads the load of a [[step]] or [[case]].
 class step_reader {
  public:
   step_reader(const node_reader& nodes, const named_files& files, problem& p)
@@ -31,7 +31,7 @@ class step_reader {
 
   [[nodiscard]] load read(const toml_value& t) const {
     const bool on_matrix = nodes_.on_matrix();
-    const char* const whole = on_matrix ? "load" : "uniform";  // what acts on all of the structure
+    const char* const whole = on_matrix ? "load" : "uniform";  // key of a load on the whole structure
     refuse_curvature(t);
     std::vector<std::string_view> keys = {"name", whole, "point", "settlement", "move"};
     if (of_beam() != nullptr) keys.insert(keys.begin() + 3, "curvature");
@@ -66,7 +66,7 @@ class step_reader {
   [[nodiscard]] const beam* of_beam() const { return std::get_if<beam>(&nodes_.structure().kind); }
   [[nodiscard]] const plate* of_plate() const { return std::get_if<plate>(&nodes_.structure().kind); }
 
-  /// Refuse a curvature for other structures, and name the substitute.
+  /// Refuses a curvature if the structure is not a beam, and names a substitute.
   void refuse_curvature(const toml_value& t) const {
     if (!t.has("curvature") || of_beam() != nullptr) return;
     t["curvature"].refuse(
@@ -88,7 +88,7 @@ class step_reader {
     for (std::size_t dof = 0; dof < values.size(); ++dof) {
       if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
     }
-    for (std::string& w : rounded)  // other steps may have the same file
+    for (std::string& w : rounded)  // other steps may name the same file
       if (std::ranges::find(warnings_, w) == warnings_.end()) warnings_.push_back(std::move(w));
   }
 
@@ -99,8 +99,8 @@ class step_reader {
       return;
     }
     if (!uniform.is_array()) uniform.refuse("a number, or an array of tables");
-    // Parts on the same elements become one: otherwise thousands on "all" would each take a pass over the
-    // beam.
+    // Loads on the same elements are added up; otherwise each of thousands of loads on "all" would take a
+    // pass over the beam.
     std::map<std::vector<int>, std::size_t> place;
     for (const toml_value& table : uniform.tables()) {
       if (table.has("from") || table.has("to")) {
@@ -120,7 +120,7 @@ class step_reader {
     }
   }
 
-  /// Weight per volume times area, or thickness, of every element; neighbours that weigh as much together.
+  /// Adds weight per volume times area, or thickness: one load for each run of elements of equal weight.
   void read_self_weight(const toml_value& t, load& l) const {
     const std::optional<bool> acts = t.required("true or false").value_exact<bool>();
     if (!acts) t.refuse("true or false");
@@ -153,7 +153,7 @@ class step_reader {
     d.polynomial = read_intensity(t);
     const int all = elements(nodes_.structure());
     if (t.has("elements")) d.elements = t["elements"].numbers(all);
-    if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // each once: all of them
+    if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // all are named
     return d;
   }
 
@@ -164,7 +164,7 @@ class step_reader {
     return read_polynomial(t, nodes_.structure(), "value: only a beam's load may be a polynomial");
   }
 
-  /// A distributed load from one coordinate to another.
+  /// Reads a distributed load from one coordinate to another.
   [[nodiscard]] placed_load read_part(const toml_value& t) const {
     t.allow_only({"value", "polynomial", "elements", "from", "to"});
     t.refuse_beside({"elements"}, "from or to", "either elements, or from and to");
@@ -189,7 +189,7 @@ class step_reader {
       to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this begins", from));
   }
 
-  /// from and to along a beam; the ends of the beam if they are missing.
+  /// Reads from and to along a beam; if missing, the ends of the beam.
   static void read_ends(const toml_value& t, const beam& b, placed_load& p) {
     const coordinate_row x = nodes_along(b.x);
     p.from = t.has("from") ? x.place_of(t["from"]) : b.x.front();
@@ -197,7 +197,7 @@ class step_reader {
     refuse_reversed(t[t.has("to") ? "to" : "from"], p.from, p.to);
   }
 
-  /// The same of a plate: its corners.
+  /// Reads from and to on a plate: two corners of a rectangle; if missing, corners of the plate.
   static void read_rectangle(const toml_value& t, const plate& of, placed_load& p) {
     const auto read = [&](const char* key, double x, double y) -> std::array<double, 2> {
       if (!t.has(key)) return {x, y};
@@ -221,7 +221,7 @@ class step_reader {
     double x = 0.0;
   };
 
-  /// Those that a table names, each once.
+  /// The places that a table names, each once.
   [[nodiscard]] std::vector<named_place> read_places(const toml_value& t, bool between_nodes) const {
     std::vector<named_place> all;
     const beam* const b = between_nodes && t.has("x") ? of_beam() : nullptr;
@@ -242,7 +242,7 @@ class step_reader {
     return all;
   }
 
-  /// Call take(place, dof, value) for the values of a table that names places and their dofs, dof by dof.
+  /// Calls take(place, dof, value) for every dof in the table and every place that the table names.
   template <class Take>
   void read_values(const toml_value& t, std::string_view what, bool between_nodes, const Take& take) const {
     const auto& names = nodes_.dof_names();
@@ -257,7 +257,7 @@ class step_reader {
     }
   }
 
-  /// Settlements apply to fixed dofs only; the base of an elastic support cannot be moved.
+  /// Refuses a settlement of a dof that is not fixed: the base of an elastic support cannot be moved.
   void refuse_unfixed(const toml_value& t, int node, int dof) const {
     const std::string_view name = nodes_.dof_names()[dof];
     const hold here = held_[node * nodes_.dof_names().size() + dof];
@@ -286,7 +286,7 @@ class step_reader {
     }
   }
 
-  /// Faces move in the direction of the deflection, which is the dof of the pairs.
+  /// Faces move in the direction of the deflection, the dof on which pairs act.
   void read_moves(const toml_value& t, load& l) const {
     const std::string_view name = nodes_.dof_names().front();
     std::set<int> moved;
@@ -312,9 +312,9 @@ class step_reader {
   const node_reader& nodes_;
   const named_files& files_;
   std::vector<std::string>& warnings_;
-  std::vector<hold> held_;  // [dofs] by supports
+  std::vector<hold> held_;  // [dofs] how supports hold the dof
   std::set<int> paired_;    // nodes with pairs
-  std::set<int> others_;    // nodes with faces of pairs
+  std::set<int> others_;    // nodes that carry the face of a pair
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "file:12:3", or the file alone when the place is not known.
+/// "file:12:3", or the file alone if the position is not known.
 std::string position(std::string_view file, const toml::source_position& at) {
   return at.line == 0 ? std::string(file) : fmt::format("{}:{}:{}", file, at.line, at.column);
 }
@@ -25,8 +25,8 @@ std::string position(std::string_view file, const toml::source_position& at) {
   throw input_error(fmt::format("{}: {}: found {}; allowed: {}", position(file, at), name, found, allowed));
 }
 
-/// toml++ follows a dotted key by recursion, which thousands of parts would overflow. Refuse a run of more
-/// than a thousand dots without a separator; no number or name of ours has one.
+/// Refuses more than a thousand dots without a separator, which no valid file has. toml++ reads a dotted key
+/// by recursion, and thousands of parts would overflow the stack.
 void refuse_endless_keys(std::string_view text, std::string_view file) {
   constexpr int most_dots = 1000;
   int dots = 0;
@@ -43,15 +43,15 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
 
 constexpr std::string_view point_not_comma = " (a number takes a decimal point, 4.0 for 4,0)";
 
-/// The words above if an array holds twice as many whole numbers as were `meant`: 4,0 is read as two.
+/// A hint if an array has twice as many whole numbers as `meant`: 4,0 is read as two numbers.
 std::string_view comma_hint(const toml::node& node, std::size_t meant) {
   const toml::array* const array = node.as_array();
   const bool twice = array != nullptr && array->size() == 2 * meant && array->is_homogeneous<std::int64_t>();
   return twice ? point_not_comma : "";
 }
 
-/// Does a line that is not TOML have a decimal comma? "= 4,0", "= 10.000,5", or "0,05" anywhere: no whole
-/// number begins so.
+/// True if a line that is not TOML has a decimal comma: "= 4,0" or "= 10.000,5"; or "0,05" anywhere, because
+/// 05 is not a whole number in TOML.
 bool has_decimal_comma(std::string_view line) {
   const auto digits_from = [line](std::size_t at) {
     const std::size_t end = line.find_first_not_of("0123456789", at);
@@ -76,7 +76,7 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-/// Of a line that reading left at `column`, from 1: "title = Crane" and "Q pos. 1 = 1.5" lack quotes.
+/// A hint for a line parsed up to `column`, from 1: "title = Crane" and "Q pos. 1 = 1.5" lack quotes.
 std::string_view quotes_hint(std::string_view line, std::size_t column, std::string_view description) {
   if (description.find("expected '='") != std::string_view::npos)
     return line.find('=', column) == std::string_view::npos ? "" : " (a name with blanks stands in quotes)";
@@ -88,7 +88,7 @@ std::string_view quotes_hint(std::string_view line, std::size_t column, std::str
   return is_text ? " (text stands in quotes)" : "";
 }
 
-/// The numbers from 1 to `count` that "a..b" or "all" names; none where the text is something else.
+/// The first and the last number in "a..b", or 1 and `count` for "all"; 0 for a number that cannot be read.
 std::pair<int, int> range_in(std::string_view text, int count) {
   if (text == "all") return {1, count};
   const std::size_t dots = text.find("..");
@@ -109,7 +109,7 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
     const toml::source_position at = e.source().begin;
-    constexpr std::size_t longest = 300;  // it quotes the file, line ends included
+    constexpr std::size_t longest = 300;  // the description quotes the file, including line ends
     const std::string_view line = line_of(text, at.line);
     throw input_error(fmt::format(
         "{}: not TOML: {}{}", position(file, at), printable(e.description(), longest),
@@ -194,7 +194,7 @@ std::vector<double> toml_value::reals(const real_range& range, std::size_t least
   const std::string allowed = fmt::format("an array of at least {} numbers, each {}", least, range.words);
   std::vector<double> values;
   for (const toml::node& entry : array(allowed, least)) {
-    // The name is made for a message alone: these arrays can be long.
+    // The name of an entry is made only for a message, because these arrays can be long.
     const auto* const real = entry.as_floating_point();
     const bool good = real != nullptr && std::isfinite(real->get()) && range.holds(real->get());
     values.push_back(good ? real->get() : entry_at(entry, values.size()).real(range));
@@ -223,7 +223,7 @@ std::vector<int> toml_value::numbers(int count) const {
     for (int number = first; number <= last; ++number) list.push_back(number - 1);
     return list;
   }
-  std::unordered_set<int> seen;  // not one mark for each of `count`: a file may hold thousands of short lists
+  std::unordered_set<int> seen;  // not `count` marks: a file may contain thousands of short lists
   for (const toml_value& entry : entries(allowed, 1)) {
     list.push_back(entry.integer(1, count) - 1);
     if (!seen.insert(list.back()).second) entry.refuse(entry.found() + ", a second time", allowed);
@@ -273,17 +273,17 @@ named_files::named_files(std::string_view problem_file, reach allowed)
 
 std::string named_files::path_of(const toml_value& named, std::string_view ending) const {
   const std::string name = named.text().append(ending);
-  if (name.find('\0') != std::string::npos)  // where the system's functions end a name
+  if (name.find('\0') != std::string::npos)  // system functions would end the name there
     named.refuse(in_quotes(name), "the name of a file, which has no character \\u0000");
   const std::string path = (fs::path(folder_) / name).string();
   if (allowed_ == reach::own_folder && !is_below(path))
     named.refuse(in_quotes(name) + ", which is not below the folder of the problem file",
                  "a file below it, or any with --allow-outside (\"allow_outside\" in the library)");
-  // A file named "-" is one: standard input holds the problem, if anything.
+  // "./-" is a file of this name; "-" would be standard input, which may contain the problem.
   return all_->emplace_back(path == "-" ? "./-" : path);
 }
 
-/// Is the file below the problem's folder? False if the path cannot be resolved.
+/// True if the file is below the problem's folder; false if the path cannot be resolved.
 bool named_files::is_below(const std::string& path) const {
   std::error_code wrong;
   const auto resolved = [&wrong](const fs::path& p) {
@@ -306,7 +306,7 @@ class text_walk {
     if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   }
 
-  /// The literal that begins there.
+  /// The literal that begins at this place, which must not be before an earlier one.
   [[nodiscard]] std::string_view number_at(int line, int column) {
     constexpr std::string_view of_numbers = "0123456789+-._eExXoObBabcdfABCDF";
     for (; line_ < line; ++line_, column_ = 1) rest_.remove_prefix(rest_.find('\n') + 1);
@@ -323,7 +323,8 @@ class text_walk {
   int line_ = 1, column_ = 1;
 };
 
-/// Append every finite number under `node`, which has this key. Whole numbers may be hexadecimal.
+/// Appends every finite number under `node`, whose key is `key`. A whole number may be hexadecimal, so it is
+/// compared with the shortest decimal by its value.
 void append_numbers(const toml::node& node, const std::string& key, std::vector<written_number>& numbers) {
   const auto append = [&](double value, bool is_meant) {
     const toml::source_position& at = node.source().begin;

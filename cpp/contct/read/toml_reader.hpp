@@ -1,5 +1,5 @@
-// Strict reading of TOML: every key is known, every value in range, or the file is refused; also the files
-// that it names, and its numbers as written.
+// Strict reading of TOML: refuses unknown keys and values out of range. Also finds the files that a problem
+// file names, and its numbers as they are written.
 #pragma once
 
 #include <toml++/toml.h>
@@ -16,7 +16,7 @@
 
 namespace contct {
 
-/// A range of numbers in words and as a test.
+/// A range of numbers, and its description for messages.
 struct real_range {
   double least = 0.0;
   bool may_equal_least = true;
@@ -36,59 +36,59 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// The positions of nodes in a tree that toml++ did not parse.
 using toml_places = std::map<const toml::node*, toml::source_position>;
 
-/// A value of a TOML file, which knows its name for people: "contact[2].face", or "" for the file itself. A
-/// key that is not there is a value too, which is refused where it is read. Every refusal is an input_error
-/// with file, line and column. The document and the file's name must outlive this object.
+/// A value of a TOML file, and its name: "contact[2].face", or "" for the file itself. A missing key has a
+/// value, too, which is refused when it is read. Every refusal is an input_error with file, line and column.
+/// The document and the name of the file must outlive this object.
 class toml_value {
  public:
   toml_value(const toml::table& document, std::string_view file)
       : node_(&document), at_(document.source().begin), file_(file) {}
-  /// The same of a tree that toml++ did not parse; `places` must outlive this object, too.
+  /// For a tree that toml++ did not parse; `places` must outlive this object, too.
   toml_value(const toml::table& document, std::string_view file, const toml_places& places)
       : node_(&document), file_(file), places_(&places) {}
 
-  /// A number, a whole number, text, or one of `choices`, of which this is the index.
+  /// The value as a number, a whole number, text, or an index in `choices`. Refuses any other value.
   [[nodiscard]] double real(const real_range& range) const;
   [[nodiscard]] int integer(int least, int most) const;
   [[nodiscard]] std::string text(std::string_view allowed = "text") const;
   [[nodiscard]] std::size_t choice(std::initializer_list<std::string_view> choices) const;
 
-  /// The entries of an array that has at least `least` of any type, and at most `most`.
+  /// The entries, of any type, of an array with `least` to `most` entries.
   [[nodiscard]] std::vector<toml_value> entries(std::string_view allowed, std::size_t least,
                                                 std::size_t most = -1) const;
-  /// The entries of a value that may be a list: an array's entries, at least one, or the value itself.
+  /// The entries of an array, at least one; if the value is not an array, the value itself.
   [[nodiscard]] std::vector<toml_value> each(std::string_view allowed) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(const real_range& range, std::size_t least) const;
-  /// One number for all of `count` things, or an array with one for each of these `things`.
+  /// One number for all `things`, or an array of `count` numbers, one for each.
   [[nodiscard]] std::vector<double> reals_for(const real_range& range, std::size_t count,
                                               std::string_view things) const;
-  /// Which nodes or elements: [1, 3, 5], "2..20" or "all". Numbers from 1 to `count` in the file, each once;
-  /// from 0 in the answer, in the order given.
+  /// Numbers of nodes or elements: [1, 3, 5], "2..20" or "all". They are from 1 to `count` in the file, each
+  /// once; from 0 in the result, in the same order.
   [[nodiscard]] std::vector<int> numbers(int count) const;
 
   [[nodiscard]] toml_value table() const;
   /// The tables of an array, at least one.
   [[nodiscard]] std::vector<toml_value> tables() const;
-  /// The same, or none if the key is missing.
+  /// As `tables`, but empty if the key is missing.
   [[nodiscard]] std::vector<toml_value> optional_tables() const {
     return node_ == nullptr ? std::vector<toml_value>{} : tables();
   }
 
-  /// For a table: does it have the key, and which value?
+  /// has: true if this table has the key. []: the value of the key.
   [[nodiscard]] bool has(std::string_view key) const { return node_->as_table()->contains(key); }
   [[nodiscard]] toml_value operator[](std::string_view key) const;
-  /// Refuse every key but these, and `others` together with the key or keys in `beside`.
+  /// allow_only refuses all other keys. refuse_beside refuses `others` beside the keys that `beside` names.
   void allow_only(const std::vector<std::string_view>& keys) const;
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;
 
-  /// The node; a missing one is refused.
+  /// The node. Refuses a missing value.
   [[nodiscard]] const toml::node& required(std::string_view allowed) const;
   [[nodiscard]] bool is_table() const { return node_ != nullptr && node_->is_table(); }
   [[nodiscard]] bool is_array() const { return node_ != nullptr && node_->is_array(); }
 
-  /// The name of the i-th entry, from 0; or the value's own if it applies to all entries.
+  /// The name of entry i, from 0; the name of this value if it is one value for all.
   [[nodiscard]] std::string name_of(std::size_t i) const { return is_array() ? indexed(name_, i) : name_; }
   /// The position of this value, for messages: "pb.toml:12: contact[2]".
   [[nodiscard]] std::string where() const;
@@ -99,7 +99,7 @@ class toml_value {
   [[noreturn]] void refuse(std::string_view allowed) const { refuse(found(), allowed); }
 
  private:
-  /// A value inside this one; a missing one is where this one is.
+  /// A value inside this one. A missing value gets the position of this one.
   [[nodiscard]] toml_value inner(const toml::node* node, std::string name) const {
     toml_value v = *this;
     v.node_ = node;
@@ -119,29 +119,30 @@ class toml_value {
   }
 
   const toml::node* node_;      // null: missing
-  toml::source_position at_{};  // of the table in which it is missing
+  toml::source_position at_{};  // if the value is missing: position of its table
   std::string name_;
   std::string_view file_;
   const toml_places* places_ = nullptr;
 };
 
-/// Parse a whole document. Throws input_error with line and column.
+/// Parses a document. Throws input_error with line and column.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);
 
-/// Which files a problem file may name. A problem from a stranger must not read what its user can.
+/// Where the files may be that a problem file names. A problem file from a stranger must not read all files
+/// of its user.
 enum class reach { own_folder, anywhere };
 
 /// Finds files relative to the folder of the problem file.
 class named_files {
  public:
-  /// `problem_file`: its path; without a folder in it, that is where the process runs.
+  /// `problem_file`: its path; without a folder, the working directory is the folder.
   named_files(std::string_view problem_file, reach allowed);
 
-  /// The path of the file that is named, with `ending` appended. Refuses one that is not below the folder,
-  /// symbolic links followed, unless all are allowed.
+  /// The path of the named file, with `ending` appended. Unless all files are allowed, refuses a file that is
+  /// not below the folder once symbolic links are followed.
   [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
 
-  /// All that path_of has returned, to this object and its copies.
+  /// All paths that path_of of this object and its copies has returned.
   [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }
 
  private:
@@ -157,16 +158,16 @@ struct written_number {
   std::string key;  ///< "step[1].point[2].w"
   double value = 0;
   bool is_whole = false;
-  int line = 0, column = 0, length = 0;  ///< from 1, in code points
+  int line = 0, column = 0, length = 0;  ///< line and column from 1; column in code points
   std::string_view literal = {};         ///< as written
-  bool is_shortest = true;               ///< is the literal the shortest decimal of its double?
+  bool is_shortest = true;               ///< the literal is the shortest decimal of its double
 };
 
-/// All finite numbers of a document, in the order of the file. `text` is the document's.
+/// All finite numbers of a document, in the order of the file. `text`: the text of the document.
 [[nodiscard]] std::vector<written_number> numbers_in(const toml::table& document, std::string_view text);
 
-/// A warning for each number of the document, `text` in the file `file`, that is not the shortest decimal of
-/// its double, in the order of the file; for many, the first ten and their number.
+/// A warning for each number of the document that is not the shortest decimal of its double, in the order of
+/// the file; if there are many, only the first ten and the count. `text`: the text of the document.
 [[nodiscard]] std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
                                                          std::string_view file);
 

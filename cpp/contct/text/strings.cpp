@@ -159,8 +159,7 @@ std::string field_words(std::string_view text, std::string_view kind) {
   constexpr std::size_t no_secret = 3;
   constexpr std::string_view of_numbers = "0123456789+-.,_eEdDxXpP \t";
   constexpr escape lower[] = {{'A', "a"}, {'F', "f"}, {'I', "i"}, {'N', "n"}, {'+', ""}, {'-', ""}};
-  const std::string word =
-      text.size() <= longest ? escaped(text, lower) : "";  // without signs, in lower case
+  const std::string word = text.size() <= longest ? escaped(text, lower) : "";  // without signs
   const bool number_like = text.find_first_of("0123456789") < text.size() &&
                            text.find_first_not_of(of_numbers) == std::string_view::npos;
   if (number_like || text.size() <= no_secret || word == "nan" || word == "inf")
