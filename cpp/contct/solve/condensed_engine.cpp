@@ -1,4 +1,4 @@
-// Beams: the stiffness condensed onto the nodes with pairs, swept from both ends.
+// The engine for beams: the stiffness is condensed onto the nodes with pairs and swept from both ends.
 #include <algorithm>
 #include <cmath>
 
@@ -9,11 +9,11 @@ namespace contct {
 namespace {
 
 constexpr double below_rounding = 1e-18;
-// The least k c_p of a removed spring at which the response is checked at once: the rounding of x_p is
-// multiplied by it.
+// If k c_p of a removed spring exceeds this, the response is checked at once: the update multiplies the
+// rounding of x_p by k c_p.
 constexpr double stiff = 100.0;
 
-/// A vector over a node's two dofs, w and theta, and a matrix over them by its columns.
+/// A vector over the two dofs of a node. node_matrix: a matrix over them, by columns.
 struct node_vector {
   double w = 0.0, theta = 0.0;
   bool operator==(const node_vector&) const = default;
@@ -57,7 +57,7 @@ node_matrix transposed(const node_matrix& a) {
       "precision");
 }
 
-/// A^-1 v for a symmetric positive definite A. Throws no_factor where A is not.
+/// A^-1 v for a symmetric positive definite A. Throws no_factor if A is not positive definite.
 [[gnu::always_inline]] inline node_vector solved(const node_matrix& a, const node_vector& v) {
   const double ratio = a.w.theta / a.w.w;
   const double pivot = a.theta.theta - ratio * a.theta.w;
@@ -79,15 +79,17 @@ node_matrix block(const band_matrix& k, int row_node, int column_node) {
   return {{entry(r, c), entry(r + 1, c)}, {entry(r, c + 1), entry(r + 1, c + 1)}};
 }
 
-/// For structures whose nodes form a chain, with two dofs each. The nodes without pairs are eliminated once,
-/// exactly. What remains is block tridiagonal, K = [D_i, E_i], and is kept as two sweeps:
+/// For structures whose nodes form a chain, with two dofs each. Nodes without pairs are eliminated once,
+/// without approximation. The remaining K is block tridiagonal, with D_i on and E_i beside the diagonal. Two
+/// sweeps are kept:
 ///
 ///     L_i = D_i - E_{i-1}^T L_{i-1}^-1 E_{i-1}   from the left,   R_i from the right in the same way
 ///
-/// The column of the inverse at pair p begins with (L_p + R_p - D_p)^-1 and goes outwards by -L_i^-1 E_i and
-/// its mirror image, until it is below rounding. A toggle at p changes L to its right and R to its left, and
-/// the sweeps stop where they give the same to the bit. On a beam with many supports both happen within some
-/// tens of them: the cost of an event does not depend on the length of the beam.
+/// The column of the inverse at pair p is (L_p + R_p - D_p)^-1 at p. The matrices -L_i^-1 E_i continue it to
+/// the left, their mirror images to the right, until it is below rounding. An event at p changes L on the
+/// right of p and R on the left of p; a sweep stops where it gives the same bits as before. On a beam with
+/// many supports, columns and sweeps end within some tens of supports: the cost of an event does not depend
+/// on the length of the beam.
 class condensed_engine final : public spring_engine {
  public:
   explicit condensed_engine(const linear_structure& s) : spring_engine(s) {
@@ -110,8 +112,8 @@ class condensed_engine final : public spring_engine {
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     if (!is_condensed_) condense();
-    // Without a response the springs that are applied need not hold the structure yet: no sweep before all
-    // are.
+    // Before the first response, the springs that are applied so far may not hold the structure, so the
+    // sweeps wait until all are applied.
     bool has_response = response_to_ == residual.version;
     (void)apply_switched([&](int pair) {
       add_springs(place_[pair]);
@@ -130,7 +132,7 @@ class condensed_engine final : public spring_engine {
   }
 
  private:
-  /// Eliminate the nodes between two kept ones; node -1 and node `nodes` mean the beam's ends.
+  /// Eliminates the nodes between two kept nodes; -1 and the number of nodes stand for the beam's ends.
   void eliminate_between(int left_node, int right_node, std::size_t left) {
     const band_matrix& k = structure_.stiffness.band();
     const bool has_left = left_node >= 0;
@@ -158,7 +160,7 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  /// At the first response, not before: a path that asks for none needs no factor. Throws no_factor.
+  /// Called at the first response, because a path without responses needs no factor. Throws no_factor.
   void condense() {
     const std::size_t n = kept_.size();
     e_.assign(n, {});
@@ -182,15 +184,15 @@ class condensed_engine final : public spring_engine {
     is_condensed_ = true;
   }
 
-  /// Add the springs of the pairs now in contact; summed anew, since digits lost to a stiff spring do not
-  /// return when it is subtracted.
+  /// Adds up the springs of the pairs in contact from 0: if a stiff spring were subtracted, the digits that
+  /// it had cancelled would stay lost.
   void add_springs(std::size_t at) {
     d_[at].w.w = without_springs_[at];
     for (const int pair : pairs_at_[at])
       if (applied_[pair] != 0) d_[at].w.w += spring_[pair];
   }
 
-  /// L_i, and the continuation of a column from i + 1 to i. True if L_i has changed.
+  /// Computes L_i, and the matrix that continues a column from i + 1 to i. True if L_i has changed.
   bool step_right(std::size_t i) {
     const node_matrix before = left_[i];
     left_[i] = i == 0 ? d_[0] : d_[i] + transposed(e_[i - 1]) * go_left_[i - 1];
@@ -198,7 +200,7 @@ class condensed_engine final : public spring_engine {
     return before != left_[i];
   }
 
-  /// R_i, and the continuation of a column from i - 1 to i. True if R_i has changed.
+  /// Computes R_i, and the matrix that continues a column from i - 1 to i. True if R_i has changed.
   bool step_left(std::size_t i) {
     const node_matrix before = right_[i];
     right_[i] = i + 1 == d_.size() ? d_[i] : d_[i] + e_[i] * go_right_[i + 1];
@@ -206,13 +208,13 @@ class condensed_engine final : public spring_engine {
     return before != right_[i];
   }
 
-  /// After a change of D_at: the sweeps from there on, until they no longer change anything. Neither needs
-  /// the other, and each is a chain of divisions that wait for each other: interleaved they take little
+  /// Sweeps from `at` on, after D_at has changed, until nothing changes any more. Each sweep is a chain of
+  /// divisions that wait for each other, but the two sweeps are independent: interleaved, they take little
   /// longer than one.
   void sweep_from(std::size_t at) {
     step_right(at);
     step_left(at);
-    std::size_t right = at + 1;  // the next of each sweep; `left` is one more
+    std::size_t right = at + 1;  // index of the next step to the right; to the left it is left - 1
     std::size_t left = at;
     const std::size_t n = d_.size();
     bool goes_right = right < n;
@@ -225,8 +227,8 @@ class condensed_engine final : public spring_engine {
     while (goes_left) goes_left = step_left(left - 1) && --left > 0;
   }
 
-  /// x -= factor c, where c is the column of the inverse at place `at`, whose own entry is `peak`, from there
-  /// until it is below rounding; to both sides at once, like the sweeps.
+  /// x -= factor c, where c is the column of the inverse at place `at`, and `peak` its entry there. Goes from
+  /// `at` to both sides at once, like the sweeps, until c is below rounding.
   void subtract_column(std::size_t at, const node_vector& peak, double factor) {
     const auto subtract = [this, factor](std::size_t i, const node_vector& c) {
       x_[i] = {x_[i].w - factor * c.w, x_[i].theta - factor * c.theta};
@@ -256,8 +258,8 @@ class condensed_engine final : public spring_engine {
     while (more_right) more_right = goes_right();
   }
 
-  /// The response with one more spring, or one less. The column c is that of the new K', K' c = e, so that x'
-  /// = x - sigma k x_p c. False if rounding leaves no such column.
+  /// Updates the response for one added or removed spring: x' = x - sigma k x_p c, where c is a column of the
+  /// inverse of the new K', K' c = e. False if rounding makes this column impossible.
   [[nodiscard]] bool update_response(int pair) {
     const std::size_t at = place_[pair];
     ++counts_.updates;
@@ -277,7 +279,7 @@ class condensed_engine final : public spring_engine {
     for (std::size_t i = d_.size(); i-- > 0;) step_left(i);
   }
 
-  /// One solve of the whole beam. The condensed load is then the condensed K times its solution.
+  /// Solves the whole beam once. The condensed load is then the condensed K times the solution.
   void respond_anew(const residual_load& residual) {
     response_to_ = 0;
     sweep_anew();
@@ -307,7 +309,7 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  /// x + K^-1 (load - K x). The correction is the drift; false when it is more than is allowed.
+  /// Adds K^-1 (load - K x) to x. This correction is the drift; false if it is more than is allowed.
   [[nodiscard]] bool refine_response() {
     ++counts_.checks;
     ++counts_.solves;
@@ -326,17 +328,17 @@ class condensed_engine final : public spring_engine {
   }
 
   bool is_condensed_ = false;
-  std::vector<std::size_t> place_;               // of each pair's node among the kept ones [pairs]
-  std::vector<int> kept_;                        // nodes with pairs, from 0, in order
+  std::vector<std::size_t> place_;               // [pairs] place of the pair's node in kept_
+  std::vector<int> kept_;                        // nodes with pairs, from 0, ascending
   std::vector<std::vector<int>> pairs_at_;       // [kept nodes]
-  std::vector<double> without_springs_;          // D_ww of no pair in contact [kept nodes]
-  std::vector<double> spring_;                   // [pairs] k; 0 where the dof is fixed
+  std::vector<double> without_springs_;          // [kept nodes] D_ww without springs
+  std::vector<double> spring_;                   // [pairs] k; 0 if the dof is fixed
   std::vector<node_matrix> d_, e_;               // D_i; E_i couples i (rows) with i + 1 (columns)
   std::vector<node_matrix> left_, right_;        // L_i, R_i
   std::vector<node_matrix> go_left_, go_right_;  // -L_i^-1 E_i; -R_i^-1 E_{i-1}^T
-  std::vector<double> reach_;                    // sqrt(D_tt / D_ww): a rotation's weight as a length
+  std::vector<double> reach_;                    // sqrt(D_tt / D_ww): converts a rotation to a length
   std::vector<node_vector> x_, load_;
-  std::vector<node_vector> column_;  // the residual, and the correction from it
+  std::vector<node_vector> column_;  // the residual, then the correction
   std::uint64_t response_to_ = 0;
   drift_monitor drift_{32};
 };

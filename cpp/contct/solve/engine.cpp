@@ -9,10 +9,10 @@
 namespace contct {
 namespace {
 
-mpi_job* job_of_this_process = nullptr;  // MPI has no more than one for a process
+mpi_job* job_of_this_process = nullptr;  // MPI allows one job per process
 
-/// The 1989 way: copies the band, adds the springs now in contact, and factors (dpbtrf) at every response.
-/// Memory: two bands, the structure's own and the factor.
+/// As in 1989: every response copies the band, adds the springs of the pairs in contact and factors it
+/// (dpbtrf). Memory: two bands, the structure's and the factor.
 class refactor_engine final : public spring_engine {
  public:
   explicit refactor_engine(const linear_structure& s) : spring_engine(s), w_star_(s.dofs()) {}
@@ -31,7 +31,7 @@ class refactor_engine final : public spring_engine {
   }
 
  private:
-  /// For the one solve that follows.
+  /// Factors K with the wanted springs; counts the solve that follows, too.
   void factor() {
     stiffness_.factor(apply_all());
     ++counts_.factors;

@@ -1,4 +1,4 @@
-// The linear algebra of a path: switch a spring, respond, recover.
+// The linear algebra of a path: springs switched in and out, responses, and displacements.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,43 @@
 
 namespace contct {
 
-/// R*, the residual load: the share of a step's load increment that is still to be applied.
+/// R*, the residual load: the share of a step's load increment that has not been applied yet.
 struct residual_load {
-  std::span<const double> increment;  ///< the step's total load less the previous one's [dofs]
-  double share;                       ///< from 1 down to 0
-  std::uint64_t version = 0;          ///< another one for another increment, never 0 on a path
-  /// The kernel's last scale factors [pairs], or nothing: the pairs with the least are likely to be switched
-  /// next. No more than a hint.
+  std::span<const double> increment;  ///< [dofs] the step's total load minus that of the step before
+  double share;                       ///< from 1 at the start of the step to 0 at its end
+  std::uint64_t version = 0;          ///< differs between increments; never 0 on a path
+  /// [pairs] the kernel's last scale factors, or empty. Only a hint: the pairs with the least are likely to
+  /// be switched next.
   std::span<const double> last_s = {};
 };
 
 /// Counts of an engine's work so far.
 struct engine_counts {
   std::int64_t factors = 0;  ///< factorisations
-  std::int64_t solves = 0;   ///< with a factor, for one right-hand side
-  std::int64_t updates = 0;  ///< toggles taken in without a factorisation
-  std::int64_t checks = 0;   ///< of the residual
+  std::int64_t solves = 0;   ///< solves with a factor
+  std::int64_t updates = 0;  ///< springs switched without a factorisation
+  std::int64_t checks = 0;   ///< checks for drift
 };
 
-/// The stiffness matrix of a structure that is held has no Cholesky factor: it is too ill-conditioned for
+/// Thrown if the stiffness matrix of a held structure has no Cholesky factor: it is too ill-conditioned for
 /// double precision.
 class no_factor : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Stiffness with the springs of the pairs now in contact. Dofs are numbered from 0.
+/// K with the springs of the pairs in contact. Dofs are numbered from 0.
 class stiffness_engine {
  public:
   virtual ~stiffness_engine() = default;
 
-  /// Add the spring of pair `pair` (from 0), or remove it.
+  /// Adds the spring of pair `pair` (from 0) if `closed`, else removes it.
   virtual void switch_spring(int pair, bool closed) = 0;
 
-  /// Solve K w* = R* and write d* where each pair acts to `d_star` [pairs]. Throws no_factor.
+  /// Solves K w* = R*, and writes the response d* of each pair to `d_star` [pairs]. Throws no_factor.
   virtual void respond(const residual_load& residual, std::span<double> d_star) = 0;
 
-  /// Solve K u = load + the pairs' forces, for every dof. `pair_forces` [pairs]. Throws no_factor.
+  /// Solves K u = load + forces of the pairs; `load`, `u` [dofs], `pair_forces` [pairs]. Throws no_factor.
   virtual void recover(std::span<const double> load, std::span<const double> pair_forces,
                        std::span<double> u) = 0;
 
@@ -59,19 +59,19 @@ class stiffness_engine {
   [[nodiscard]] virtual double reciprocal_condition() = 0;
 };
 
-/// Make an engine by name: "refactor" and "updated" for anything, "condensed" for beams with pairs, "petsc",
-/// which is "updated" by a factor that ranks share, if this process has joined an MPI job
-/// (contct/solve/mpi_job.hpp). `s` must outlive it. Throws std::invalid_argument when there is none of that
-/// name, or when it does not suit `s`.
+/// Makes an engine by name. "refactor" and "updated" suit any structure, "condensed" suits beams with pairs.
+/// "petsc" is "updated" with a factor that MPI ranks share, if this process has joined an MPI job
+/// (contct/solve/mpi_job.hpp). `s` must outlive the engine. Throws std::invalid_argument if no engine has
+/// this name, or if the engine does not suit `s`.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s);
 
-/// The engine that is quickest for `s`: "condensed" where it suits, otherwise "updated".
+/// The fastest engine for `s`: "condensed" if it suits `s`, otherwise "updated".
 [[nodiscard]] std::string_view quickest_engine(const linear_structure& s);
 
-/// Throws std::invalid_argument, naming what there is, when no engine has that name.
+/// Throws std::invalid_argument, naming the known engines, if no engine has this name.
 void refuse_unknown_engine(std::string_view name);
 
-/// The names of all engines of this process.
+/// The names of the engines that this process can use.
 [[nodiscard]] std::vector<std::string> engine_names();
 
 }  // namespace contct

@@ -1,5 +1,5 @@
 // A factor that the processes of an MPI job share. The program links neither MPI nor PETSc: the module
-// contct_petsc.so has both, and is loaded when it is asked for.
+// contct_petsc.so, which is loaded on demand, links both.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace contct {
 
-/// The job as one of its ranks sees it. Rank 0 runs the program and has the matrices; the others serve it,
-/// and keep their parts of the factors. Where a rank fails, the job ends with its message.
+/// An MPI job, as one rank uses it. Rank 0 runs the program and has the matrices; the other ranks execute its
+/// commands and keep parts of the factors. If a rank fails, it prints a message and ends the job.
 class mpi_job {
  public:
   mpi_job() = default;
@@ -19,26 +19,26 @@ class mpi_job {
 
   [[nodiscard]] virtual int rank() const = 0;  ///< from 0
 
-  /// Other ranks than 0: do what rank 0 asks for, until it leaves.
+  /// On ranks other than 0: executes the commands of rank 0 until rank 0 leaves.
   virtual void serve() = 0;
 
-  /// Rank 0: find the order in which all ranks factor `a` together. The result must be destroyed before
-  /// `leave`. Its functions throw std::bad_alloc, and std::runtime_error for any other failure of MUMPS.
+  /// On rank 0: finds the order in which all ranks factor `a` together. The result must be destroyed before
+  /// `leave`. Its functions throw std::bad_alloc, or std::runtime_error if MUMPS fails for another reason.
   [[nodiscard]] virtual std::unique_ptr<sparse_factor> share(const sparse_columns& a) = 0;
 
-  /// Rank 0: end the other ranks and MPI. Nothing else may be called after it.
+  /// On rank 0: ends the other ranks and MPI. No function may be called afterwards.
   virtual void leave() noexcept = 0;
 };
 
-/// The function that the module exports, with C linkage: join MPI, once a process. Null if `version`, the
-/// program's, differs from the module's: the two share C++ classes.
+/// The function that the module exports with C linkage. It joins MPI, once in a process. Null if `version` of
+/// the program differs from that of the module, because both share C++ classes.
 using join_function = mpi_job*(const char* version);
 inline constexpr const char* join_symbol = "contct_petsc_join";
 
 /// The job that this process has joined; null if it has joined none.
 [[nodiscard]] mpi_job* joined_job();
 
-/// `job` must live until the process ends, or until null takes its place.
+/// `job` must exist until the process ends or null is set.
 void set_joined_job(mpi_job* job);
 
 }  // namespace contct

@@ -1,5 +1,4 @@
-// The common part of all engines: a factor, the requested and the applied springs, counts, and a monitor of
-// drift.
+// The common part of all engines: a factor, the wanted and the applied springs, counts, and a drift monitor.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 
 namespace contct {
 
-/// The result of a check at the pairs: the largest response, and the largest correction to one.
+/// The result of a check: the largest response of a pair, and the largest correction of a response.
 struct drift {
   double size = 0.0;
   double correction = 0.0;
@@ -22,20 +21,21 @@ struct drift {
   }
 };
 
-/// Checks every so many responses. The interval halves when the drift is more than allowed, and doubles when
-/// it is negligible.
+/// Decides when a response is checked. The interval between checks halves if the drift is more than allowed,
+/// and doubles if it is negligible.
 class drift_monitor {
  public:
-  /// `first_check`: responses until the first check, and at first between two; 16 times as many at most.
+  /// `first_check`: the number of responses until the first check. It is also the first interval; the longest
+  /// is 16 times as long.
   explicit drift_monitor(int first_check)
       : longest_(16 * first_check), until_check_(first_check), check_every_(first_check) {}
 
-  /// Count a response. True when it is to be checked.
+  /// Counts a response. True if it must be checked.
   [[nodiscard]] bool is_due() { return --until_check_ <= 0; }
   void check_next() { until_check_ = 1; }
   void start_interval() { until_check_ = check_every_; }
 
-  /// False when the drift is more than is allowed.
+  /// False if the drift is more than allowed.
   [[nodiscard]] bool accepts(const drift& found) {
     const bool good = found.correction <= allowed * found.size;
     if (!good) check_every_ = std::max(check_every_ / 2, shortest);
@@ -46,13 +46,13 @@ class drift_monitor {
 
  private:
   static constexpr int shortest = 4;
-  static constexpr double allowed = 1e-11;  // correction relative to the response: 1e-8 of D is promised
+  static constexpr double allowed = 1e-11;  // of the response; the program promises 1e-8
   int longest_;
   int until_check_;
   int check_every_;
 };
 
-/// Switching a spring only records that it is wanted; the next response applies it.
+/// switch_spring only records a wanted spring; the next response applies it.
 class spring_engine : public stiffness_engine {
  public:
   void switch_spring(int pair, bool closed) final {
@@ -68,15 +68,14 @@ class spring_engine : public stiffness_engine {
     for (const contact_pair& p : s.pairs) wanted_.push_back(p.closed ? 1 : 0);
   }
 
-  /// All wanted springs count as applied: for an engine that makes a new factor with them.
+  /// Marks all wanted springs as applied, for an engine that factors K with them next.
   const std::vector<char>& apply_all() {
     switched_.clear();
     return applied_ = wanted_;
   }
 
-  /// Apply the springs that have been switched by `update(pair)`: first the added ones, then the removed
-  /// ones, so that the structure is held throughout. False as soon as `update` returns false: a new factor is
-  /// needed.
+  /// Applies the switched springs by update(pair): first the added ones, then the removed ones, so that the
+  /// structure is always held. False as soon as `update` returns false: a new factor is needed.
   template <class Update>
   [[nodiscard]] bool apply_switched(Update update) {
     for (const char closed : {char{1}, char{0}}) {
@@ -90,27 +89,27 @@ class spring_engine : public stiffness_engine {
     return true;
   }
 
-  /// Solve for every dof by the factor, which has the wanted springs.
+  /// Solves for every dof with the factor, which contains the wanted springs.
   void solve_for_all(std::span<const double> load, std::span<const double> pair_forces, std::span<double> u) {
     stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
   }
 
   const linear_structure& structure_;
   factored_stiffness stiffness_;
-  std::vector<char> wanted_;   // in, as switched [pairs]
-  std::vector<char> applied_;  // in the factor and its updates [pairs]
+  std::vector<char> wanted_;   // [pairs] 1 if the spring is switched in
+  std::vector<char> applied_;  // [pairs] 1 if the spring is in the factor or its updates
   engine_counts counts_;
 
  private:
-  std::vector<int> switched_;  // pairs that may differ
+  std::vector<int> switched_;  // pairs whose wanted and applied springs may differ
 };
 
-/// The engines that have a source of their own: see make_engine.
+/// Two engines with their own source files; make_engine calls these functions.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
                                                                     factored_by how);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);
 
-/// Is this a beam with pairs, stored as a band: one that can be condensed?
+/// True if `s` is a beam with pairs, stored as a band.
 [[nodiscard]] bool can_be_condensed(const linear_structure& s);
 
 }  // namespace contct

@@ -1,4 +1,5 @@
-// One factor for many events: the response at the pairs is updated by one column of the inverse an event.
+// The engine with one factor for many events: each event updates the responses of the pairs by one column of
+// the inverse.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,29 +10,29 @@
 namespace contct {
 namespace {
 
-// The least 1 - k c for removing a stiff spring: below it, too many of its digits have cancelled.
+// The least 1 - k c for removing a stiff spring; if it is less, too many of its digits have cancelled.
 constexpr double least_denominator = 1e-2;
 
-// Columns that are solved for together: a factor is read from memory once for all of them.
+// The number of columns solved for together, so that the factor is read from memory once.
 constexpr std::size_t block_width = 8;
 
-/// Columns until their sums cost what a factor costs: c^2 / 2 columns of pairs against n kd^2 / 2. Twice as
-/// many, since a factor's products come from the cache and the columns' do not: the total is then least.
+/// The number of toggles after which a new factor is cheaper: c toggles take c^2 / 2 additions of columns
+/// [pairs], which then cost as much as one factor.
 std::size_t columns_worth_keeping(double flops_of_factor, std::size_t pairs) {
   const double worth = std::sqrt(2 * flops_of_factor / static_cast<double>(std::max<std::size_t>(pairs, 1)));
   return static_cast<std::size_t>(std::clamp(worth, 8.0, 1000.0));
 }
 
-/// K0 is factored; K = K0 + the springs that have been taken in since, or less those taken out. With
-/// c_j = K_j^-1 e_j, the column of toggle j when it came, and g_j = sigma k / (1 + sigma k (c_j)_p),
+/// K0 is factored. K is K0 plus the springs added since, minus the springs removed since. With c_j = K_j^-1
+/// e_j, the column of toggle j when it occurred, and g_j = sigma k / (1 + sigma k (c_j)_p),
 ///
 ///     K^-1 = K0^-1 - sum g_j c_j c_j^T                                  (Sherman and Morrison)
 ///
-/// restricted to the pairs everywhere. Columns of K0^-1 do not depend on the toggles: those of pairs that
-/// are likely to be next are solved for together.
+/// with all vectors restricted to the pairs. Columns of K0^-1 do not depend on the toggles, so those of pairs
+/// that are likely to toggle next are solved for together.
 class inverse_columns {
  public:
-  /// Must outlive this object.
+  /// `k0` must outlive this object.
   inverse_columns(factored_stiffness& k0, std::size_t pairs) : k0_(k0), pairs_(pairs) {}
 
   struct toggle {
@@ -41,16 +42,15 @@ class inverse_columns {
     std::vector<double> column;  // c [pairs]
   };
   [[nodiscard]] const std::vector<toggle>& toggles() const { return toggles_; }
-  [[nodiscard]] int passes() const { return passes_; }  ///< over the factor, so far
+  [[nodiscard]] int passes() const { return passes_; }  ///< block solves with the factor so far
 
-  /// The factor is a new one: drop all that depended on the last.
+  /// Drops everything that depends on the factor, which is a new one.
   void start_anew() {
     toggles_.clear();
     ahead_.clear();
   }
 
-  /// K^-1 e for the dof of a pair, at the pairs [pairs]. `last_s`: the kernel's last scale factors [pairs],
-  /// or nothing; the pairs with the least are likely to be next.
+  /// [pairs] K^-1 e for the dof of `pair`. `last_s`: see residual_load.
   [[nodiscard]] std::vector<double> column(int pair, std::span<const double> last_s) {
     auto found = ahead_.find(pair);
     if (found != ahead_.end()) {
@@ -65,14 +65,14 @@ class inverse_columns {
     return c;
   }
 
-  /// K becomes K + sigma_k e e^T; `c` is the pair's column. Corrects the response at the pairs, too.
+  /// Replaces K by K + sigma_k e e^T, and updates `response` [pairs]. `c`: the column of `pair`.
   void take_in(int pair, double sigma_k, std::vector<double> c, std::span<double> response) {
     const double g = sigma_k / (1.0 + sigma_k * c[pair]);
     toggles_.push_back({pair, sigma_k, g, std::move(c)});
     subtract(toggles_.back(), response);
   }
 
-  /// K0^-1 b becomes K^-1 b, at the pairs [pairs].
+  /// Changes K0^-1 b to K^-1 b [pairs].
   void correct(std::span<double> at_pairs) const {
     for (const toggle& t : toggles_) subtract(t, at_pairs);
   }
@@ -84,8 +84,8 @@ class inverse_columns {
     for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] -= factor * c[i];
   }
 
-  /// The pair, and as many others as fill a block: those with the least scale factors whose columns are not
-  /// yet solved for. Only the pair itself while fewer than half of such columns are used.
+  /// `pair`, and the pairs with the least scale factors whose columns are not solved for yet, as many as fill
+  /// a block. Only `pair` if fewer than half of the columns solved ahead have been used.
   [[nodiscard]] std::vector<int> likely_next(int pair, std::span<const double> last_s) const {
     std::vector<int> chosen = {pair};
     constexpr std::size_t enough_to_judge = 4 * block_width;
@@ -111,23 +111,22 @@ class inverse_columns {
   factored_stiffness& k0_;
   std::size_t pairs_;
   std::vector<toggle> toggles_;
-  std::map<int, std::vector<double>> ahead_;  // columns of K0^-1 at the pairs, by their pair
+  std::map<int, std::vector<double>> ahead_;  // by pair: columns of K0^-1 [pairs]
   int passes_ = 0;
   std::size_t solved_ahead_ = 0, used_ahead_ = 0;
 };
 
-/// Keeps x, the response of every pair to the step's whole load increment. When the spring k of pair p goes
-/// in (sigma = 1) or out (-1), K' = K + sigma k e e^T, and with c = K^-1 e, a column of the inverse at the
-/// pairs (Sherman and Morrison):
+/// Keeps x, the response of every pair to the step's whole load increment. If the spring k of pair p is added
+/// (sigma = 1) or removed (sigma = -1), K' = K + sigma k e e^T. With c = K^-1 e, a column of the inverse at
+/// the pairs (Sherman and Morrison):
 ///
 ///     g = sigma k / (1 + sigma k c_p),   x' = x - g x_p c
 ///
-/// `inverse_columns` has the columns. Nothing else costs more than O(pairs) an event.
-/// Memory: a factor, and a column of pairs a toggle.
+/// `inverse_columns` computes c. All other work of an event is O(pairs). Memory: a factor, and a column
+/// [pairs] for each toggle.
 ///
-/// Updates drift: the drift monitor says when x is checked by one more solve. The factor is made anew when
-/// the drift is too large, when the columns cost more than a factor would, or when 1 + sigma k c_p has lost
-/// its digits.
+/// Updates drift. The drift monitor decides when one more solve checks x. K is factored again if the drift is
+/// too large, if the columns cost more than a factor, or if 1 + sigma k c_p has lost its digits.
 class updated_engine final : public spring_engine {
  public:
   updated_engine(const linear_structure& s, factored_by how)
@@ -187,7 +186,7 @@ class updated_engine final : public spring_engine {
     response_to_ = residual.version;
   }
 
-  /// Update the response by the toggle of one pair. False when that takes a new factor.
+  /// Updates the response for the toggle of `pair`. False if a new factor is needed.
   [[nodiscard]] bool update(int pair, std::span<const double> last_s) {
     if (columns_.toggles().size() >= most_toggles_) return false;
     const double k = structure_.pairs[pair].stiffness;
@@ -199,7 +198,7 @@ class updated_engine final : public spring_engine {
     return true;
   }
 
-  /// Compares x with the solution of K_0 y = f - sum of sigma k x_p e_p, which is x again.
+  /// Solves K_0 y = f - sum of sigma k x_p e_p, where y is x except for drift, and checks the difference.
   [[nodiscard]] bool still_solves(std::span<const double> increment) {
     ++counts_.checks;
     std::copy(increment.begin(), increment.end(), work_.begin());
@@ -217,9 +216,9 @@ class updated_engine final : public spring_engine {
 
   inverse_columns columns_;
   bool has_factor_ = false;
-  std::size_t most_toggles_;       // between factors
-  std::vector<double> response_;   // to the whole increment [pairs]
-  std::uint64_t response_to_ = 0;  // which increment
+  std::size_t most_toggles_;       // with one factor
+  std::vector<double> response_;   // [pairs] to the whole increment
+  std::uint64_t response_to_ = 0;  // version of that increment; 0: none
   std::vector<double> work_;       // [dofs]
   drift_monitor drift_{16};
 };

@@ -1,6 +1,6 @@
-// The module contct_petsc: the ranks of an MPI job share a factor by PETSc and MUMPS. Rank 0 owns all rows
-// of the matrices, the right-hand sides and the solutions; MUMPS distributes the factor. Rank 0 sends a
-// command before everything that all ranks do together.
+// The module contct_petsc: the ranks of an MPI job share a factor by PETSc and MUMPS. Rank 0 owns all rows of
+// the matrices, the right-hand sides and the solutions; MUMPS distributes the factor. Rank 0 sends a command
+// before each operation of all ranks.
 #include <petscmat.h>
 #include <petscsys.h>
 #include <unistd.h>
@@ -23,9 +23,9 @@ namespace {
 static_assert(std::is_same_v<PetscInt, int> && std::is_same_v<PetscScalar, double>);
 
 // MUMPS' parameters, numbered as in its manual.
-constexpr PetscInt root_by_one_process = 13;  // ICNTL: 1 counts every pivot that is not positive
+constexpr PetscInt root_by_one_process = 13;  // ICNTL; 1: count every pivot that is not positive
 constexpr PetscInt more_space_percent = 14;
-constexpr PetscInt factor_entries = 3;  // INFOG: estimated; in millions where negative
+constexpr PetscInt factor_entries = 3;  // INFOG; estimated; in millions if negative
 constexpr PetscInt negative_pivots = 12;
 constexpr PetscInt estimated_flops = 1;  // RINFOG
 
@@ -33,7 +33,7 @@ constexpr PetscInt estimated_flops = 1;  // RINFOG
 constexpr int singular = -10, not_definite_root = -40, not_allocated = -13;
 constexpr int no_room[] = {-8, -9, -14, -15, -17, -20};
 
-/// Throws std::bad_alloc or std::runtime_error, with PETSc's words, where a call to PETSc has failed.
+/// Throws std::bad_alloc, or std::runtime_error with PETSc's message, if a call to PETSc has failed.
 void succeed(PetscErrorCode code) {
   if (code == 0) return;  // PETSC_SUCCESS since PETSc 3.19
   if (code == PETSC_ERR_MEM) throw std::bad_alloc();
@@ -45,11 +45,11 @@ void succeed(PetscErrorCode code) {
 /// The result of a factorisation; the same on every rank.
 enum class outcome : int { factored, not_definite, no_memory, failed };
 
-/// A matrix and its factor, as each rank has them. All ranks call every function together; data count on
-/// rank 0 alone.
+/// A rank's part of a matrix and its factor. All ranks call each function together; only the arguments of
+/// rank 0 are used.
 class part_of_factor {
  public:
-  /// Finds the order in which the matrix is factored. `a`: null on other ranks than 0.
+  /// Finds the order in which the matrix is factored. `a`: null on ranks other than 0.
   part_of_factor(int order, const sparse_columns* a) : order_(order), own_(a != nullptr ? order : 0) {
     // Column j of a lower triangle is row j of the upper one, diagonal first.
     const std::vector<int> none = {0};
@@ -86,7 +86,7 @@ class part_of_factor {
     return value;
   }
 
-  /// With `diagonal` [order] for the matrix's own.
+  /// Factors the matrix with `diagonal` [order] as its diagonal.
   [[nodiscard]] outcome factor(const double* diagonal) {
     for (int row = 0; row < own_; ++row)
       succeed(MatSetValue(matrix_, row, row, diagonal[row], INSERT_VALUES));
@@ -94,7 +94,7 @@ class part_of_factor {
     succeed(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
     constexpr PetscInt most_space = 1000;
     for (PetscInt space = 0;; space = std::max<PetscInt>(2 * space, 50)) {
-      if (infog(1) < 0) analyse();  // PETSc makes no further factor after MUMPS has failed
+      if (infog(1) < 0) analyse();  // after a failure of MUMPS, PETSc factors only a new object
       if (space > 0) succeed(MatMumpsSetIcntl(factor_, more_space_percent, space));
       MatFactorInfo info;
       succeed(MatFactorInfoInitialize(&info));
@@ -108,7 +108,7 @@ class part_of_factor {
     }
   }
 
-  /// In place, for `columns` right-hand sides, one after the other.
+  /// Solves in place for `columns` right-hand sides, one after the other.
   void solve(double* b, int columns) {
     if (columns != columns_) {
       succeed(MatDestroy(&solutions_));
@@ -138,15 +138,15 @@ class part_of_factor {
   int order_, own_;  // own_: rows of this rank
   Mat matrix_ = nullptr, factor_ = nullptr;
   Mat solutions_ = nullptr;
-  int columns_ = 0;  // of solutions_
+  int columns_ = 0;  // number of columns in solutions_
 };
 
 /// The commands of rank 0 to all ranks.
 enum class verb : int { make, factor, solve, drop, leave };
 struct command {
   verb what;
-  int number = 0;  ///< of the factor
-  int count = 0;   ///< order of a new one, or right-hand sides
+  int number = 0;  ///< number of the factor
+  int count = 0;   ///< order of a new factor, or number of right-hand sides
 };
 
 class petsc_job final : public mpi_job {
@@ -178,7 +178,7 @@ class petsc_job final : public mpi_job {
     end();
   }
 
-  /// Rank 0: all ranks do this.
+  /// On rank 0: makes all ranks execute `c`.
   outcome command_all(const command& c, double* data, const sparse_columns* a = nullptr) {
     tell(c);
     outcome came_out = outcome::factored;
@@ -196,7 +196,8 @@ class petsc_job final : public mpi_job {
     return outcome::factored;
   }
 
-  /// Work of all ranks. If one rank fails alone, the job ends, since the others would wait for it for ever.
+  /// Does this rank's part of work of all ranks. If one rank fails alone, ends the job: the others would wait
+  /// for it for ever.
   template <class Work>
   void together(Work work) {
     std::string why = "out of memory";
@@ -218,7 +219,7 @@ class petsc_job final : public mpi_job {
     MPI_Wait(&sent, MPI_STATUS_IGNORE);
   }
 
-  /// Waits for rank 0, which may be long about something else: the longer, the less often this asks.
+  /// Waits for a command of rank 0, which may take long; the longer it takes, the less often this polls.
   static command next() {
     command c{verb::leave};
     MPI_Request coming = MPI_REQUEST_NULL;
@@ -238,7 +239,7 @@ class petsc_job final : public mpi_job {
   void end() {
     factors_.clear();
     (void)PetscFinalize();
-    MPI_Barrier(MPI_COMM_WORLD);  // mpirun ends a job as soon as a rank ends with another status than 0
+    MPI_Barrier(MPI_COMM_WORLD);  // mpirun ends the job when a rank ends with a status other than 0
     MPI_Finalize();
   }
 
@@ -246,7 +247,7 @@ class petsc_job final : public mpi_job {
   std::map<int, std::unique_ptr<part_of_factor>> factors_;
 };
 
-/// In the hands of rank 0.
+/// A factor of all ranks, as rank 0 uses it.
 class shared_factor final : public sparse_factor {
  public:
   shared_factor(petsc_job& job, int number, const sparse_columns& a) : job_(job), number_(number) {
@@ -295,5 +296,5 @@ std::unique_ptr<sparse_factor> petsc_job::share(const sparse_columns& a) {
 
 extern "C" __attribute__((visibility("default"))) contct::mpi_job* contct_petsc_join(const char* version) {
   if (std::string(version) != CONTCT_VERSION) return nullptr;
-  return new contct::petsc_job();  // as long as the process
+  return new contct::petsc_job();  // exists until the process ends
 }
