@@ -60,7 +60,7 @@ class stiffness_factor {
     solve_with(band_, b);
   }
 
-  /// Multiplications and additions of a factorisation.
+  /// The number of multiplications and additions in a factorisation.
   [[nodiscard]] double flops() const {
     if (sparse_) return sparse_->flops();
     const double kd = k_.band().subdiagonals();

@@ -18,8 +18,8 @@ __attribute__((weak)) void omp_set_max_active_levels(int levels);
 namespace contct {
 namespace {
 
-/// Keeps this thread from starting OpenMP threads. CHOLMOD asks for four to copy a supernode: starting them
-/// and waiting for them took a sixth of the time of a plate's path.
+/// Keeps this thread from starting OpenMP threads. CHOLMOD asks for four threads to copy a supernode:
+/// starting them and waiting for them took a sixth of the time of a plate's path.
 class no_openmp_threads {
  public:
   no_openmp_threads() {

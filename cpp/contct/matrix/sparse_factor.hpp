@@ -55,7 +55,7 @@ class sparse_factor {
     throw std::logic_error("this factor's order cannot be taken over");
   }
 
-  /// Products and sums that a factorisation takes.
+  /// The number of multiplications and additions in a factorisation.
   [[nodiscard]] virtual double flops() const = 0;
 };
 

@@ -85,8 +85,8 @@ struct sparse_matrix {
     return 0.5 * std::pow(10.0, last_digits[entry]);
   }
 
-  /// The uncertainty of x'A x: half a unit in the last digit of each entry, plus rounding of two units in the
-  /// last place of the diagonals, by the program that summed an entry in doubles.
+  /// The uncertainty of x'A x: half a unit in the last digit of each entry, plus the rounding of a program
+  /// that sums each entry in doubles, two units in the last place of the diagonals.
   [[nodiscard]] double doubt(std::span<const double> x) const;
 
   /// y = A x in long double.
@@ -131,8 +131,8 @@ struct sparse_columns {
 /// `a` by columns, without its zeros.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
-/// A spring at one row, whose stiffness is added to the diagonal; or between two rows: then -stiffness is
-/// also added off the diagonal, where the matrix must have an entry.
+/// A spring at one row: its stiffness is added to the diagonal. If `other` >= 0, a spring between two rows:
+/// -stiffness is also added off the diagonal, where the matrix must have an entry.
 struct spring_at {
   int row = 0;
   double stiffness = 0.0;

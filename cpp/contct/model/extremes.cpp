@@ -47,7 +47,7 @@ class extremes {
   extremes(std::string_view name, const placed_value& first)
       : name_(name), least_{first, first.value}, most_{first, first.value} {}
 
-  /// An equal extreme keeps its place unless it is at x >= `from`, in the same piece as v.
+  /// If the extreme so far equals v, its place is kept unless it is at x >= `from`, in the same piece as v.
   void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
     if (v.value < least_.shown.value) least_.follow(v, from);
     if (v.value > most_.shown.value) most_.follow(v, from);

@@ -17,7 +17,7 @@
 
 namespace contct {
 
-/// Elements of equal length, up to the coordinate `end`, a number of the file.
+/// Elements of equal length up to the coordinate `end`, which is a number of the file.
 struct even_run {
   double end;
   int elements;
@@ -38,7 +38,7 @@ struct beam {
   std::vector<double> EI;  ///< bending stiffness of each element, positive [nodes - 1]
   /// The runs of equal elements from x[0] on, for exact arithmetic; empty if the file gives every x.
   std::vector<even_run> runs = {};
-  std::vector<beam_section> sections = {};  ///< [elements] E I, rounded, is EI; empty: the file gives EI
+  std::vector<beam_section> sections = {};  ///< [elements] EI is E times I, rounded; empty: the file gives EI
   /// The inner nodes with hinges, ascending. A hinge releases the right end of the element on its left, and
   /// the rotation of this end is condensed. The node's theta belongs to the element on its right.
   std::vector<int> hinges = {};

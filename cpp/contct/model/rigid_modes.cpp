@@ -15,7 +15,7 @@ extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* upl
 namespace contct {
 namespace {
 
-constexpr int most_tried = 10;              // six rigid-body motions, and four stiff ones
+constexpr int most_tried = 10;              // six rigid-body motions, and four others
 constexpr double surely_held = 1e-11;       // reciprocal condition above which no motion is free
 constexpr double free_if_declared = 1e-10;  // largest eigenvalue of a declared motion
 constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10};
@@ -50,7 +50,7 @@ stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
   return a;
 }
 
-/// Factors A with the least of `shifts` added to its diagonal that makes this possible.
+/// Factors A after adding the least of `shifts` to its diagonal with which it can be factored.
 void factor_shifted(stiffness_factor& a, int order) {
   for (const double shift : shifts) {
     std::vector<spring_at> everywhere(order);
@@ -147,7 +147,7 @@ int count_free(const numbers& values) {
       std::count_if(values.begin(), values.end(), [](double v) { return v <= free_below; }));
 }
 
-/// Iterate until the smallest eigenvalues no longer change and the vectors of rigid-body motions no longer
+/// Iterates until the smallest eigenvalues no longer change and the vectors of rigid-body motions no longer
 /// improve.
 void converge(subspace& space, std::optional<int> known) {
   double before = std::numeric_limits<double>::infinity();
@@ -225,7 +225,7 @@ void rigid_rank::hold(int dof, int other) {
   if (rank_ == most_rigid_motions) return;
   // Only the direction of the row counts: a slope's row, 1 over a length, may be of any size.
   rigid_row direction = rows_[dof];
-  double size = 0.0;  // of the numbers that are subtracted
+  double size = 0.0;  // the largest number that is subtracted
   if (other >= 0) {
     size = std::max(largest_of(direction), largest_of(rows_[other]));
     for (std::size_t i = 0; i < direction.size(); ++i) direction[i] -= rows_[other][i];

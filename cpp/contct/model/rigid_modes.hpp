@@ -51,7 +51,7 @@ using rigid_row = std::array<double, most_rigid_motions>;
 class rigid_rank {
  public:
   /// For a matrix, whose `rows` [dofs] are rounded: a row is independent if its part orthogonal to the other
-  /// held rows is larger than this share of it. `rows` must outlive this object.
+  /// held rows is larger than `independent` times the row. `rows` must outlive this object.
   rigid_rank(std::span<const rigid_row> rows, double independent) : rows_(rows), independent_(independent) {}
   /// For a beam or plate, with the exact rows of `truth`, which must outlive this object.
   explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
@@ -61,7 +61,7 @@ class rigid_rank {
 
   [[nodiscard]] int rank() const { return rank_; }
 
-  /// Independent held dofs; they stop all motions that the held dofs stop.
+  /// A maximal independent subset of the held dofs.
   [[nodiscard]] std::span<const int> dofs() const { return dofs_; }
 
   /// The part of a combination of rigid-body motions that the held dofs leave free; not with `truth`.

@@ -369,7 +369,7 @@ std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::s
   const bool is_all = steepest.size() <= parts.size();
   const double done = contct::rounded(dot(work.exactly().all, steepest));
   return free_motion{[parts, rows, steepest, is_all, shape = shape_](int dof) {
-                       constexpr double surely_moves = 1e-3;  // of the row
+                       constexpr double surely_moves = 1e-3;  // relative to the row
                        const double moved = along(parts, rows[dof]);
                        if (is_all && std::abs(moved) >= surely_moves * largest_of(rows[dof])) return moved;
                        return contct::rounded(dot(steepest, shape->row_of(dof)));

@@ -29,7 +29,7 @@ using face_move = nodal_value;                ///< how far the faces of all pair
 /// A polynomial of a file times `factor` times `times`, multiplied as decimals.
 struct scaled_polynomial {
   std::vector<double> coefficients;
-  double factor = 1.0;  ///< of a combination
+  double factor = 1.0;  ///< factor from a combination
   double times = 1.0;   ///< for self-weight: the area or thickness that multiplies the weight per volume
 };
 
@@ -185,7 +185,7 @@ struct linear_structure {
   int deflection = 0;          ///< the dof of a node that is its deflection, from 0 (INDOF - 1)
   stiffness_matrix stiffness;  ///< includes elastic supports; rows of fixed dofs are decoupled: see in_row
   std::vector<char> fixed;     ///< [dofs] 1 if a support fixes the dof
-  std::vector<char> settles;   ///< [dofs] 1 if this support prescribes a displacement; empty: none does
+  std::vector<char> settles;   ///< [dofs] 1 if its support prescribes a displacement; empty: none does
   std::vector<matrix_entry> to_settling;  ///< K's entries in rows of free dofs and columns of settling dofs
   std::vector<contact_pair> pairs;        ///< in the order of their numbers
 
@@ -208,7 +208,7 @@ struct linear_structure {
   [[nodiscard]] int row_of(std::size_t dof) const { return rows.empty() ? static_cast<int>(dof) : rows[dof]; }
   /// The right-hand side of K u = f in the row of `dof`. Free dof: its load. Settling dof: the pivot times
   /// the displacement that `load` prescribes. Other fixed dof: 0. The pivot of a settling dof is a power of
-  /// four near its former stiffness: rows stay of one size, and u is exact.
+  /// four near its former stiffness: the rows keep similar sizes, and u is exact.
   [[nodiscard]] double in_row(std::size_t dof, double load) const {
     if (fixed[dof] == 0) return load;
     return !settles.empty() && settles[dof] != 0 ? stiffness.diagonal(row_of(dof)) * load : 0.0;
@@ -245,7 +245,7 @@ struct linear_structure {
   /// True if there is an equilibrium under a load of this work. Nothing if `truth` or `work` is unknown, or
   /// if the supports leave more than 8 rigid-body motions.
   [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
-    constexpr int most_decided = 8;  // the time of the search doubles with each
+    constexpr int most_decided = 8;  // the time of the search doubles with each motion
     if (!truth || !work.is_known() || rigid_motions - held_by_supports().rank() > most_decided)
       return std::nullopt;
     return truth->is_carried(work, supported_dofs, pairs);

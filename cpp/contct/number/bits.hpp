@@ -16,7 +16,7 @@ namespace contct {
 template <class Real>
 using bits_of = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
 
-/// True if both have the same bits. All NaNs are equal; -0.0 and +0.0 differ.
+/// True if both have the same bits or both are NaN; -0.0 and +0.0 differ.
 template <class Real>
 [[nodiscard]] inline bool same_bits(Real a, Real b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);

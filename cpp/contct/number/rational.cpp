@@ -50,7 +50,7 @@ void* or_end(void* got) {
   std::abort();
 }
 
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): what GMP wants
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): GMP needs a function like realloc
 void* allocate(std::size_t bytes) {
   return or_end(std::malloc(bytes));
 }

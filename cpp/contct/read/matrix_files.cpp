@@ -27,7 +27,7 @@ struct read_entry {
   int row, column;
   double value;
   std::int64_t line;
-  int last_digit;  // a power of ten, or sparse_matrix::exact_entry
+  int last_digit;  // power of ten of the last digit, or sparse_matrix::exact_entry
 };
 
 /// Matrix Market files contain the lower triangle, CalculiX files the upper triangle.
@@ -152,7 +152,7 @@ int first_digit(const read_entry& e) {
 /// zeros. Whole numbers are exact.
 struct written_digits {
   int most_digits = 0;
-  std::optional<int> lowest, highest;  // of last_digit; empty: all entries are exact
+  std::optional<int> lowest, highest;  // extremes of last_digit; empty: all entries are exact
 
   void include(const read_entry& e) {
     if (e.value == 0 || e.last_digit == sparse_matrix::exact_entry) return;

@@ -16,9 +16,9 @@ namespace contct {
 
 inline constexpr int most_elements = 2'000'000;
 
-/// The index, from 0, of the coordinate in `among`, which ascends, that is equal to x as a decimal; nothing
-/// if there is none. A mesh computes its coordinates with two roundings: 3 * 0.7 / 7 is not the double
-/// nearest to 0.3. So coordinates count as equal up to 4 roundings of the larger end of the structure.
+/// The index, from 0, of x in the ascending coordinates `among`; nothing if x is not one of them. Coordinates
+/// of a mesh are computed with two roundings: 3 * 0.7 / 7 is not the double nearest to 0.3. So x equals a
+/// coordinate if they differ by at most 4 roundings of the larger end of the structure.
 [[nodiscard]] std::optional<int> find_coordinate(std::span<const double> among, double x);
 
 /// Coordinates that a value in a problem file may name.

@@ -189,7 +189,7 @@ class step_reader {
       to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this begins", from));
   }
 
-  /// Reads from and to along a beam; if missing, the ends of the beam.
+  /// Reads `from` and `to` along a beam; a missing one is the end of the beam.
   static void read_ends(const toml_value& t, const beam& b, placed_load& p) {
     const coordinate_row x = nodes_along(b.x);
     p.from = t.has("from") ? x.place_of(t["from"]) : b.x.front();
@@ -197,7 +197,7 @@ class step_reader {
     refuse_reversed(t[t.has("to") ? "to" : "from"], p.from, p.to);
   }
 
-  /// Reads from and to on a plate: two corners of a rectangle; if missing, corners of the plate.
+  /// Reads `from` and `to` on a plate, two corners of a rectangle; a missing one is a corner of the plate.
   static void read_rectangle(const toml_value& t, const plate& of, placed_load& p) {
     const auto read = [&](const char* key, double x, double y) -> std::array<double, 2> {
       if (!t.has(key)) return {x, y};

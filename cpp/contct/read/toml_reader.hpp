@@ -78,7 +78,7 @@ class toml_value {
   /// has: true if this table has the key. []: the value of the key.
   [[nodiscard]] bool has(std::string_view key) const { return node_->as_table()->contains(key); }
   [[nodiscard]] toml_value operator[](std::string_view key) const;
-  /// allow_only refuses all other keys. refuse_beside refuses `others` beside the keys that `beside` names.
+  /// allow_only refuses all other keys. refuse_beside refuses `others` in a table with the keys in `beside`.
   void allow_only(const std::vector<std::string_view>& keys) const;
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;
@@ -88,7 +88,7 @@ class toml_value {
   [[nodiscard]] bool is_table() const { return node_ != nullptr && node_->is_table(); }
   [[nodiscard]] bool is_array() const { return node_ != nullptr && node_->is_array(); }
 
-  /// The name of entry i, from 0; the name of this value if it is one value for all.
+  /// The name of entry i, from 0, of an array; of any other value, its own name.
   [[nodiscard]] std::string name_of(std::size_t i) const { return is_array() ? indexed(name_, i) : name_; }
   /// The position of this value, for messages: "pb.toml:12: contact[2]".
   [[nodiscard]] std::string where() const;
@@ -142,7 +142,7 @@ class named_files {
   /// not below the folder once symbolic links are followed.
   [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
 
-  /// All paths that path_of of this object and its copies has returned.
+  /// All results of path_of of this object and its copies.
   [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }
 
  private:

@@ -80,8 +80,8 @@ node_matrix block(const band_matrix& k, int row_node, int column_node) {
 }
 
 /// For structures whose nodes form a chain, with two dofs each. Nodes without pairs are eliminated once,
-/// without approximation. The remaining K is block tridiagonal, with D_i on and E_i beside the diagonal. Two
-/// sweeps are kept:
+/// without approximation. The remaining K is block tridiagonal, with D_i on and E_i beside the diagonal. The
+/// engine keeps two sweeps over K:
 ///
 ///     L_i = D_i - E_{i-1}^T L_{i-1}^-1 E_{i-1}   from the left,   R_i from the right in the same way
 ///

@@ -11,7 +11,7 @@ namespace {
 
 mpi_job* job_of_this_process = nullptr;  // MPI allows one job per process
 
-/// As in 1989: every response copies the band, adds the springs of the pairs in contact and factors it
+/// As in 1989: every response copies the band, adds the springs of the pairs in contact and factors the sum
 /// (dpbtrf). Memory: two bands, the structure's and the factor.
 class refactor_engine final : public spring_engine {
  public:

@@ -134,7 +134,7 @@ class factored_stiffness {
     return factor_.reciprocal_condition(springs_of(structure_, closed));
   }
 
-  /// Products and sums that a factorisation takes.
+  /// The number of multiplications and additions in a factorisation.
   [[nodiscard]] double flops() const { return factor_.flops(); }
 
  private:

@@ -46,7 +46,7 @@ class drift_monitor {
 
  private:
   static constexpr int shortest = 4;
-  static constexpr double allowed = 1e-11;  // of the response; the program promises 1e-8
+  static constexpr double allowed = 1e-11;  // relative to the response; 1e-8 of D is promised
   int longest_;
   int until_check_;
   int check_every_;

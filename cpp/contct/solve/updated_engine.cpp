@@ -216,9 +216,9 @@ class updated_engine final : public spring_engine {
 
   inverse_columns columns_;
   bool has_factor_ = false;
-  std::size_t most_toggles_;       // with one factor
-  std::vector<double> response_;   // [pairs] to the whole increment
-  std::uint64_t response_to_ = 0;  // version of that increment; 0: none
+  std::size_t most_toggles_;       // until a new factor
+  std::vector<double> response_;   // [pairs] response to the whole increment
+  std::uint64_t response_to_ = 0;  // version of this increment; 0: none
   std::vector<double> work_;       // [dofs]
   drift_monitor drift_{16};
 };

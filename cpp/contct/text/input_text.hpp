@@ -27,7 +27,7 @@ class input_error : public std::runtime_error {
 
 /// Reads the file at `path`, or standard input for "-". `kind` names the expected file in messages: "problem
 /// file". Throws input_error if the file does not exist, is a directory, cannot be read, or has `most_mib` or
-/// more. A beam of 100,000 nodes with every coordinate takes 2 MiB.
+/// more. A file with the coordinates of 100,000 nodes has 2 MiB.
 [[nodiscard]] std::string read_input(const std::string& path, const std::string& kind = "problem file",
                                      std::size_t most_mib = 32);
 

@@ -18,7 +18,7 @@ decoded first_character(std::string_view text) {
   const unsigned lead = byte(0);
   if (lead < 0x80) return {lead, 1};
   const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // by bytes: the least character that needs them
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // [bytes] the least character that needs them
   if (lead < 0xc2 || lead > 0xf4 || bytes > text.size()) return {};
   char32_t character = lead & (0x7fU >> bytes);
   for (std::size_t i = 1; i < bytes; ++i) {

@@ -25,8 +25,8 @@ enum class paint { good, bad, quiet, strong };
 /// As `terminal_text`, but keeps the codes of `painted`.
 [[nodiscard]] std::string shown_in_colour(std::string_view text);
 
-/// Joins items by "; " in lines of at most `width` bytes. Breaks an item that is longer than a line at
-/// blanks; a word that is longer than a line has a line to itself.
+/// Joins items by "; " in lines of at most `width` bytes. An item longer than a line is broken at blanks; a
+/// word longer than a line has a line to itself.
 [[nodiscard]] std::vector<std::string> wrap(const std::vector<std::string>& items, int width);
 
 }  // namespace contct
