@@ -349,9 +349,9 @@ element_results stresses_of(const model& m, const element_results& forces) {
   return std::visit([&](const auto& kind) { return stresses(kind, forces); }, m.kind);
 }
 
-/// Most stresses are linear in the moments; the principal and von Mises stresses are not. If each moment
-/// changes by at most 1, the von Mises stress changes by at most sqrt(6), because it is the root of a
-/// positive form, x^2 - x y + y^2 + 3 xy^2 <= 6, and a principal stress, an eigenvalue, changes by at most 2.
+/// Most stresses are linear in the moments; the principal and von Mises stresses are not. Let each moment
+/// change by at most 1. The von Mises stress is the root of a positive form, x^2 - x y + y^2 + 3 xy^2 <= 6,
+/// so it changes by at most sqrt(6). A principal stress, an eigenvalue, changes by at most 2.
 std::optional<double> stress_error(const model& m, double moment, double largest) {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
   if (const auto* const b = std::get_if<beam>(&m.kind)) {

@@ -46,7 +46,7 @@ class drift_monitor {
 
  private:
   static constexpr int shortest = 4;
-  static constexpr double allowed = 1e-11;  // relative to the response; 1e-8 of D is promised
+  static constexpr double allowed = 1e-11;  // relative to the response
   int longest_;
   int until_check_;
   int check_every_;
