@@ -58,7 +58,7 @@ class Structure:
         u[free] += self.compliance @ (sees.T @ -z) if len(k) else 0.0
         gaps = faces - self.sees @ u
         forces = numpy.where(z > 0, 0.0, -k * gaps)
-        return u, forces, gaps, self.K @ u + self.sees.T @ forces - loads
+        return u, forces, numpy.where(z > 0, gaps, 0.0), self.K @ u + self.sees.T @ forces - loads
 
     @staticmethod
     def take_tension(pull, M):
