@@ -125,10 +125,11 @@ def errors(problem, answers):
         kind = KINDS.get(number["quantity"].split(" ")[-1], number["quantity"])
         sizes[kind] = max(sizes.get(kind, 0.0), abs(float(Fraction(number["exact"]))))
     for answer in answers:
-        words, kind = exact[key(answer)], KINDS.get(answer["quantity"])
-        if kind is None:
+        words, quantity = exact[key(answer)], answer["quantity"]
+        if quantity in ("state", "contacts"):
             yield 0.0 if str(answer["value"]) == words else 1.0
         else:
+            kind = KINDS.get(quantity.split(" ")[-1], quantity)
             yield abs(answer["value"] - float(Fraction(words))) / (sizes[kind] or 1.0)
 
 
