@@ -1,5 +1,5 @@
-// Which way the listing's IFs went, so that a comparison can require that every outcome was reached; and how
-// narrowly: a mismatch at a narrow decision is a tie, elsewhere a bug.
+// Derives the outcomes of the listing's IFs in a finished call, and their margins. A comparison requires that
+// every outcome occurs. A mismatch at a small margin is a tie; at a large margin it is a bug.
 #pragma once
 
 #include <array>
@@ -17,19 +17,19 @@
 
 namespace contct {
 
-/// The IFs of the listing, in its order; the compound IF of the DO 10 loop counts twice.
+/// The IFs of the listing, in its order; the compound IF of the DO 10 loop counts as two.
 enum class branch {
   no_response,     ///< IF (DTEST(NDOF).EQ.0.)
   stationary,      ///< ELSE IF (ABS(GAP).LT.EPSGAP)
   check_positive,  ///< IF (SSCHK.GT.0.)
   s_positive,      ///< IF (SS(I).GT.0. ...
-  s_is_smallest,   ///< ... .AND. SS(I).LT.SMIN), where SS(I) is positive
+  s_is_smallest,   ///< ... .AND. SS(I).LT.SMIN), if SS(I) is positive
   no_events,       ///< IF (SMIN.EQ.1.)
   within_epsmul,   ///< IF (DIFF.LT.EPSMUL)
   was_separated,   ///< IF (ISEP(I).EQ.1)
 };
 
-/// The place of a branch in the two lists below.
+/// The index of a branch in the two arrays below.
 [[nodiscard]] constexpr std::size_t index_of(branch b) {
   return static_cast<std::size_t>(b);
 }
@@ -43,13 +43,13 @@ inline constexpr std::array<std::string_view, 8> branch_conditions = {
     "DTEST(NDOF).EQ.0.", "ABS(GAP).LT.EPSGAP", "SSCHK.GT.0.",    "SS(I).GT.0.",
     "SS(I).LT.SMIN",     "SMIN.EQ.1.",         "DIFF.LT.EPSMUL", "ISEP(I).EQ.1"};
 
-/// Walk through the decisions of one finished call, `c` with its outputs and `isep_before` as it went
-/// in: `visit(branch, pair from 0, outcome, left, right)`, the last two being the numbers compared.
-/// This derives the decisions from the listing's text and shares no code with either kernel.
+/// Calls visit(branch, pair from 0, outcome, left, right) for each decision of a finished call; the IF
+/// compares `left` with `right`. `c` contains the outputs, `isep_before` the ISEP before the call. This
+/// function follows the listing's text and shares no code with a kernel.
 template <class Real, class Visit>
 void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
-  // The listing's DATA, read from its decimal text in the precision of the call. Not taken from
-  // kernel/contct.hpp on purpose: a wrong constant there must not be counted as right here.
+  // The listing's DATA in the precision of the call. The constants of kernel/contct.hpp are not used, so that
+  // an error there is found here.
   const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
   const Real epsmul = Real(1) / Real(256);
   const Real zero = 0;
@@ -85,7 +85,7 @@ void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Vi
 /// How often each IF was true and false, derived from the inputs and outputs of calls.
 class branch_counts {
  public:
-  /// Count one finished call: `c` with its outputs, `isep_before` as it went in.
+  /// Adds the decisions of a finished call. Arguments: see for_each_decision.
   template <class Real>
   void count(const call<Real>& c, std::span<const int> isep_before) {
     for_each_decision(c, isep_before,
@@ -98,51 +98,49 @@ class branch_counts {
   [[nodiscard]] std::int64_t of(branch b, bool outcome) const {
     return counts_[2 * index_of(b) + (outcome ? 1 : 0)];
   }
-  /// The rarest outcome's count: 0 means that some outcome of some IF was never reached.
+  /// The count of the rarest outcome; 0 if any outcome of any IF never occurred.
   [[nodiscard]] std::int64_t rarest() const;
-  /// Add the counts of another run.
   void add(const branch_counts& other);
 
  private:
-  std::array<std::int64_t, 16> counts_{};  // of each IF, false and true
+  std::array<std::int64_t, 16> counts_{};  // [2 * branch + outcome]
 };
 
-/// How many numbers lie between the two that an IF compares. The two zeros compare equal: none lies between
-/// them. The largest possible count if one of them is NaN.
+/// The distance in ULP of two numbers that an IF compares: 0 from -0.0 to +0.0, and the largest std::uint64_t
+/// if one number is NaN.
 template <class Real>
 [[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
 }
 
-/// One decision of one call, and by how much it was taken.
+/// The outcome of an IF in a call, and its margin.
 struct decision {
   branch what;
   int pair;  ///< from 0; -1 for IF (SMIN.EQ.1.)
   bool outcome;
-  std::uint64_t ulps;  ///< numbers between the two that were compared; 0: on the threshold. The largest
-                       ///< there is where one of them is NaN
+  std::uint64_t ulps;  ///< margin_between the compared numbers; 0: exactly on the threshold
 };
 
-/// The margin of IF (ISEP(I).EQ.1), which compares whole numbers: larger than any other.
+/// Marks the margin of IF (ISEP(I).EQ.1), which compares integers.
 inline constexpr std::uint64_t whole_numbers = std::numeric_limits<std::uint64_t>::max() - 1;
 
-/// Replace the decision in `least` by one with a smaller margin. IF (ISEP(I).EQ.1) compares whole numbers and
-/// has no margin, so it does not count.
+/// Replaces `least` by this decision if its margin is smaller. Ignores IF (ISEP(I).EQ.1), which has no
+/// margin.
 inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t pair, bool outcome,
                           std::uint64_t ulps) {
   if (b == branch::was_separated || (least && least->ulps <= ulps)) return;
   least = decision{b, b == branch::no_events ? -1 : static_cast<int>(pair), outcome, ulps};
 }
 
-/// The decision of a call of a kernel of `real_bytes` with the smallest margin, among those that `counts`
-/// accepts, by branch and pair from 0; IF (ISEP(I).EQ.1) if there is no other, and nothing if there is none.
+/// Returns the decision with the smallest margin among those for which counts(branch, pair from 0) is true.
+/// Returns IF (ISEP(I).EQ.1) only if no other IF counts, and nothing if no IF counts.
 [[nodiscard]] std::optional<decision> narrowest_decision(
     const answered_call& c, int real_bytes, const std::function<bool(branch, std::size_t)>& counts);
 
-/// "pair 3: IF (DIFF.LT.EPSMUL) was false by 1 ULP".
+/// For example "pair 3: IF (DIFF.LT.EPSMUL) was false by 1 ULP".
 [[nodiscard]] std::string words_of(const decision& d);
 
-/// A decision taken by at most this many ULP is within the rounding of one or two operations.
+/// The rounding of one or two operations can change a decision with at most this margin.
 inline constexpr std::uint64_t tie_ulps = 4;
 
 }  // namespace contct

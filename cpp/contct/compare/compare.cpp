@@ -10,7 +10,7 @@
 namespace contct {
 namespace {
 
-/// Cut the first line off `text`, without its end.
+/// Removes the first line from `text`, and returns it without its newline.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -18,7 +18,7 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// Cut the first word off `line`, without a number's zero before the point: -0.25 becomes -.25.
+/// Removes the first word from `line`, and returns it without a zero before a decimal point: -.25 for -0.25.
 std::string take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
   std::string word(line.substr(0, line.find(' ')));
@@ -28,7 +28,6 @@ std::string take_word(std::string_view& line) {
   return word;
 }
 
-/// Do two lines have the same words?
 bool mean_the_same(std::string_view a, std::string_view b) {
   while (!a.empty() || !b.empty()) {
     if (take_word(a) != take_word(b)) return false;
@@ -41,27 +40,27 @@ std::string described(const kernel_facts& k) {
          std::string(rule_words(k.rule)) + ")";
 }
 
-/// "SS(3)", "text, line 2", "SMIN".
+/// For example "SS(3)", "text, line 2" or "SMIN".
 std::string place_words(const mismatch& d) {
   if (d.index == 0) return d.field;
   return d.field + (d.field == "text" ? ", line " : "(") + std::to_string(d.index) +
          (d.field == "text" ? "" : ")");
 }
 
-/// "0x1p-1 = 0.5", for a number.
+/// Adds the decimal value to a hexadecimal number: "0x1p-1 = 0.5".
 std::string value_words(const mismatch& d, const std::string& value) {
   if (d.field != "SS" && d.field != "SMIN") return value;
   return value + " = " + short_decimal(std::strtod(value.c_str(), nullptr));
 }
 
-/// " (3 ULP)", where numbers were compared.
+/// For example " (3 ULP)"; empty if no numbers were compared.
 std::string ulp_words(const mismatch& d) {
   if (d.field != "SS" && d.field != "SMIN") return "";
   if (d.ulps == std::numeric_limits<std::uint64_t>::max()) return " (one is NaN)";
   return std::string(" (") + std::to_string(d.ulps) + " ULP)";
 }
 
-/// The differences of another answer from the leader's that show which IF was decided differently.
+/// The first differences of another answer from the leader's, and the IFs that can have caused them.
 struct differences {
   differences(const answered_call& c, const call_outputs& other)
       : of_smin(!same_bits(c.c.smin, other.smin)), no_event(c.c.smin == 1.0) {
@@ -74,7 +73,7 @@ struct differences {
         isep && c.c.isep[*isep] != c.isep_before[*isep] && other.isep[*isep] != c.isep_before[*isep];
   }
 
-  /// Does the first difference depend on this decision of that pair?
+  /// True if branch `b` of `pair` can have caused the first difference.
   [[nodiscard]] bool depends_on(branch b, std::size_t pair) const {
     if (b <= branch::check_positive) return ss == pair;
     if (b <= branch::s_is_smallest) return !ss && of_smin;
@@ -83,13 +82,12 @@ struct differences {
     return !isep || (isep == pair && both_toggled == (b == branch::was_separated));
   }
 
-  std::optional<std::size_t> ss, isep;  // the first pairs, from 0
+  std::optional<std::size_t> ss, isep;  // the first pair that differs in SS, and in ISEP, from 0
   bool of_smin, no_event;
-  bool toggled = false;       // by the other, any pair
-  bool both_toggled = false;  // the pair `isep`, to different statuses
+  bool toggled = false;       // the other answer toggles any pair
+  bool both_toggled = false;  // both answers toggle the pair `isep`, to different statuses
 };
 
-/// The branch margin.
 std::string margin_words(const mismatch_report& f) {
   const std::optional<decision>& least = f.narrowest;
   if (!least) return "branch margin: the difference depends on no IF";
@@ -115,7 +113,7 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
                                      text_equality equality) {
   ++t.values;
   for (int line = 1; leader != follower; ++line) {
-    // A line that is missing, or that lacks its end, is another line.
+    // A missing line, or a line without a newline, is a difference.
     const bool both_end =
         leader.find('\n') != std::string_view::npos && follower.find('\n') != std::string_view::npos;
     const std::string_view a = take_line(leader);
@@ -220,8 +218,7 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                      const std::function<void(std::int64_t)>& progress, fault_finder before) {
   replay_report report;
   recorded_call c;
-  // A trace of f2c may be replayed without f2c installed, so its name alone tells that the zeros before its
-  // decimal points are missing.
+  // f2c, which omits zeros before decimal points, may not be installed: only the name in the trace shows it.
   follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
   asked.faults = std::move(before);
   while (calls.next(c)) {

@@ -1,5 +1,5 @@
-// Tier 1: are two answers to one call equal to the bit? A kernel that is asked each call of a leader after
-// it, or each recorded call.
+// Compares the answers of two kernels to the same calls, to the bit. The follower repeats each call of the
+// leader, or each recorded call.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace contct {
 
-/// The compared part of a kernel's answer.
+/// The numbers of a kernel's answer.
 template <class Real>
 struct answer {
   Real smin;
@@ -31,18 +31,16 @@ struct mismatch {
   std::string field;       ///< "SMIN", "SS", "ISEP" or "text"
   int index = 0;           ///< pair, from 1, for SS and ISEP; line, from 1, for the text; else 0
   std::string leader;      ///< the leader's value, numbers in hexfloat
-  std::string follower;    ///< the follower's
-  std::uint64_t ulps = 0;  ///< distance of two numbers; 0 for ISEP and the text
+  std::string follower;    ///< the follower's value
+  std::uint64_t ulps = 0;  ///< distance of the two values; 0 for ISEP and the text
 };
 
-/// The narrowest decision of the leader's call on which the difference of another answer to it depends, given
-/// what comes before it and is equal: for SS(i) the IFs that choose it; for SMIN, if no SS differs, those
-/// that choose the smallest; for ISEP(i) and the text the decisions from SMIN and SS. Nothing if every IF was
-/// decided alike.
+/// Returns the leader's decision with the smallest margin that can have caused the first difference of
+/// another answer: for SS(i) one of the IFs that choose it; for SMIN one that chooses the smallest SS; for
+/// ISEP(i) and the text one that uses SMIN and SS. Returns nothing if the difference depends on no IF.
 [[nodiscard]] std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes,
                                                          const call_outputs& other);
 
-/// How many values have been compared, and how many of them differed.
 struct tally {
   std::int64_t values = 0;
   std::int64_t mismatches = 0;
@@ -54,8 +52,8 @@ struct tally {
   }
 };
 
-/// Have both answers, of equal length, the same bytes? Then their values are equal; a NaN of another payload
-/// makes this false, and is equal all the same.
+/// True if two answers of equal length have the same bytes. False if only payloads of NaN differ, although
+/// compare_answers counts these as equal.
 template <class Real>
 [[nodiscard]] bool same_bytes(const answer<Real>& a, const answer<Real>& b) {
   const auto same = [](const auto& x, const auto& y) {
@@ -64,7 +62,7 @@ template <class Real>
   return same_bits(a.smin, b.smin) && same(a.ss, b.ss) && same(a.isep, b.isep);
 }
 
-/// Compare two answers of equal length, value by value. NaN equals NaN; -0.0 is not +0.0.
+/// Compares two answers of equal length, value by value. NaN equals NaN; -0.0 differs from +0.0.
 template <class Real>
 std::optional<mismatch> compare_answers(const answer<Real>& leader, const answer<Real>& follower, tally& t) {
   t.values += 1 + static_cast<std::int64_t>(leader.ss.size() + leader.isep.size());
@@ -91,49 +89,46 @@ std::optional<mismatch> compare_answers(const answer<Real>& leader, const answer
 /// How unit 26 text is compared.
 enum class text_equality {
   bytes,   ///< byte for byte
-  meaning  ///< word by word, line by line; .25 is 0.25: libf2c leaves that zero out
+  meaning  ///< word by word in each line; .25 equals 0.25, because libf2c omits this zero
 };
 
-/// Compare unit-26 text, as one value.
+/// Compares unit-26 text, and counts it as one value.
 std::optional<mismatch> compare_text(std::string_view leader, std::string_view follower, tally& t,
                                      text_equality equality = text_equality::bytes);
 
-/// How the text of two kernels is compared.
 [[nodiscard]] inline text_equality text_equality_of(const kernel_facts& leader,
                                                     const kernel_facts& follower) {
   return leader.text_by_meaning || follower.text_by_meaning ? text_equality::meaning : text_equality::bytes;
 }
 
-/// The first call in which a follower did not answer as the leader.
+/// The first call in which a follower's answer differs from the leader's.
 struct mismatch_report {
   std::int64_t call = 0;  ///< from 1
-  std::string leader;     ///< names of the kernels
-  std::string follower;
+  std::string leader;     ///< name of the kernel
+  std::string follower;   ///< name of the kernel
   mismatch where;
-  std::optional<decision> narrowest;  ///< of the leader in that call, on which the difference depends
-  std::string lines = {};             ///< as lines_taken
+  std::optional<decision> narrowest;  ///< see narrowest_decision
+  std::string lines = {};             ///< see lines_taken
 };
 
-/// "call 7: mine differs in SS(3): fortran has 0x1p-1 = 0.5, mine has 0x1p-2 = 0.25 (4503599627370496 ULP)";
-/// its branch margin: the narrowest decision on which that depends, and what follows from it; lines_taken, if
-/// any.
+/// The lines of a report: the difference, for example "call 7: mine differs in SS(3): fortran has 0x1p-1 =
+/// 0.5, mine has 0x1p-2 = 0.25 (4503599627370496 ULP)"; the branch margin; and `lines` unless empty.
 [[nodiscard]] std::vector<std::string> words_of(const mismatch_report& f);
 
-/// Throws std::invalid_argument when the two differ in precision or rule: their answers cannot be
-/// equal to the bit.
+/// Throws std::invalid_argument if precision or rule differ, because then answers cannot be equal to the bit.
 void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower);
 
-/// How a follower answered one call of the leader.
+/// The comparison of a follower's answer with the leader's in one call.
 struct follower_answer {
   std::int64_t values = 0, mismatches = 0;
   std::uint64_t smin_ulps = 0;  ///< distance of SMIN
-  std::uint64_t ss_ulps = 0;    ///< largest distance of an s
-  bool failed = false;          ///< it gave no answer
+  std::uint64_t ss_ulps = 0;    ///< largest distance of an SS
+  bool failed = false;          ///< the kernel gave no answer
 };
 
-/// The differences of a kernel that is not equal to the bit, over all calls.
+/// The size of a kernel's differences from the leader, over all calls.
 struct nearness {
-  std::uint64_t most_ulps = 0;  ///< of SMIN and SS
+  std::uint64_t most_ulps = 0;  ///< largest distance of SMIN or SS
   bool same_events = true;      ///< ISEP was equal in all calls, and every call was answered
   bool always_answered = true;
 };
@@ -141,31 +136,30 @@ struct nearness {
 /// Repeats the calls of a leader with a kernel, counts the compared values, and keeps the first mismatch.
 class follower {
  public:
-  /// `k` must outlive this object. The leader's facts give the precision and the text of its calls.
+  /// `k` must outlive this object.
   follower(kernel_facts leader, kernel& k);
 
-  /// Ask a call that the leader answered, and compare SMIN, all of SS and all of ISEP; the text too, where
-  /// the call has one and the kernel writes any. A kernel that fails has one mismatch, in the field "answer".
-  /// Throws std::invalid_argument where the call is beyond the limits of refuse_beyond_limits.
+  /// Repeats a call of the leader and compares SMIN, SS and ISEP, and the text if both kernels write it. A
+  /// kernel that fails has one mismatch, in the field "answer". Throws std::invalid_argument if
+  /// refuse_beyond_limits refuses the call.
   const std::optional<mismatch>& ask(const answered_call& c);
-  /// Keep a mismatch that was found in a call, unless an earlier call has one.
+  /// Keeps a mismatch of call `c`, unless one of this or an earlier call is kept.
   void note(const mismatch& found, const answered_call& c);
-  /// A mismatch of the call that was asked last, with all that is known of it.
+  /// Reports a mismatch of the last call.
   [[nodiscard]] mismatch_report report_of(const mismatch& found, const answered_call& c) const;
 
   [[nodiscard]] kernel& asked() const { return *kernel_; }
-  /// How its text is compared with the leader's.
   [[nodiscard]] text_equality equality() const { return text_equality_of(leader_, kernel_->facts()); }
-  /// The outputs of the last call, and where they differ first from the leader's.
+  /// The kernel's outputs in the last call.
   [[nodiscard]] const call_outputs& answer() const { return answer_; }
+  /// The first difference of these outputs from the leader's.
   [[nodiscard]] const std::optional<mismatch>& difference() const { return difference_; }
-  /// The difference of that answer from the leader's.
   [[nodiscard]] const follower_answer& last() const { return last_; }
   [[nodiscard]] bool answered() const { return !last_.failed; }
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return first_; }
   tally compared;
   nearness near;
-  fault_finder faults;  ///< has every answer
+  fault_finder faults;
 
  private:
   std::optional<mismatch> compare(const answered_call& c);
@@ -185,22 +179,22 @@ struct replay_report {
   tally compared;
   branch_counts branches;
   nearness near;
-  std::optional<mismatch_report> first;  ///< the first difference
-  fault_finder faults;                   ///< has every answer, of this trace and those before it
+  std::optional<mismatch_report> first;
+  fault_finder faults;  ///< from the answers to this trace and to earlier ones
 };
 
-/// Can a kernel with these facts be compared with the trace? Not with another precision or rule.
+/// True if the kernel has the precision and the rule of the trace.
 [[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
 
-/// The kernel that is used if none is named: the 1989 code in the trace's precision, or the corrected rule.
+/// The default kernel for a trace: the 1989 code in the trace's precision, or the corrected kernel.
 [[nodiscard]] inline std::string usual_kernel(const trace_header& h) {
   if (h.rule == contact_rule::corrected) return "corrected";
   return h.real_bytes == 4 ? "fortran-r4" : "fortran";
 }
 
-/// Replay all remaining calls of `calls` with `k`, in order, and compare to the bit; the text too, if both
-/// have it, by meaning if one of them is f2c. `progress` gets the number of calls done, after each. `before`
-/// has the kernel's answers to earlier traces. Throws input_error where the trace is malformed.
+/// Repeats the remaining calls of `calls` with `k` and compares the answers to the bit. Text is compared if
+/// both have it, by meaning if either kernel is f2c. `progress` receives the number of finished calls.
+/// `before` knows the kernel's answers to earlier traces. Throws input_error if the trace is malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr,
                                    fault_finder before = {});

@@ -6,7 +6,6 @@
 namespace contct {
 namespace {
 
-/// The inputs of the DO 10 loop for pair `i`, and GAP.
 template <class Real>
 explained_pair start_of(const call<Real>& c, std::span<const int> isep_before, std::size_t i) {
   const int dof = c.dof.dof_of(c.id[i]) - 1;
@@ -32,7 +31,7 @@ listing_branch way_of(const explained_pair& p) {
   return p.at(branch::check_positive).outcome ? listing_branch::stationary_event : listing_branch::stationary;
 }
 
-/// Every decision in its pair, with the numbers that only decisions show.
+/// Stores each decision in its pair, with the numbers that it compares.
 template <class Real>
 void take_decisions(const call<Real>& c, std::span<const int> isep_before, explained_call& out) {
   for_each_decision(c, isep_before, [&out](branch b, std::size_t i, bool outcome, Real left, Real right) {

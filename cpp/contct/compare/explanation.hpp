@@ -1,4 +1,4 @@
-// Explains a call: what the listing did, pair by pair, and why.
+// Explains a call: the branches that the listing takes for each pair, and the reasons.
 #pragma once
 
 #include <array>
@@ -93,9 +93,9 @@ inline constexpr std::array all = {arguments,
 enum class why_toggled {
   not_toggled,
   winner,       ///< its s is SMIN
-  same_moment,  ///< it is at its face at SMIN too, up to rounding
-  too_early,    ///< within EPSMUL, and not yet at its face
-  by_mark,      ///< it has no event: its mark, s = 1, lies within EPSMUL of SMIN
+  same_moment,  ///< up to rounding, it is at its face at SMIN, like the winner
+  too_early,    ///< its s is within EPSMUL of SMIN, but at SMIN it is not yet at its face
+  by_mark,      ///< it has no event, but its mark, s = 1, is within EPSMUL of SMIN
 };
 
 /// The outcome of one IF for one pair.
@@ -105,7 +105,7 @@ struct taken_branch {
   std::uint64_t ulps = 0;  ///< as in `decision`
 };
 
-/// What one call did with one pair. Numbers of a 4-byte call are widened.
+/// One pair in one call. Numbers of a 4-byte call are converted to double.
 struct explained_pair {
   int pair = 0;  ///< from 0
   int node = 0;  ///< from 1
@@ -114,42 +114,41 @@ struct explained_pair {
   int isep_after = separated;
   double c = 0.0, d = 0.0, d_star = 0.0;
   double gap = 0.0;    ///< GAP, c - D: eq. 5 without its n
-  double s_chk = 0.0;  ///< SSCHK, where it was computed
+  double s_chk = 0.0;  ///< SSCHK, if it was computed
   double s = 0.0;
   listing_branch way = listing_branch::no_response;
-  double smin_before = 1.0;  ///< what s was compared with, where it was positive
-  double diff = 0.0;         ///< DIFF, where there was an event
+  double smin_before = 1.0;  ///< the SMIN that s was compared with, if s is positive
+  double diff = 0.0;         ///< DIFF, if the call has an event
   why_toggled why = why_toggled::not_toggled;
-  double distance = 0.0;  ///< |c - (D + SMIN d*)|: from its face at SMIN
+  double distance = 0.0;  ///< from the face at SMIN: |c - (D + SMIN d*)|
   std::array<taken_branch, branch_names.size()> taken;
 
   [[nodiscard]] const taken_branch& at(branch b) const { return taken[index_of(b)]; }
   [[nodiscard]] bool toggled() const { return isep_before != isep_after; }
   [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
-  /// Has it an event under the 1989 rule? The mark for "no event" does not count, however it compares.
+  /// True if the pair has an event under the 1989 rule. The mark for "no event" never counts.
   [[nodiscard]] bool is_candidate() const {
     return (way == listing_branch::moving || way == listing_branch::stationary_event) && s > 0.0;
   }
 };
 
-/// What one call did.
 struct explained_call {
   int real_bytes = 8;
   double smin = 1.0;
   std::vector<explained_pair> pairs;
   int winner = -1;                    ///< pair from 0; -1: no event
   int next = -1;                      ///< the candidate with the next smallest s; -1: none
-  std::uint64_t ulps_ahead = 0;       ///< numbers between the winner's s and the next one's
+  std::uint64_t ulps_ahead = 0;       ///< distance of the s of `winner` and of `next`
   std::optional<decision> narrowest;  ///< of the whole call
 };
 
-/// A distance from a face that rounding explains, as a share of the largest deflection.
+/// The largest distance from a face that rounding can explain, as a share of the largest deflection.
 [[nodiscard]] constexpr double rounding_share(int real_bytes) {
   return real_bytes == 4 ? 1e-5 : 1e-11;
 }
 
-/// Explain a call of a kernel of `real_bytes`. `largest` is the largest deflection of the path so far; those
-/// of this call can raise it. Nothing of a kernel's code is used: this follows the listing's text.
+/// Explains a call of a kernel of `real_bytes`. `largest` is the largest deflection of the path so far, and
+/// is updated. This function follows the listing's text and uses no code of a kernel.
 [[nodiscard]] explained_call explain(const answered_call& c, int real_bytes, double& largest);
 
 }  // namespace contct

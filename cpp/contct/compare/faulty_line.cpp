@@ -14,10 +14,10 @@ namespace {
 
 namespace l = listing;
 
-/// Less obvious faults of a line.
+/// Special faults of a line, each a suspect of its own.
 enum another { none, last_pair, wrong_sign, wrong_product, any_number, loop_left };
 
-/// The place of a suspect. Of two that cost the same the first is named.
+/// The index of a suspect. If two have the same cost, the smaller index wins.
 constexpr std::size_t at(const listing_line& line, another fault = none) {
   return 10 * static_cast<std::size_t>(line.number) + fault;
 }
@@ -29,15 +29,15 @@ listing_line line_of(std::size_t suspect) {
 }
 
 constexpr std::int64_t most_calls = 1000;
-constexpr std::int64_t most_pairs = 500'000;  // of all calls that are looked at: their time
-constexpr double number_bits = 64.0;          // to tell a number that follows no rule
-constexpr double always_bits = 30.0;          // for a fault that must occur every time and did not
-constexpr double unexplained_bits = 200.0;    // for a value that the line cannot have made wrong
+constexpr std::int64_t most_pairs = 500'000;  // of all used calls, which limits the time
+constexpr double number_bits = 64.0;          // for a number that follows no rule
+constexpr double always_bits = 30.0;          // for each exception from a fault that must always occur
+constexpr double unexplained_bits = 200.0;    // for a differing value that the line does not explain
 
 /// log2 of the number of ways to choose `k` of `n`.
 double choice_bits(std::int64_t n, std::int64_t k) {
   const auto log_factorial =
-      [](std::int64_t x) {  // J. Stirling's, to 0.001: lgamma would add 30 kB to the static program
+      [](std::int64_t x) {  // Stirling's formula, to 0.001: lgamma would add 30 kB to the static program
         constexpr double two_pi = 6.283185307179586;
         const auto v = static_cast<double>(x);
         return x < 2 ? 0.0 : v * std::log(v) - v + std::log(two_pi * v) / 2 + 1 / (12 * v);
@@ -51,18 +51,18 @@ void explain_one(suspect& s, double bits, std::int64_t values = 1) {
   s.bits += bits;
 }
 
-/// The same of an IF that compared `left`.
+/// Like explain_one, for an IF that compared `left`.
 void explain_if(suspect& s, double left) {
   s.least = s.wrong == 0 ? left : std::min(s.least, left);
   s.most = s.wrong == 0 ? left : std::max(s.most, left);
   explain_one(s, 0.0);
 }
 
-/// The property that a wrong number may share with the one before it: its value or its ratio to the correct
-/// one, or the ratio alone.
+/// The rule that wrong numbers may follow: they repeat their value or their ratio to the correct number, or
+/// only the ratio.
 enum class rule { any, ratio };
 
-/// The bits that tell a wrong number in the place of a right one: few where it follows a rule.
+/// The number of bits that describe a wrong number; few if the number follows a rule.
 template <class Real>
 double value_bits(suspect& s, Real got, Real right, double for_rounding, rule repeats = rule::any) {
   constexpr std::uint64_t few_ulps = 8;
@@ -79,18 +79,18 @@ double value_bits(suspect& s, Real got, Real right, double for_rounding, rule re
   return number_bits;
 }
 
-/// The listing's SS of one pair if its dof is `dof`, from 0: NaN if the call has no such dof.
+/// The numbers from which the listing computes SS of one pair.
 template <class Real>
 struct pair_values {
   Real gap{}, d_star{}, sschk{}, event{}, delta_first{}, s{};
-  Real at_face{}, moving{};  // s if that branch were taken
+  Real at_face{}, moving{};  // s by IF (ABS(GAP).LT.EPSGAP) true, and false
   bool responds = false, is_stationary = false, check = false;
 
-  /// Without IF (DTEST(NDOF).EQ.0.).
+  /// s if IF (DTEST(NDOF).EQ.0.) were missing.
   [[nodiscard]] Real without_first() const { return is_stationary ? at_face : moving; }
 };
 
-/// `dof`: that of pair `i`, from 0.
+/// The values of pair `i` on `dof`, from 0; NaN if the call has no such dof.
 template <class Real>
 pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std::int64_t dof) {
   pair_values<Real> p;
@@ -102,7 +102,8 @@ pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std:
   p.gap = c.cc[i] - (is_there ? c.dd[dof] : nan);
   p.sschk = static_cast<Real>(status * c.isurf[i]) / p.d_star;
   p.event = p.sschk * delta;
-  p.delta_first = static_cast<Real>(status * c.isurf[i]) * delta / p.d_star;  // the product in another order
+  p.delta_first =
+      static_cast<Real>(status * c.isurf[i]) * delta / p.d_star;  // multiplied before the division
   p.check = p.sschk > Real(0);
   p.at_face = p.check ? p.event : Real(1);
   p.moving = p.gap / p.d_star;
@@ -112,8 +113,8 @@ pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std:
   return p;
 }
 
-/// "MAKING" and "BREAKING" by pair, as the text of a kernel reports it; pairs of more than three digits are
-/// not reported.
+/// The change of each pair that a kernel's text reports; nothing for a pair beyond 999, which I3 cannot
+/// print.
 std::vector<std::optional<change>> told_by(const std::string& text, std::size_t pairs) {
   std::vector<std::optional<change>> told(pairs);
   change what = change::make;
@@ -136,12 +137,13 @@ struct text_line {
     words = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
-  /// 20, 40, 50 or 60: the FORMAT that it looks like.
+  /// The label of the FORMAT that the line resembles: 20, 40, 50 or 60.
   [[nodiscard]] int format() const {
     const auto has = [this](const char* word) { return words.find(word) != std::string::npos; };
     return has("NO EVENTS") ? 20 : has("MAKING") ? 40 : has("BREAKING") ? 50 : 60;
   }
-  /// Its numbers; text, and the blanks around it, with a 0 for each character of a number.
+  /// Appends the line's numbers to `numbers`, and the line to `form`, with 0 for every character of a number
+  /// except the point.
   void split(std::vector<double>& numbers, std::string& form) const {
     for (const char* at = words.c_str(); *at != '\0';) {
       char* end = nullptr;
@@ -156,8 +158,8 @@ struct text_line {
   std::string words;
 };
 
-/// Which statement wrote one line in the place of another: the FORMAT where the numbers are the same in
-/// another form.
+/// The suspect that explains the line `got` in place of `right`: a FORMAT if only the form of numbers
+/// differs.
 std::size_t writer_of(const text_line& right, const text_line& got, int last_node) {
   const int format = right.format();
   if (format == 40 || format == 50)
@@ -175,7 +177,8 @@ std::size_t writer_of(const text_line& right, const text_line& got, int last_nod
   };
   if (!expected.empty() && !found.empty()) {
     const double power = std::log10(found.back() / expected.back());
-    if (std::abs(power - std::round(power)) < rounding) found.back() = expected.back();  // another exponent
+    if (std::abs(power - std::round(power)) < rounding)
+      found.back() = expected.back();  // only the exponent differs
   }
   const bool only_form = expected.size() != found.size() || form != other_form ||
                          std::equal(expected.begin(), expected.end(), found.begin(), same);
@@ -232,7 +235,6 @@ void fault_finder::note_scale_factors(const call<Real>& c, const answered_call& 
   if (!c.cc.empty()) note_loop(c, right, other.ss);
 }
 
-/// The SS of one pair.
 template <class Real>
 void fault_finder::note_pair(const call<Real>& c, const answered_call& right, std::size_t i, Real got) {
   const int status = right.isep_before[i];
@@ -240,13 +242,13 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   const pair_values<Real> p = at_dof(c.dof.dof_of(c.id[i]) - 1);
   const bool wrong = !same_bits(got, c.ss[i]);
   differ_ += wrong ? 1 : 0;
-  // A line that would have given `other` had it gone wrong.
+  // A line that gives `other` if it is wrong.
   const auto could_give = [&](std::size_t name, Real other, Real left) {
     if (same_bits(other, c.ss[i])) return;
     ++suspects_[name].reached;
     if (wrong && same_bits(got, other)) explain_if(suspects_[name], static_cast<double>(left));
   };
-  // A line that could have given any number.
+  // A line that can give any number if it is wrong.
   const auto assigns = [&](std::size_t name, double for_rounding, rule repeats = rule::any) {
     ++suspects_[name].reached;
     if (wrong) explain_one(suspects_[name], value_bits(suspects_[name], got, c.ss[i], for_rounding, repeats));
@@ -258,7 +260,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   could_give(at(l::node), at_dof(static_cast<std::int64_t>(i) * c.dof.ndofpn + c.dof.indof - 1).s, got);
   could_give(at(l::if_no_response), p.responds ? Real(1) : p.without_first(), p.d_star);
   ++suspects_[at(l::ndof)].reached;
-  const auto of_some_dof = [&](auto s_of) {  // what lies outside the arrays is unknown
+  const auto of_some_dof = [&](auto s_of) {  // values outside the arrays are unknown
     constexpr std::int64_t most = 2000;
     for (std::int64_t dof = 0; dof < std::min<std::int64_t>(std::ssize(c.dd), most); ++dof)
       if (same_bits(s_of(at_dof(dof)), got)) return true;
@@ -272,7 +274,8 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
                     : 8.0);
   if (!p.responds) return assigns(at(l::no_response), 3.0);
   could_give(at(l::if_stationary), p.is_stationary ? p.moving : p.at_face, std::abs(p.gap));
-  const bool of_a_gap = !(std::abs(got * p.d_star) < Real(0.999e-10));  // EPSGAP, less rounding
+  const bool of_a_gap =
+      !(std::abs(got * p.d_star) < Real(0.999e-10));  // slightly less than EPSGAP, for rounding
   if (!p.is_stationary) {
     could_give(at(l::gap, wrong_sign), -p.moving, p.gap);
     const auto other_gap = [d_star = p.d_star](const auto& q) { return q.gap / d_star; };
@@ -292,7 +295,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
              p.sschk);
   if (!wrong || of_a_gap) assigns(at(l::gap), 5.0);
   if (!wrong || got >= Real(0)) assigns(at(l::check_variable), 5.0);
-  suspects_[at(l::check_variable)].bits += wrong ? 1.0 : 0.0;  // a ratio that repeats is rather that of DELTA
+  suspects_[at(l::check_variable)].bits += wrong ? 1.0 : 0.0;  // a repeated ratio points to DELTA
   if (!p.check) return assigns(at(l::stationary), 3.0);
   if (!wrong || !same_bits(got, p.delta_first))
     return assigns(at(l::if_check_positive, wrong_product), 3.0, rule::ratio);
@@ -300,7 +303,8 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   explain_one(suspects_[at(l::if_check_positive, wrong_product)], 1.0);
 }
 
-/// Note SS that kept their initial values: from which pair on, and the branch of the pair before it.
+/// Finds where the other kernel left the loop: the SS after it keep their initial values. Suspects are the
+/// branches of the last pair that was set.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, const answered_call& right, std::span<const double> ss) {
   const std::size_t pairs = ss.size();
@@ -330,7 +334,6 @@ void fault_finder::note_loop(const call<Real>& c, const answered_call& right, st
               [&](std::size_t i) { return c.ss[i] > Real(0) && c.ss[i] < Real(1); });
 }
 
-/// SMIN, by the other kernel's SS.
 template <class Real>
 void fault_finder::note_smallest(const call_outputs& other) {
   double least = 1.0;
@@ -345,7 +348,7 @@ void fault_finder::note_smallest(const call_outputs& other) {
   ++differ_;
   if (is_one_of_them) explain_one(suspects_[at(l::smallest)], 1.0);
   if (least == 1.0 && other.smin == not_an_answer)
-    explain_one(suspects_[at(l::if_no_events)], 2.0);  // left before it is given back
+    explain_one(suspects_[at(l::if_no_events)], 2.0);  // returned before SMIN was stored
   for (const std::size_t name : {at(l::smin_is_1), at(l::smallest, any_number)}) {
     if (name == at(l::smin_is_1) && other.smin > least && least < 1.0) continue;
     const double bits = other.smin == last_smin_ ? 1.0
@@ -355,15 +358,14 @@ void fault_finder::note_smallest(const call_outputs& other) {
   }
 }
 
-/// ISEP, by the other kernel's SS and SMIN.
 template <class Real>
 void fault_finder::note_toggles(const answered_call& right, const call_outputs& other) {
   const std::size_t pairs = other.isep.size();
   const auto smin = static_cast<Real>(other.smin);
   std::vector<Real> diffs(pairs);
   std::vector<int> toggled(pairs);
-  std::vector<std::size_t> expected;  // pairs that DO 30 toggles
-  std::vector<std::size_t> found;     // that were toggled
+  std::vector<std::size_t> expected;  // pairs that DO 30 must toggle
+  std::vector<std::size_t> found;     // pairs that the other kernel toggled
   std::int64_t without_event = 0;
   std::int64_t wrong = 0;
   for (std::size_t i = 0; i < pairs; ++i) {
@@ -402,14 +404,13 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   }
 }
 
-/// The ISEP of one pair.
 template <class Real>
 void fault_finder::note_toggle(int before, int got, Real diff_now, const std::optional<change>& told,
                                bool has_text) {
   const Real epsmul = Real(1) / Real(256);
   const bool is_within = diff_now < epsmul;
   const bool was_separated = before == separated;
-  const int if_true = in_contact;  // what either branch of IF (ISEP(I).EQ.1) sets
+  const int if_true = in_contact;  // the new ISEP by IF (ISEP(I).EQ.1)
   const int if_false = separated;
   const int by_branch = was_separated ? if_true : if_false;
   const bool wrong = got != (is_within ? by_branch : before);
@@ -430,7 +431,7 @@ void fault_finder::note_toggle(int before, int got, Real diff_now, const std::op
   const bool other_branch = got == (was_separated ? if_false : if_true);
   const auto [seen, first] = separated_.emplace(before, other_branch != was_separated);
   const bool same_as_before = seen->second == (other_branch != was_separated);
-  // A statement that sets ISEP sets it to the same for each status.
+  // A wrong statement sets the same ISEP every time, for each status before.
   const bool is_usual = set_to_.emplace(before, got).first->second == got;
   assigned.bits += is_usual ? 0.0 : always_bits;
   if (!wrong) return;
@@ -443,7 +444,6 @@ void fault_finder::note_toggle(int before, int got, Real diff_now, const std::op
     explain_one(suspects_[at(l::if_separated)], first ? 2.0 : 0.0);
 }
 
-/// The first line of the text that differs.
 void fault_finder::note_text(const answered_call& right, const call_outputs& other) {
   std::string_view a = *right.text;
   std::string_view b = other.text;
@@ -473,7 +473,7 @@ std::optional<faulty_line> fault_finder::found() const {
   constexpr std::string_view compared[] = {"DTEST", "ABS(GAP)", "SSCHK", "DIFF"};
   const std::size_t ifs[] = {at(l::if_no_response), at(l::if_stationary), at(l::if_check_positive),
                              at(l::if_within)};
-  // Swapped arguments, and a loop with another start, end or exit, are wrong every time.
+  // Faults that go wrong in every execution.
   const std::size_t always[] = {at(l::arguments),          at(l::common),
                                 at(l::gap, wrong_sign),    at(l::do_10),
                                 at(l::do_10, last_pair),   at(l::do_30),
@@ -481,7 +481,7 @@ std::optional<faulty_line> fault_finder::found() const {
                                 at(l::moving, loop_left),  at(l::smallest, loop_left),
                                 at(l::write_60, loop_left)};
   const bool by_threshold = most_true_ < least_false_ || most_false_ < least_true_;
-  // EPSMUL is a power of 2: no wrong constant is next to it, but what rounds DIFF looks so.
+  // A threshold this close to EPSMUL comes from a different rounding of DIFF, not from a wrong EPSMUL.
   const auto next_to = [](double x) { return x != 1.0 / 256.0 && std::abs(x * 256.0 - 1.0) < 1e-6; };
   const bool is_rounded = next_to(most_true_) && next_to(least_false_);
   double least = std::numeric_limits<double>::infinity();
@@ -490,7 +490,8 @@ std::optional<faulty_line> fault_finder::found() const {
     const suspect& s = suspects_[name];
     if (s.explained == 0) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
-    // The errors of IF (DIFF.LT.EPSMUL) follow from DIFF, and those of IF (ISEP(I).EQ.1) from ISEP.
+    // DIFF determines where IF (DIFF.LT.EPSMUL) is wrong, and ISEP where IF (ISEP(I).EQ.1) is: no list is
+    // needed.
     if (name == at(l::if_within))
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (name != at(l::if_separated))
@@ -520,7 +521,7 @@ std::string cited(const listing_line& line) {
   return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
 }
 
-/// The branch of the listing that gives the value of an SS, if there is one.
+/// The line of the listing that gives `s`; empty if none does.
 template <class Real>
 std::string way_words(const pair_values<Real>& p, Real s) {
   if (p.responds && !p.is_stationary && same_bits(s, p.moving)) return cited(l::moving);

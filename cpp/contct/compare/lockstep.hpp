@@ -1,4 +1,4 @@
-// Tier 1: each call that a leader answers goes to other kernels, and is compared to the bit.
+// Compares kernels in lockstep, to the bit.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace contct {
 
-/// Puts each call that the leader answered to every follower, with identical inputs, and compares SMIN, all
-/// of SS, all of ISEP and the unit-26 text.
+/// Repeats each call of the leader with every follower, with identical inputs, and compares SMIN, SS, ISEP
+/// and the unit-26 text.
 class lockstep {
  public:
-  /// Throws std::invalid_argument when a follower has another precision or rule than the leader.
+  /// Throws std::invalid_argument if a follower's precision or rule differs from the leader's.
   lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers);
-  /// With kernels by name: all are known, and refused by their facts, before the first is made.
+  /// Makes the kernels by name, after the facts of all of them have been checked.
   lockstep(const kernel_facts& leader, std::span<const std::string> followers);
 
   void put(const answered_call& c);
@@ -26,11 +26,11 @@ class lockstep {
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   /// The compared values of all followers together.
   [[nodiscard]] tally compared() const;
-  /// The first call in which a follower did not answer as the leader.
+  /// The earliest first mismatch of any follower.
   [[nodiscard]] const std::optional<mismatch_report>& first() const;
-  /// Did every follower answer the last call as the leader did?
+  /// True if every follower's last answer equals the leader's.
   [[nodiscard]] bool last_call_equal() const;
-  /// How each follower answered the last call.
+  /// The last answers [followers].
   [[nodiscard]] const std::vector<follower_answer>& last_answers() const { return last_answers_; }
   [[nodiscard]] const std::vector<follower>& followers() const { return followers_; }
   [[nodiscard]] std::vector<follower>& followers() { return followers_; }
