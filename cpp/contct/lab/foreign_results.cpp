@@ -28,7 +28,7 @@ bool is_count_or_state(const expected_number& e) {
   return e.quantity == "state" || e.quantity == "contacts" || e.quantity == "events";
 }
 
-/// The size to which an error of `e` is relative.
+/// The number to which an error of `e` is relative.
 double size_of(const expected_number& e, const std::vector<expected_number>& all) {
   if (e.quantity == "event" || is_count_or_state(e)) return 1.0;
   const kind_of_number kind = kind_of(e);
@@ -39,7 +39,7 @@ double size_of(const expected_number& e, const std::vector<expected_number>& all
   return size == 0.0 ? 1.0 : size;
 }
 
-/// The table's entries for a step, for a message.
+/// Lists the table's entries for a step in a message.
 std::string known_in_step(const std::vector<expected_number>& all, int step) {
   std::string words;
   for (const expected_number& e : all)
@@ -68,7 +68,8 @@ void judge_entry(const toml_value& entry, const std::vector<expected_number>& al
 
 foreign_case judge_case(const toml_value& given, const verification_case& of, double tolerance) {
   foreign_case c{name_of(of)};
-  std::vector<expected_number> all;  // each once: the table may compare one with several sources
+  std::vector<expected_number>
+      all;  // without duplicates: the table may compare a number with several sources
   for (const expected_number& e : of.checks)
     if (find_same(all, e) == all.end()) all.push_back(e);
   std::vector<std::string_view> keys(place_keys.begin(), place_keys.end());

@@ -1,4 +1,4 @@
-// The numbers that another program has for the reference problems, judged by the exact ones.
+// Judges another program's results of the reference problems by the exact numbers.
 #pragma once
 
 #include <string>
@@ -8,16 +8,15 @@
 
 namespace contct {
 
-/// A number of another program, with the exact one.
 struct foreign_number {
   expected_number expected;
-  double given = 0.0;  ///< of a state as in `expected`
+  double given = 0.0;  ///< the other program's number; a state as in expected_number::value
   double error = 0.0;  ///< see judge_results
   bool passed = false;
 };
 
 struct foreign_case {
-  std::string name;  ///< the problem file's, without its ending
+  std::string name;  ///< of the problem file, without its ending
   std::vector<foreign_number> numbers = {};
   std::vector<expected_number> not_given = {};
   std::size_t failed = 0;
@@ -33,10 +32,10 @@ struct foreign_results {
   std::size_t judged = 0, failed = 0;       ///< numbers
 };
 
-/// Read and judge the file at `path`. Counts and states must be equal, and shares of a step lie within the
-/// file's tolerance; the error of any other number is relative to the largest exact one of its kind that the
-/// table has for the problem. Entries that the table does not have are refused, and so are duplicates. Throws
-/// input_error.
+/// Reads and judges the file at `path`. Counts and states must be equal; other errors must be within the
+/// file's tolerance. The error of a share of a step is absolute. Any other error is relative to the largest
+/// exact number of its kind in the table's problem. Refuses duplicates, and entries that the table lacks.
+/// Throws input_error.
 [[nodiscard]] foreign_results judge_results(const std::string& path,
                                             const std::vector<verification_case>& table);
 

@@ -14,11 +14,11 @@ namespace contct {
 namespace {
 
 constexpr std::int64_t calls_between_progress = 2048;
-constexpr std::int64_t most_calls_before = 40;  // that a kernel with a memory may need for its mismatch
+constexpr std::int64_t most_calls_before = 40;  // kept for kernels that keep data between calls
 constexpr std::int64_t problems_certified = 20;
 constexpr std::uint64_t few_ulps = 64;
 
-/// Problems small enough that thousands of them are quick.
+/// A problem small enough for runs of thousands.
 random_problem quick_problem(std::uint64_t seed, std::int64_t number) {
   random_problem_kind kind;
   kind.most_elements = 16;
@@ -32,7 +32,7 @@ call_inputs<double> inputs_of(const answered_call& c) {
           owned(c.isep_before), owned(c.c.isurf), c.c.dof};
 }
 
-/// The first mismatch of a follower, and the calls up to it.
+/// The first mismatch of a follower, and the calls that lead to it.
 struct first_mismatch {
   mismatch_report what;
   call_sequence calls;
@@ -67,7 +67,7 @@ class fuzzing final : public observer {
       run_.result.followers[f].near = followers()[f].near;
       run_.result.followers[f].at_fault = followers()[f].faults.found();
     }
-    compared_.reset();  // unit 26 belongs to the process: the kernels make room for fresh ones
+    compared_.reset();  // unit 26 belongs to the process, so these kernels must end before new ones are made
     leader_.reset();
     for (std::size_t f = 0; f < firsts_.size(); ++f) conclude(run_.result.followers[f], firsts_[f]);
     run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -115,10 +115,10 @@ class fuzzing final : public observer {
   void compare(const answered_call& c) {
     run_.result.count(c.c, c.isep_before);
     compared_->put(c);
-    for (const follower& f : followers()) (void)f.asked().take_text();  // where it was not compared
+    for (const follower& f : followers()) (void)f.asked().take_text();  // discards text that was not compared
   }
 
-  /// Keep what shows the first mismatch of each follower; `up_to(number)`: the calls up to that one.
+  /// Stores the first mismatch of each follower. `up_to(number)` returns the calls up to this number.
   template <class Calls>
   void keep_firsts(Calls up_to) {
     for (std::size_t f = 0; f < firsts_.size(); ++f) {
@@ -129,7 +129,7 @@ class fuzzing final : public observer {
 
   [[nodiscard]] std::vector<follower>& followers() { return compared_->followers(); }
 
-  /// The result of a follower: its level of equality, and its first mismatch made small.
+  /// Determines a follower's level of equality, and shrinks its first mismatch.
   void conclude(fuzz_follower& total, const std::optional<first_mismatch>& first) {
     total.highest = level_of(total);
     if (!first) return;
@@ -138,7 +138,7 @@ class fuzzing final : public observer {
     if (total.at_fault) lines.push_back("at fault: " + words_of(*total.at_fault));
     const std::unique_ptr<kernel> leader = make_(request_.kernels[0]);
     const std::string& field = first->what.where.field;
-    const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs takes its time for every try
+    const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs delays every try
     if (auto small = shrunk_case(
             *leader, [&] { return make_(total.name); }, first->calls, field, most_tries)) {
       lines.push_back("shrunk to " + std::to_string(small->calls.size()) + " call(s), " +
@@ -156,8 +156,7 @@ class fuzzing final : public observer {
     return certified_paths(total) ? equality_level::certificate : equality_level::none;
   }
 
-  /// Are the follower's own paths certified: of the first problems, and of those in which a follower
-  /// differed?
+  /// Checks the first problems, and those in which any follower differed.
   bool certified_paths(const fuzz_follower& total) {
     if (request_.problems == 0 || !total.near.always_answered) return false;
     std::vector<std::int64_t> asked = differing_problems_;
@@ -167,8 +166,8 @@ class fuzzing final : public observer {
     });
   }
 
-  /// Does the follower's own path of the problem end as well as the leader's: certified, or truly without
-  /// equilibrium? True where the leader's does not.
+  /// True if the follower's own path has the same verdict as the leader's, or if the leader's path is neither
+  /// certified nor truly without equilibrium.
   bool certified_as_leader(const random_problem& p, const std::string& follower) {
     const verdict leads = try_problem(p, *make_(request_.kernels[0])).came_to;
     if (leads != verdict::certified && leads != verdict::no_equilibrium) return true;
@@ -186,8 +185,8 @@ class fuzzing final : public observer {
   call_source source_;
   std::optional<lockstep> compared_;
   std::vector<std::optional<first_mismatch>> firsts_;  // [followers]
-  call_sequence path_;                                 // the calls of the problem that is followed
-  std::vector<std::int64_t> differing_problems_;       // the first ones in which a follower differed
+  call_sequence path_;                                 // the calls of the current problem
+  std::vector<std::int64_t> differing_problems_;       // the first problems in which a follower differed
   fuzz_run run_;
 };
 

@@ -15,15 +15,15 @@ constexpr int most_pairs = 64;
 constexpr int last_node = 1100;  // beyond 999, I3 of the log overflows
 constexpr int most_dofs = 3 * last_node + 3;
 constexpr double powers_of_ten[] = {1e-15, 1e-12, 1e-10, 1e-9, 1e-6, 1e-3, 1.0, 1e2, 1e5};
-constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15;  // so that the two generators do not run in step
+constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15;  // makes the two generators independent
 
-/// Draws one call with random numbers of its own.
+/// Draws one call, with a random generator for this call alone.
 template <class Real>
 class drawn_call {
  public:
   using limits = std::numeric_limits<Real>;
 
-  /// The values of the call before in dd and dtest are overwritten with NaN: no kernel may read them.
+  /// Overwrites the dd and dtest of the previous call with NaN, because no kernel may read them.
   drawn_call(std::uint64_t seed, std::uint64_t number, call_inputs<Real>& in)
       : random_(random_numbers(seed ^ (number * 0xd1342543de82ef95)).bits()), in_(in) {
     for (std::size_t i = 0; i < in_.pairs(); ++i) {
@@ -50,7 +50,7 @@ class drawn_call {
                       : random_.chance(0.002) ? 0
                                               : random_.whole(1, 6);
     resize(pairs);
-    // Shared nodes are common among many pairs; beyond node 999 the log overflows.
+    // Many pairs often share nodes. Beyond node 999 the log overflows.
     const int first = random_.chance(0.05) ? last_node - 150 : 1;
     const int nodes = random_.chance(0.2) ? 2 : pairs > 100 ? last_node : 150;
     for (int i = 0; i < pairs; ++i) in_.id[i] = random_.whole(first, std::min(first + nodes - 1, last_node));
@@ -81,14 +81,14 @@ class drawn_call {
     const std::size_t dof = in_.dof_of_pair(i);
     in_.dd[dof] = number(0.3, 0.5);
     in_.dtest[dof] = number(0.1, 0.5);
-    // Some pairs are at their face, some within EPSGAP of it.
+    // Some pairs are at their face, or within EPSGAP of it.
     in_.cc[i] =
         random_.chance(0.3)
             ? in_.dd[dof] + static_cast<Real>(random_.chance(0.5) ? 0.0 : 2e-10 * (random_.unit() - 0.5))
             : number(0.2, 0.5);
   }
 
-  /// `x`, or a number one or two ULP to either side.
+  /// `x`, or a number one or two ULP above or below it.
   Real nudged(Real x) {
     const int ulps = random_.whole(-2, 2);
     const Real towards = ulps > 0 ? limits::infinity() : -limits::infinity();
@@ -108,14 +108,14 @@ class drawn_call {
     return random_.chance(0.5) ? x : -x;
   }
 
-  /// A response that keeps products with a scale factor exact, or any.
+  /// A power of 2, whose product with a scale factor is exact, or any other response.
   Real some_response() {
     const Real power = std::ldexp(Real(1), random_.whole(-6, 6));
     const Real x = random_.chance(0.6) ? power : static_cast<Real>(0.1 + random_.unit());
     return random_.chance(0.5) ? x : -x;
   }
 
-  /// c - D = `gap`, with D at zero, or with c at zero, or both elsewhere, up to rounding.
+  /// Sets c - D to `gap`, up to rounding. D, c or neither is zero.
   void place_gap(std::size_t dof, std::size_t i, Real gap) {
     const int where = random_.whole(0, 3);
     in_.dd[dof] = where == 0 ? -gap : where == 1 ? static_cast<Real>(random_.unit()) : Real(0);
@@ -137,7 +137,7 @@ class drawn_call {
         return place_gap(dof, i, (random_.chance(0.5) ? 1 : -1) * nudged(constants<Real>::epsgap));
       case 2:  // SSCHK.GT.0.
         if (random_.chance(0.4)) response = from_the_edges();
-        // SSCHK * DELTA is about the smallest number there is: SS(I).GT.0. to the ULP.
+        // SSCHK * DELTA is near the smallest number, so that SS(I).GT.0. is decided by one ULP.
         if (random_.chance(0.2)) response *= constants<Real>::delta / limits::denorm_min();
         in_.dd[dof] = static_cast<Real>(random_.unit());
         in_.cc[i] = in_.dd[dof];

@@ -11,7 +11,7 @@
 namespace contct {
 namespace {
 
-/// Draws one problem, in random units: length and force are scaled at the places they enter.
+/// Draws one problem in random units of length and force.
 class drawing {
  public:
   drawing(std::uint64_t seed, std::uint64_t number, const random_problem_kind& kind)
@@ -36,7 +36,7 @@ class drawing {
   [[nodiscard]] int node_count() const { return nodes(problem_.geometry); }
   [[nodiscard]] bool is_plate() const { return std::holds_alternative<plate>(problem_.geometry.kind); }
 
-  /// The mirror image of a node about the middle in x.
+  /// The node at the mirror image about the middle in x.
   [[nodiscard]] int mirror_of(int node) const {
     if (const auto* p = std::get_if<plate>(&problem_.geometry.kind))
       return p->node_at(p->columns() - 1 - node % p->columns(), node / p->columns());
@@ -88,8 +88,7 @@ class drawing {
     problem_.supports.push_back({last, 0, false, k});
   }
 
-  /// All edges held, clamped at one (or at two that mirror each other), held at the corners, or on
-  /// springs there.
+  /// Holds all edges, clamps one edge or two opposite edges, or holds the corners, rigidly or by springs.
   void draw_plate_supports(const plate& p) {
     const int how = random_.whole(0, 3);
     const double k = force_ / problem_.unit * power_between(0, 4);
@@ -116,7 +115,8 @@ class drawing {
                        [node](const support& s) { return s.fixed && s.node == node && s.dof == 0; });
   }
 
-  /// One to five steps: a new load, none, the opposite of the last one, or the last one times a factor.
+  /// Draws one to five steps: each has a new load, no load, the reversed last load, or the last load times a
+  /// factor.
   void draw_steps() {
     const int steps = random_.whole(1, 5);
     for (int step = 0; step < steps; ++step) {
@@ -171,7 +171,7 @@ class drawing {
     return l;
   }
 
-  /// Deflections [nodes] of the structure without pairs under the first load: the size of useful gaps.
+  /// Deflections [nodes] under the first load without pairs. They give the size of useful gaps.
   [[nodiscard]] std::vector<double> free_deflection() const {
     linear_structure s = build(problem_.geometry, problem_.supports, {});
     std::vector<double> f(s.dofs(), 0.0);
@@ -189,7 +189,7 @@ class drawing {
   void draw_pairs() {
     const std::vector<double> w = free_deflection();
     for (const double at : w) largest_ = std::max(largest_, std::abs(at));
-    if (largest_ == 0.0) largest_ = 0.01 * problem_.unit;  // loads on supports alone
+    if (largest_ == 0.0) largest_ = 0.01 * problem_.unit;  // all loads act on supports
     common_stiffness_ = random_.chance(0.5) ? power_between(0, 8) : 0.0;
     common_gap_ = largest_ * power_between(-2, 0);
     const double density = problem_.held ? between(0.2, 1.0) : between(0.6, 1.0);

@@ -1,5 +1,5 @@
-// Random problems on one-sided supports, the same everywhere from a seed and a number, and the path of one
-// kernel on them.
+// Random problems with one-sided supports, the same on every machine for a seed and a number, and the path of
+// a kernel on them.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ namespace contct {
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
 inline constexpr int face_layouts = 8;
 
-/// The range of random problems: beams and plates on 1 to all of their nodes' pairs, springs over eight
-/// decades, one to five load steps with unloading and reversal.
+/// The range of random problems: beams and plates with pairs at one to all nodes, springs over eight decades,
+/// and one to five load steps with unloading and reversal.
 struct random_problem_kind {
   double least_unit = 1e-12;  ///< the unit of length, log-uniform between these two
   double most_unit = 1e12;
@@ -28,12 +28,11 @@ struct random_problem_kind {
 };
 
 struct random_problem : problem {
-  bool held = true;  ///< by its supports
+  bool held = true;  ///< the supports hold the structure
   face_layout layout = face_layout::gaps;
   double unit = 1.0;  ///< the unit of length
 };
 
-/// Problem `number` of `seed`.
 [[nodiscard]] random_problem make_random_problem(std::uint64_t seed, std::uint64_t number,
                                                  const random_problem_kind& kind = {});
 
@@ -43,7 +42,7 @@ enum class verdict {
   no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
   wrong,            ///< the path reached its end, and some final state is wrong
   false_mechanism,  ///< the path ended in a mechanism although there is an equilibrium
-  no_end,           ///< cycle, increments without end, or no factor
+  no_end,           ///< the path has a cycle, too many increments, or no factor
 };
 
 struct problem_result {
@@ -51,12 +50,12 @@ struct problem_result {
   std::vector<certificate> certificates = {};  ///< of the steps that reached their load
 };
 
-/// Follow `p` with `leader` on the engine named, with the reference solution as a fallback where its rule
-/// allows one.
+/// Follows the path of `p` with the kernel `leader`. The reference solution is the fallback if the kernel's
+/// rule allows one.
 [[nodiscard]] problem_result try_problem(const problem& p, kernel& leader,
                                          std::string_view engine = "refactor");
 
-/// The same on `s`, which is p's structure, however its stiffness is stored.
+/// Like try_problem, with `s` as p's structure. Its stiffness may be stored in any way.
 [[nodiscard]] problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                                            std::string_view engine, std::vector<observer*> watching = {});
 

@@ -18,11 +18,11 @@ double rounded(double x, int digits) {
   return std::strtod(text, nullptr);
 }
 
-/// The numbers rounder than `x`, the roundest first. Each is rounder than those after it and than `x`, so
-/// that shrinking ends.
+/// Numbers rounder than `x`, the roundest first. Shrinking ends because each number is rounder than the next
+/// one and than `x`.
 std::vector<double> rounder_than(double x) {
   std::vector<double> all;
-  const auto is_rounder = [&all, x](double y) {  // and is offered, once
+  const auto is_rounder = [&all, x](double y) {  // also adds `y` unless `all` contains it
     if (same_bits(x, y)) return false;
     if (std::none_of(all.begin(), all.end(), [y](double z) { return same_bits(y, z); })) all.push_back(y);
     return true;
@@ -35,7 +35,7 @@ std::vector<double> rounder_than(double x) {
   return all;
 }
 
-/// The call with one dof a node, and nodes from 1 in the order of the pairs.
+/// The call with one dof for each node, and with nodes from 1 in the order of the pairs.
 call_inputs<double> compact(const call_inputs<double>& in) {
   call_inputs<double> out;
   out.cc = in.cc;
@@ -79,7 +79,6 @@ class shrinker {
     return true;
   }
 
-  /// Accept the calls with `change` made to call `c`?
   template <class Change>
   bool try_with(std::size_t c, Change change) {
     call_sequence candidate = calls_;
@@ -87,7 +86,8 @@ class shrinker {
     return accept(std::move(candidate));
   }
 
-  /// The last call alone, the last two, four, ...; then all without each of the others.
+  /// Tries the last call alone, then the last 2, 4, ... calls. Then tries to remove each call before the
+  /// last.
   void fewer_calls() {
     const int all = static_cast<int>(calls_.size());
     for (int kept = 1; kept < all; kept *= 2) {
@@ -100,7 +100,7 @@ class shrinker {
     }
   }
 
-  /// The call without each half, then each quarter, ... then each pair.
+  /// Tries to remove each half of the pairs, then each quarter, ... then each pair.
   void fewer_pairs(std::size_t c) {
     const auto pairs = [this, c] { return static_cast<int>(calls_[c].pairs()); };
     for (int chunk = (pairs() + 1) / 2; chunk > 0; chunk = chunk == 1 ? 0 : (chunk + 1) / 2) {
@@ -127,7 +127,8 @@ class shrinker {
     }
   }
 
-  /// The same scale factor from D = 0 and d* = 1: values that depend on each other are simplified together.
+  /// Tries D = 0, d* = 1 and the c with the same scale factor. Changing one of these alone would change the
+  /// factor.
   void plainer_pair(std::size_t c, std::size_t i) {
     const call_inputs<double>& in = calls_[c];
     const std::size_t dof = in.dof_of_pair(i);
@@ -140,8 +141,7 @@ class shrinker {
     });
   }
 
-  /// All numbers of a call, again until none becomes rounder: one number may become so only after another
-  /// did.
+  /// Tries rounder numbers, in rounds until nothing changes: one number may allow another to be rounder.
   void rounder_numbers(std::size_t c) {
     constexpr int most_rounds = 4;
     changed_ = true;
@@ -162,7 +162,7 @@ class shrinker {
   call_sequence calls_;
   const still_differs& differs_;
   int tries_left_;
-  bool changed_ = true;  // since the round began
+  bool changed_ = true;  // a candidate was accepted in this round
 };
 
 }  // namespace

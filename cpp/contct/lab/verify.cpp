@@ -18,15 +18,14 @@ namespace {
 constexpr real_range not_negative{0.0, true, "a finite number, at least 0"};
 constexpr int any_number = 1'000'000'000;
 
-/// The double nearest to an exact number: a fraction "p/q" in lowest terms, or a decimal. Nothing if `words`
-/// are neither.
+/// The double nearest to a fraction "p/q" in lowest terms, or to a decimal; nothing if `words` is neither.
 std::optional<double> nearest_to(std::string_view words) {
   const std::size_t slash = words.find('/');
   if (slash == std::string_view::npos) {
     const auto x = number_in<double>(words);
     return x && std::isfinite(*x) ? x : std::nullopt;
   }
-  const auto is_whole = [](std::string_view s) {  // Boost takes a leading 0 for the mark of an octal number
+  const auto is_whole = [](std::string_view s) {  // Boost reads a number with a leading 0 as octal
     return s.find_first_not_of("0123456789") == std::string_view::npos && !s.empty() && s[0] != '0';
   };
   const std::size_t sign = words.starts_with('-') ? 1 : 0;
@@ -63,13 +62,13 @@ expected_number read_check(const toml_value& t) {
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
-/// A node of the line along which a change of sign of w is looked for.
+/// A node of the line along which zeros of w are searched.
 struct way_point {
-  double s;  // a beam's x; on a plate, the distance from its lower left corner
+  double s;  // x of a beam; distance from the lower left corner of a plate
   std::size_t node;
 };
 
-/// A beam from end to end; a plate along its lower edge, or up its diagonal through grid points (i, i).
+/// The nodes of a beam from end to end, of a plate's lower edge, or of its diagonal of grid points (i, i).
 std::vector<way_point> way_through(const model& m, const std::string& along) {
   std::vector<way_point> way;
   if (const auto* b = std::get_if<beam>(&m.kind)) {
@@ -110,7 +109,7 @@ double of_pair(const structure_state& end, const step_results& s, const expected
   return s.pairs[pair].gap;
 }
 
-/// "max moment", "min w", or the place of one: "x of max moment".
+/// An extreme such as "max moment" or "min w", or its place: "x of max moment".
 double of_extreme(const step_results& s, std::string_view quantity) {
   constexpr std::string_view place = "x of ";
   const bool asks_place = quantity.starts_with(place);
@@ -123,7 +122,7 @@ double of_extreme(const step_results& s, std::string_view quantity) {
   return asks_place ? at.x : at.value;
 }
 
-/// The number of events of a step, or the share of the step at which an event of a pair comes.
+/// The number of events of a step, or the share of the step at which `e.pair` has its event.
 double of_events(const step_record& s, const expected_number& e) {
   std::size_t count = 0;
   for (const increment_record& i : s.increments) {
@@ -147,7 +146,7 @@ double zero_right_of(const model& m, const std::vector<double>& u, const expecte
   return not_there;
 }
 
-/// The place of `name` among `names`; nothing if it is missing.
+/// The index of `name` in `names`; nothing if it is missing.
 template <class Names>
 std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
   const auto at = std::find(names.begin(), names.end(), name);
@@ -279,7 +278,7 @@ bool agrees(double measured, double value, double tolerance) {
 
 namespace {
 
-/// A run of the kernels by the paper's engine, and its numbers.
+/// A run of the kernels with the engine "refactor", which works as the paper does, and its numbers.
 struct verified_run {
   verified_run(const problem& p, const linear_structure& s, std::vector<std::string> kernels)
       : path(p, s, {.kernels = std::move(kernels), .engine = "refactor"}) {
@@ -287,7 +286,7 @@ struct verified_run {
     measured.emplace(p, path.result.record);
   }
 
-  /// The certificate of the step that is asked about; null if there is none.
+  /// The certificate of the step of `e`; null if the step has none.
   [[nodiscard]] const certificate* certified(const expected_number& e) const {
     const auto& steps = path.result.judged.steps();
     const std::size_t at = e.step - 1;

@@ -1,5 +1,4 @@
-// The numbers that the problems in reference/ are checked against, measured on the paths of the kernels, and
-// judged.
+// Measures the expected numbers of the problems in reference/ on the paths of the kernels, and judges them.
 #pragma once
 
 #include <array>
@@ -18,20 +17,20 @@
 namespace contct {
 
 /// One number of reference/verification.toml, whose head explains the fields. Nodes, elements and
-/// pairs count from 1, as in the file; 0 where a quantity does not need them.
+/// pairs count from 1, as in the file; 0 if the quantity does not need them.
 struct expected_number {
   int step = 0;
   std::string quantity;
   int node = 0, pair = 0, element = 0;
-  int place = 0;  ///< in the element: its end, 1 the left one, or its corner
+  int place = 0;  ///< end (1: left) or corner of the element
   std::string dof, change, along;
   double from = 0.0;
   double value = 0.0;  ///< of a state: -1 in contact, +1 separated
   std::string kind, because, source;
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
   std::optional<double> faithful;  ///< the value under the 1989 rule, if it differs
-  std::string reason;              ///< why it does
-  std::string exact;  ///< the exact number, "p/q" or a decimal; of a state, its name; empty: not known
+  std::string reason;              ///< why it differs
+  std::string exact;  ///< the exact number, "p/q" or a decimal; the name of a state; empty if unknown
 };
 
 /// The keys that identify a number of a problem, and their values in a table.
@@ -39,11 +38,11 @@ inline constexpr std::array<std::string_view, 11> place_keys = {
     "step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along"};
 [[nodiscard]] expected_number read_place(const toml_value& t);
 
-/// The kind of number that gives the size of an error.
+/// The kinds of numbers. An error is relative to the largest number of its kind.
 enum class kind_of_number { deflection, slope, force, moment, other };
 [[nodiscard]] kind_of_number kind_of(const expected_number& e);
 
-/// The double nearest to the exact number, which must be known; of a state as `value`.
+/// The double nearest to the exact number, or `value` for a state. The exact number must be known.
 [[nodiscard]] double exact_value(const expected_number& e);
 
 /// One problem file and its numbers.
@@ -55,69 +54,66 @@ struct verification_case {
 /// Read the table. Throws input_error.
 [[nodiscard]] std::vector<verification_case> read_verification(const std::string& path);
 
-/// The description of a number: "w, node 3", "pair 2 makes" (the share of the load at which it does),
-/// "moment, element 4.1" (at its first end or corner).
+/// Describes a number: "w, node 3"; "pair 2 makes", for the share of the step at which pair 2 makes; "moment,
+/// element 4.1", for the first end or corner of element 4.
 [[nodiscard]] std::string quantity_words(const expected_number& e);
 
-/// The table's quantities, measured on a finished path.
+/// Measures the table's quantities on a finished path.
 class measurement {
  public:
   /// `p` and `path` must outlive this object.
   measurement(const problem& p, const run_recorder& path);
 
-  /// The quantity on this path; NaN if the path did not reach it.
+  /// The quantity on this path; NaN if the path ended before.
   [[nodiscard]] double of(const expected_number& e) const;
 
-  /// The largest of its kind on the path, which errors are relative to: of deflections and gaps, slopes,
-  /// forces and shears, or moments. Of shares of a load it is 1; of places and counts, which no certificate
-  /// is about, 0.
+  /// The number to which errors of `e` are relative: the largest deflection, slope, force or moment of the
+  /// path; 1 for a share of a step; 0 for places and counts, which certificates do not cover.
   [[nodiscard]] double size_of(const expected_number& e) const;
 
  private:
   const problem& problem_;
   const run_recorder& path_;
-  std::vector<step_results> read_;  // off the ends of steps
+  std::vector<step_results> read_;  // at the ends of the steps
 };
 
-/// Is `measured` within the tolerance of `value`?
+/// True if `measured` differs from `value` by at most `tolerance`: relative, or absolute if `value` is 0.
 [[nodiscard]] bool agrees(double measured, double value, double tolerance);
 
-/// The disagreement of one number with the exact one, in words; empty if they agree, or if the exact number
-/// is unknown. `computed` lies within `allowed` of it, or within the table's own tolerance if `allowed` is 0.
-/// The table's value is within its tolerance of it.
+/// Describes how a number disagrees with the exact number; empty if it agrees, or if no exact number is
+/// known. `computed` may differ by `allowed`, or by the table's tolerance if `allowed` is 0. The table's
+/// value may differ by the table's tolerance.
 [[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
 
-/// One number of the table, and the computed one.
 struct verified_number {
   expected_number expected;
   double computed = 0.0;      ///< by FORTRAN, leading C++
   double corrected = 0.0;     ///< by the corrected kernel
-  bool certified = false;     ///< the state of its step, on FORTRAN's path
+  bool certified = false;     ///< the final state of its step on FORTRAN's path is certified
   bool passed = false;        ///< see verify_case
   std::string apart;          ///< see exact_disagreement
-  int exact_comparisons = 0;  ///< of `computed` and `corrected` with the exact number
+  int exact_comparisons = 0;  ///< number of comparisons with the exact number
 
-  /// The difference of `computed` from the expected value, relative to it; absolute if it is 0.
+  /// The difference of `computed` from the expected value: relative, or absolute if the expected value is 0.
   [[nodiscard]] double difference() const {
     const double off = computed - expected.value;
     return expected.value == 0.0 ? off : off / std::abs(expected.value);
   }
 };
 
-/// A problem file, and all its numbers.
 struct verified_case {
   std::string file, title;
   std::vector<verified_number> numbers;
   std::vector<std::optional<certificate>> certificates;  ///< of the steps, on FORTRAN's path
   std::int64_t calls = 0, mismatches = 0;                ///< of the lockstep
-  std::string failure;                                   ///< of the case as a whole; empty when there is none
+  std::string failure;                                   ///< of the whole case; empty if it passed
 };
 
-/// Run a problem twice, with FORTRAN leading C++ in lockstep and with the corrected kernel, and look at
-/// each number: the corrected kernel must give its value, and so must FORTRAN unless the table says
-/// what the 1989 rule gives instead. Where they are certified, both must have the exact number as closely as
-/// their certificates allow, which the table's numbers must agree with, too (see exact_disagreement). Not a
-/// bit may differ between FORTRAN and C++, and the corrected kernel's states must be certified.
+/// Runs a problem twice: with FORTRAN leading C++ in lockstep, and with the corrected kernel. The corrected
+/// kernel must give the expected numbers. FORTRAN must give the same, or the table's `faithful` values.
+/// Certified results must be as close to the exact number as a certificate promises, and the table's value
+/// must agree with the exact number (see exact_disagreement). FORTRAN and C++ must be equal to the bit. The
+/// corrected kernel's states must be certified.
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
 
 }  // namespace contct
