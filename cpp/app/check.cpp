@@ -63,7 +63,8 @@ std::string load_words(const load& l) {
   return words.empty() ? "no load" : joined(words, ", ");
 }
 
-/// "node 1 at 0, node 5 at 2": where rising coordinates begin, end, and change their distance.
+/// The first and the last of rising coordinates, and those at which the spacing changes: "node 1 at 0, node 5
+/// at 2".
 std::string coordinate_words(std::span<const double> x, std::string_view what) {
   const double rounding = 1e-9 * (x.back() - x.front());
   std::vector<std::string> words;
@@ -73,7 +74,7 @@ std::string coordinate_words(std::span<const double> x, std::string_view what) {
   return joined(words, ", ") + (words.size() < x.size() ? "; equal distances between" : "");
 }
 
-/// The description of the problem, one fact a line.
+/// The description of the problem: pairs of a name and a text.
 std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   std::vector<std::pair<std::string, std::string>> facts;
   if (!p.title.empty()) facts.emplace_back("title", on_one_line(p.title));

@@ -1,4 +1,4 @@
-// The commands that need few lines: new, kernels, exact and prove.
+// The commands new, kernels, exact and prove.
 #include "app/commands.hpp"
 
 #include <unistd.h>
@@ -21,7 +21,7 @@
 
 namespace contct {
 
-// Made of reference/cookbook by embed.cmake.
+// Generated from reference/cookbook by embed.cmake.
 extern const std::string_view beam_toml, plate_toml, crane_toml, slab_toml, base_plate_toml, racks_toml,
     rail_toml, bed_toml, matrix_toml, matrix_mtx, matrix_dof, matrix_xyz;
 
@@ -29,12 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of reference/cookbook, built in.
+/// A file of reference/cookbook.
 struct cookbook_file {
   std::string_view name, text;
 };
 
-/// A problem to start from: files[0], and the files that it names.
+/// A problem of the cookbook: files[0], and the files that it names.
 struct recipe {
   std::string_view kind, what;
   std::vector<cookbook_file> files;
@@ -74,7 +74,7 @@ void list_recipes() {
   for (const recipe& r : recipes()) print_text(fmt::format("  {:<12}{}\n", r.kind, r.what));
 }
 
-/// Refuse to write to an existing name, even a link without a target.
+/// Throws std::invalid_argument if `file` exists, even as a link without a target.
 void refuse_taken(const std::string& file) {
   std::error_code ignored;
   const auto kind = fs::symlink_status(file, ignored).type();
@@ -84,10 +84,10 @@ void refuse_taken(const std::string& file) {
 }
 
 constexpr const char* python =
-    "/usr/bin/python3";  // the one that Debian's packages of Capstone and Z3 are for
+    "/usr/bin/python3";  // Debian's packages of Capstone and Z3 are for this interpreter
 
-/// The folder of the Python package: in the build tree the program's own folder, otherwise the folder in
-/// which contct.py is installed.
+/// The folder of the Python package contct_prove: the program's own folder in a build tree, otherwise the
+/// folder in which contct.py is installed.
 fs::path folder_of_prover(const fs::path& program) {
   for (const char* from_here : {".", CONTCT_INSTALLED_PYTHON, "../lib/python3/dist-packages"}) {
     fs::path folder = (program.parent_path() / from_here).lexically_normal();
@@ -99,7 +99,7 @@ fs::path folder_of_prover(const fs::path& program) {
 
 }  // namespace
 
-/// A commented problem file to start from. The files that it names are written to the same folder.
+/// Writes a problem file of the cookbook, and the files that it names to the same folder.
 exit_status run_command(const new_options& options) {
   if (options.kind.empty()) {
     list_recipes();
@@ -121,7 +121,6 @@ exit_status run_command(const new_options& options) {
   return exit_status::solved;
 }
 
-/// What is built in.
 exit_status run_command(const kernels_options& /*options*/) {
   print_text(fmt::format("{:<12} {:<8} {:<9} {:<11} {}\n", "kernel", "REAL", "rule", "language", "compiler"));
   for (const std::string& name : kernel_names()) {
@@ -137,7 +136,7 @@ exit_status run_command(const kernels_options& /*options*/) {
   return exit_status::solved;
 }
 
-/// The path in rational arithmetic, and how many digits of each kernel are right.
+/// Prints the path in rational arithmetic, and the number of correct digits of each kernel.
 exit_status run_command(const exact_options& options) {
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
   const std::vector<output_option> outputs = {{"--json", options.json}};
@@ -170,7 +169,6 @@ exit_status run_command(const exact_options& options) {
   return status_of(path.status);
 }
 
-/// The prover is a Python package in the same folder as contct.py.
 exit_status run_command(const prove_options& options) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   const std::string folder = folder_of_prover(program);

@@ -1,5 +1,5 @@
-// The commands of the program: their options as plain data, and what runs them. Only options.cpp knows the
-// command-line library.
+// The commands of the program: their options as plain data, and the functions that run them. Only options.cpp
+// uses the command-line library.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace contct {
 
-// One structure a command. A string is a file's name unless stated otherwise; empty: not requested.
+// One structure for each command. A string is a file's name unless stated otherwise; empty if not requested.
 
 /// The options of every comparing command.
 struct report_options {
@@ -30,19 +30,18 @@ struct problem_options {
 };
 
 struct run_options : problem_options {
-  std::vector<std::string> kernels;  ///< the first leads; none: both rules
-  std::string engine;                ///< empty: what suits the leader
+  std::vector<std::string> kernels;  ///< the first is the leader; empty: both rules
+  std::string engine;                ///< an engine's name; empty: the default engine of the leader
   std::string json, log, trace, proof, html, csv, vtu;
   report_options report;
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
   bool detail = false;    ///< all numbers on the terminal
-  bool envelope = false;  ///< in the result
-  bool refine = false;    ///< also on half the element size
-  std::string
-      watched;  ///< the node that tables follow: its number or label, or x; empty: the one that moves most
-  int max_increments = 0;  ///< in a step; 0: the default limit
+  bool envelope = false;  ///< the result has an envelope
+  bool refine = false;    ///< also solves with half the element size
+  std::string watched;    ///< the node in the tables: its number, label or x; empty: the node that moves most
+  int max_increments = 0;  ///< limit of increments in a step; 0: the default limit
 };
 
 struct check_options : problem_options {
@@ -52,37 +51,37 @@ struct check_options : problem_options {
 struct explain_options : problem_options {
   std::vector<std::string> kernels = {"fortran", "cpp"};
   std::string engine = "refactor";
-  std::string increment;  ///< "3", or "2.3" with its step
+  std::string increment;  ///< "3", or "2.3" for increment 3 of step 2
   std::optional<int> step, pair;
-  bool all = false;  ///< every increment of a long run
+  bool all = false;  ///< shows every increment of a long run
   std::string json;
   bool quiet = false;
 };
 
 struct exact_options : problem_options {
-  std::string rule = "corrected";         ///< or "1989"
-  std::vector<std::string> kernels = {};  ///< compared with it
+  std::string rule = "corrected";         ///< "corrected" or "1989"
+  std::vector<std::string> kernels = {};  ///< names of the kernels that are compared with the exact path
   int digits = 20;
   std::string json;
   bool quiet = false;
 };
 
 struct new_options {
-  std::string kind;  ///< empty: the kinds are listed
+  std::string kind;  ///< the kind of problem; empty: lists the kinds
   std::string file;
 };
 
 struct verify_options {
   std::string reference;   ///< a folder
-  std::string results;     ///< another program's, which are judged instead of this build's
-  std::size_t least = 10;  ///< of them must be there
+  std::string results;     ///< another program's results, which are judged instead of this build's
+  std::size_t least = 10;  ///< the number of results that the file must contain
   std::string json;
   report_options report;
 };
 
 struct fuzz_options {
   fuzz_request request;
-  std::optional<std::int64_t> problems;  ///< by default one for 500 calls
+  std::optional<std::int64_t> problems;  ///< default: one for every 500 calls
   std::string shard;                     ///< "I/N"
   std::string json;
   std::string out;  ///< a folder
@@ -98,39 +97,40 @@ struct replay_options {
 };
 
 struct prove_options {
-  std::string library;  ///< a file with kernels; empty: this program
+  std::string library;  ///< a file with a kernel; empty: this program
   std::string symbol;
 };
 
 struct kernels_options {};
 
-/// The text that --help or --version prints.
+/// Prints the text of --help or --version.
 struct printed_text {
   std::string text;
 };
 
-/// The meaning of a command line: one command, or a text.
 using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
                  verify_options, fuzz_options, replay_options, prove_options, kernels_options>;
 
-/// The command line of `contct`. `engines` are the names that --engine takes: the parser itself needs no
-/// LAPACK. Throws std::invalid_argument for an invalid command line; what() has the reason and a suggestion.
+/// Parses the command line of `contct`. `engines` are the names that --engine accepts; they are an argument
+/// so that the parser needs no LAPACK. Throws std::invalid_argument, with the reason and a suggestion in
+/// what(), if the command line is invalid.
 [[nodiscard]] command_options parse_contct(int argc, const char* const* argv,
                                            const std::vector<std::string>& engines);
 
-/// The command line of `contct-replay`: printed_text or replay_options. Throws likewise.
+/// Parses the command line of `contct-replay` into printed_text or replay_options. Throws as parse_contct
+/// does.
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
 
-// Each runs one command and returns its exit status. All throw a std::exception whose what() is a message for
-// the user.
+// Each function runs one command and returns its exit status. All throw a std::exception whose what() is a
+// message for the user.
 exit_status run_command(const run_options& options);
 exit_status run_command(const check_options& options);
 exit_status run_command(const explain_options& options);
 exit_status run_command(const exact_options& options);
 exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
-/// The same for another program's results; `table` is reference/verification.toml.
+/// Runs `contct verify --results`, for another program's results. `table` is reference/verification.toml.
 exit_status judge_foreign(const verify_options& options, const std::string& table);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);

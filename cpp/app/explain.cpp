@@ -1,4 +1,5 @@
-// contct explain: what the listing did in each increment of a run, for each pair, and why.
+// contct explain: the branches that the listing takes in each increment of a run, for each pair, with
+// reasons.
 #include "contct/write/explain.hpp"
 
 #include <algorithm>
@@ -16,12 +17,12 @@
 namespace contct {
 namespace {
 
-/// All of `text` as a number from 1; 0 if it is not a number.
+/// The whole of `text` as a number from 1; 0 if it is no such number.
 int number_from_1(std::string_view text) {
   return std::max(0, number_in<int>(text).value_or(0));
 }
 
-/// --step and --increment together; the latter may say both, as the table of `contct run` does: 2.1.
+/// Combines --step and --increment. "--increment 2.1" contains both, as in the table of `contct run`.
 increments_wanted wanted_of(const explain_options& o) {
   increments_wanted wanted{o.step.value_or(0), 0};
   if (o.increment.empty()) return wanted;
@@ -46,7 +47,7 @@ void refuse_beyond(const char* option, std::optional<int> found, std::size_t mos
                 : fmt::format("{}: found {}; allowed: a {} from 1 to {}", option, *found, what, most));
 }
 
-/// No increment was wanted, or none was reached.
+/// The exit status if nothing was explained: the path has no increment, or not the requested one.
 exit_status nothing_told(const explain_options& o, const increments_wanted& wanted, const path_end& end,
                          const explained_path& told) {
   if (wanted.step > told.steps())
@@ -85,7 +86,7 @@ void print_story(const std::vector<sentence>& story) {
   }
 }
 
-/// The IFs that one pair reached, and by how much each was decided.
+/// The IFs that one pair reached, each with its margin.
 std::vector<sentence> margins_of(const explained_pair& p) {
   std::vector<sentence> margins;
   for (std::size_t b = 0; b < p.taken.size(); ++b) {
@@ -125,7 +126,7 @@ void refuse_for_trace(const explain_options& o, const trace_header& h) {
                                 "whose lines are explained");
 }
 
-/// The calls of a trace, and what another kernel makes of them.
+/// Explains the calls of a trace, and compares another kernel's answers.
 exit_status explain_trace(const explain_options& options) {
   const std::string text = read_input(options.file, "trace", 2048);
   trace_reader calls(text, options.file);

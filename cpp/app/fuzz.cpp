@@ -1,4 +1,4 @@
-// contct fuzz: random and adversarial calls and problems, kernels against each other.
+// contct fuzz: compares kernels on random and adversarial calls and on random problems.
 #include "contct/lab/fuzz.hpp"
 
 #include <cctype>
@@ -16,7 +16,7 @@
 namespace contct {
 namespace {
 
-/// "I/N" as two numbers; throws std::invalid_argument.
+/// Reads "I/N". Throws std::invalid_argument.
 void read_shard(const std::string& text, fuzz_request& r) {
   if (text.empty()) return;
   int end = 0;
@@ -26,7 +26,7 @@ void read_shard(const std::string& text, fuzz_request& r) {
   throw std::invalid_argument("--shard: found " + text + "; allowed: I/N, I from 1 to N, as in 2/8");
 }
 
-/// The line that runs the same again.
+/// The command that repeats the run.
 std::string command_of(const fuzz_request& r) {
   return fmt::format("contct fuzz --kernels {} --calls {} --problems {} --seed {} --shard {}/{}",
                      joined(r.kernels, ","), r.calls, r.problems, r.seed, r.shard, r.shards);
@@ -85,7 +85,7 @@ void print_result(const fuzz_result& r) {
                   {follower_words(f, r.request.kernels[0])});
 }
 
-/// A kernel's name as part of a file's: "plugin:./mine.so" becomes "plugin-mine-so".
+/// A kernel's name for use in a file's name: "plugin-mine-so" for "plugin:./mine.so".
 std::string file_name_of(const std::string& kernel) {
   std::string name;
   const std::string library = std::filesystem::path(kernel).filename().string();
@@ -98,8 +98,7 @@ std::string file_name_of(const std::string& kernel) {
   return name.substr(0, longest);
 }
 
-/// Write each case to `folder`, which is created if it is missing, as a trace. Returns the names of the
-/// files.
+/// Writes each case as a trace to `folder`, which is created if missing. Returns the names of the files.
 std::vector<std::string> write_cases(const std::vector<found_case>& cases, const std::string& folder,
                                      std::uint64_t seed) {
   std::filesystem::create_directories(folder);

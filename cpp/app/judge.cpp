@@ -1,4 +1,4 @@
-// contct verify --results: another program's numbers for the reference problems, judged by the exact ones.
+// contct verify --results: judges another program's results of the reference problems by the exact numbers.
 #include <nlohmann/json.hpp>
 
 #include "app/outputs.hpp"
@@ -13,7 +13,6 @@ std::string words_of(const expected_number& e) {
   return fmt::format("step {}, {}", e.step, quantity_words(e));
 }
 
-/// The failures in a problem, one a line.
 std::vector<std::string> failures(const foreign_case& c, double tolerance) {
   std::vector<std::string> all;
   for (const foreign_number& n : c.numbers)

@@ -15,13 +15,13 @@ extern const std::string_view hints_toml;
 
 namespace {
 
-/// A JSON text.
+/// A JSON string.
 std::string quoted(std::string_view text) {
   constexpr escape marks[] = {{'"', "\\\""}, {'\\', "\\\\"}};
   return '"' + escaped(whole_line(text), marks) + '"';
 }
 
-/// The checksum of a plug-in's file; null for a command, whose program is not known.
+/// The checksum of a plug-in's file as JSON; null for a command, whose program file is unknown.
 std::string file_sha256(const std::string& kernel) {
   constexpr std::string_view plugin = "plugin:";
   constexpr std::size_t most_mib = 512;

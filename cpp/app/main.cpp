@@ -34,7 +34,7 @@ bool asks_for_petsc(const std::vector<std::string>& arguments) {
   return false;
 }
 
-/// In the program's folder, or in the folder where it is installed.
+/// Finds contct_petsc.so in the program's folder, or else in the folder of installed modules.
 std::string file_of_module() {
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
   const std::string beside = (here / "contct_petsc.so").string();
@@ -60,10 +60,10 @@ mpi_job& join_job() {
   return *job;
 }
 
-/// Join the MPI job of --engine petsc if the command line requests it, through the module contct_petsc.so.
-/// This is looked at before anything is parsed: rank 0 alone parses, reads, talks and writes. False on the
-/// other ranks, when they have served it. Throws std::runtime_error if the module is missing, if its
-/// libraries cannot be loaded, or if it was built for another version.
+/// Joins the MPI job of --engine petsc, if requested, through the module contct_petsc.so. Runs before the
+/// command line is parsed, because only rank 0 parses, reads and writes. Returns false on the other ranks,
+/// after they have served rank 0. Throws std::runtime_error if the module is missing, if its libraries cannot
+/// be loaded, or if it was built for another version.
 bool runs_the_program(const std::vector<std::string>& arguments) {
   if (!asks_for_petsc(arguments)) return true;
   mpi_job& job = join_job();
@@ -72,24 +72,24 @@ bool runs_the_program(const std::vector<std::string>& arguments) {
     return false;
   }
   set_joined_job(&job);
-  // mpirun gives rank 0 a terminal of its own, whatever it writes to itself.
+  // mpirun gives rank 0 a terminal even if the output of mpirun is not a terminal.
   (void)setenv("NO_COLOR", "1", 0);  // NOLINT(concurrency-mt-unsafe): there is no other thread yet
   return true;
 }
 
-/// End the other ranks, if there are any. The last call of rank 0.
+/// Ends the other ranks. This is the last action of rank 0.
 void leave_job() noexcept {
   mpi_job* const job = joined_job();
   set_joined_job(nullptr);
   if (job != nullptr) job->leave();
 }
 
-/// The command, or nothing after an error message if the command line is invalid.
+/// The requested command; nothing, after an error message, if the command line is invalid.
 std::optional<command_options> asked_by(int argc, char** argv) {
   try {
     return parse_contct(argc, argv, engine_choices());
   } catch (const std::invalid_argument& e) {
-    complain("{}", e.what());  // lines
+    complain("{}", e.what());
   }
   return {};
 }
@@ -102,7 +102,8 @@ exit_status status_of_program(int argc, char** argv) {
     const exit_status status = std::visit([](const auto& options) { return run_command(options); }, *asked);
     flush_standard_output();
     return status;
-  } catch (const reader_gone&) {  // "contct run .. | head" ends as any filter does, its files written
+  } catch (
+      const reader_gone&) {  // in "contct run .. | head": ends as filters do, after its files are written
     leave_job();
     (void)std::signal(SIGPIPE, SIG_DFL);
     (void)std::raise(SIGPIPE);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t most_random_cases = 1'000'000'000'000;
 
-/// An example command line: shown under --help, and run by the tests unchanged.
+/// An example command line, which --help shows and the tests run unchanged.
 struct example {
   std::string_view line;  ///< "contct run beam.toml"
   std::string_view text;  ///< its purpose
@@ -54,7 +54,7 @@ constexpr example all_examples[] = {
     {"contct kernels", "what is built in"},
 };
 
-/// The option in "--json=file".
+/// The name of an option, "--json" in "--json=file".
 std::string name_in(const std::string& argument) {
   return argument.substr(0, argument.find('='));
 }
@@ -74,7 +74,7 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
   return names;
 }
 
-/// The parser's words for `error`, and a suggestion for an unknown option or command of `program`.
+/// The parser's message `error`, with a suggestion for an unknown option or command of `program`.
 std::string usage_words(const CLI::App& program, const std::string& error) {
   constexpr const char* advice = "\nRun with --help for more information.";
   std::vector<std::string> commands;
@@ -101,7 +101,7 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
   return fmt::format("{}; the commands are: {}{}", words, joined(commands, ", "), advice);
 }
 
-/// Refuse an empty name: the output would be lost without a message.
+/// Refuses an empty name, which would lose the output without a message.
 std::string a_name(const std::string& file) {
   return file.empty() ? "found no name; allowed: a file" : "";
 }
@@ -137,7 +137,7 @@ void add_kernel_report(CLI::App* command, Options& o) {
   add_file(command, "--badge", o.badge, "Write the same as a badge, an SVG picture, to this file");
 }
 
-/// A parser, and the options of the command that was chosen.
+/// A parser, and the options of the chosen command.
 class option_parser {
  public:
   option_parser(const std::string& name, const std::string& text) : program(text, name) {
@@ -145,7 +145,7 @@ class option_parser {
                              "Print the version and the listing's checksum");
   }
 
-  /// The options of a command, which is chosen where the command line names it.
+  /// The options that `command` fills. They are chosen if the command line names this command.
   template <class Options>
   Options& options_for(CLI::App* command) {
     const auto options = std::make_shared<Options>();
@@ -166,7 +166,7 @@ command_options option_parser::parse(int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    // Otherwise a text was asked for.
+    // The code is 0 for --help and --version.
     if (e.get_exit_code() != 0) throw std::invalid_argument(usage_words(program, e.what()));
     std::ostringstream text;
     program.exit(e, text, text);
@@ -180,7 +180,7 @@ void declare_replay(option_parser& p, CLI::App* c) {
   c->add_option("TRACE", o.traces, "Recorded calls; - reads standard input")->required();
   add_kernels(c, "--kernel", o.kernels,
               "The kernels to check; by default the 1989 code in the trace's precision")
-      ->allow_extra_args(false);  // what follows is a trace
+      ->allow_extra_args(false);  // the next argument is a trace
   add_kernel_report(c, o);
   add_reports(c, o.report);
 }
@@ -340,7 +340,7 @@ void declare_prove(option_parser& p, CLI::App* c) {
   c->add_option("--symbol", o.symbol, "The kernel's name, if it is not contct_kernel");
 }
 
-/// Each command's --help shows its examples, and the program's --help the first of each.
+/// Adds examples: all of a command to its --help, and the first of each command to the program's --help.
 void add_examples(CLI::App& program) {
   std::string first_ones;
   for (CLI::App* c : commands_of(program)) {

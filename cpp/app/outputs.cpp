@@ -14,14 +14,14 @@
 namespace contct {
 namespace {
 
-/// An attribute with a blank before it. XML reads a line end in it as a blank unless it is written as a
-/// character reference.
+/// An XML attribute after a blank. A line end becomes a character reference, because XML would read it as a
+/// blank.
 std::string attribute(std::string_view name, std::string_view value) {
   constexpr escape line_end[] = {{'\n', "&#10;"}};
   return fmt::format(" {}=\"{}\"", name, escaped(markup_text(value), line_end));
 }
 
-/// Text of one line in Markdown, also for a cell of a table, with all markup escaped.
+/// Text as one line of Markdown with all markup escaped, also for a cell of a table.
 std::string markdown_text(std::string_view text) {
   constexpr std::string_view marks = "\\`*_{}[]<>#|!~&";
   std::string out;
@@ -32,7 +32,7 @@ std::string markdown_text(std::string_view text) {
   return out;
 }
 
-/// Lines of text as a block of code in Markdown, fenced by more backticks than the text has in a row.
+/// Lines of text as a code block in Markdown. The fence is longer than any row of backticks in the text.
 std::string markdown_block(std::string_view lines) {
   std::size_t longest = 2;
   std::size_t run = 0;
@@ -44,7 +44,7 @@ std::string markdown_block(std::string_view lines) {
   return fmt::format("{0}\n{1}\n{0}\n", fence, terminal_text(lines));
 }
 
-/// Seconds before anything is shown: what CONTCT_PROGRESS_AFTER in the environment says, or 1.
+/// The time in seconds before progress is shown: CONTCT_PROGRESS_AFTER in the environment, or 1.
 double wait_before_progress() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
   const char* const given = std::getenv("CONTCT_PROGRESS_AFTER");
@@ -55,7 +55,7 @@ double wait_before_progress() {
   return *seconds;
 }
 
-/// Write over the line at which the cursor is.
+/// Overwrites the line of the cursor.
 void put_line(std::string_view words) {
   const std::string line = fmt::format("\r{}\033[K", on_one_line(words));
   (void)std::fputs(line.c_str(), stderr);
@@ -70,11 +70,12 @@ void end_for_memory() {
 }
 
 void hold_standard_streams() {
-  // Opened the wrong way round, input and output that were closed still fail, and are noticed.
+  // Input is opened for writing and output for reading, so that using a closed stream fails as before.
   constexpr std::pair<int, int> held[] = {
       {STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}};
   for (const auto& [stream, flags] : held) {
-    if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", flags);  // the least number free: this one
+    if (fcntl(stream, F_GETFD) < 0)
+      (void)open("/dev/null", flags);  // gets the least free descriptor, which is `stream`
   }
 }
 
@@ -138,7 +139,7 @@ std::string utc_now() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
   const char* const given = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
-  // A clock that was never set may show any year. The page is written all the same.
+  // A clock that was never set may show any year, so it is clamped.
   const auto seconds = given == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most)
                                         : number_in<std::int64_t>(given);
   if (!seconds || *seconds < 0 || *seconds > most)

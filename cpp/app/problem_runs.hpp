@@ -1,4 +1,4 @@
-// Shared by the commands that follow a path: progress at a terminal, and the end of the path in words.
+// Functions of the commands that follow a path: the choice of the engine, reading the problem, and progress.
 #pragma once
 
 #include <string>
@@ -12,19 +12,19 @@
 
 namespace contct {
 
-/// The names that --engine takes: auto, those of this process, and "petsc".
+/// The names that --engine accepts: "auto", the engines of this process, and "petsc".
 [[nodiscard]] std::vector<std::string> engine_choices();
 
-/// Throws std::invalid_argument for what --engine does not take.
+/// Throws std::invalid_argument if --engine does not accept the name.
 void refuse_engine_option(const std::string& name);
 
-/// Read a problem and print its warnings. Throws as read_problem does, and as refuse_shared_outputs where one
-/// of `outputs` would replace the problem or a file that it names.
+/// Reads a problem and prints its warnings. Throws as read_problem does, and as refuse_shared_outputs does if
+/// an output would replace the problem or a file that it names.
 [[nodiscard]] problem read_with_warnings(const problem_options& options,
                                          const std::vector<output_option>& outputs);
 
-/// Observes a path and shows the step and the increment that it has reached. Whoever prints meanwhile erases
-/// the line first.
+/// Observes a path and shows its current step and increment. Before other text is printed, `line` must be
+/// erased.
 class path_progress final : public observer {
  public:
   path_progress(std::size_t steps, bool quiet);

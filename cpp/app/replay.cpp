@@ -1,4 +1,4 @@
-// contct replay, and contct-replay: recorded calls replayed by a kernel. Neither LAPACK nor finite elements.
+// contct replay and contct-replay: a kernel repeats recorded calls, without LAPACK and finite elements.
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -14,14 +14,14 @@
 namespace contct {
 namespace {
 
-/// Prints the results of a replay. Without strict floating point they say nothing of a kernel.
+/// The verdict of a replay. Without strict floating point, a mismatch is attributed to the environment.
 std::string verdict_of(const replay_report& r, const floating_point& fp) {
   if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
   return fp.strict() ? "equal to the bit"
                      : fmt::format("equal to the bit, but the environment is not strict ({})", describe(fp));
 }
 
-/// The results of all traces, for a kernel that is reported.
+/// The results of all traces, for the report about a kernel.
 struct replayed {
   kernel_report report = {"replay", "", "", 0, {}, {}, {}};
   nearness near;
@@ -40,7 +40,6 @@ struct replayed {
   }
 };
 
-/// One trace against one kernel.
 check_result replay_one(const std::string& file, const std::string& text, const std::string& name, bool quiet,
                         replayed& all) {
   trace_reader calls(text, file);

@@ -1,4 +1,4 @@
-// contct-replay: `contct replay` as a program of its own, without LAPACK and finite elements.
+// contct-replay: `contct replay` as a separate program, without LAPACK and finite elements.
 #include <new>
 
 #include "app/outputs.hpp"

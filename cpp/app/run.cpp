@@ -1,4 +1,4 @@
-// contct run: follow the path of a problem, by both rules or by kernels that were named.
+// contct run: follows the path of a problem, by both rules or by the named kernels.
 #include "contct/session/run.hpp"
 
 #include <algorithm>
@@ -27,19 +27,19 @@ constexpr const char* csv_envelope = "--csv (its envelope)";
 constexpr const char* vtu_collection = "--vtu (its collection)";
 constexpr const char* vtu_increments = "--vtu (its increments)";
 
-/// A file in the folder of `file`: its name without the extension, and `end`.
+/// The name of `file` with `end` in place of its extension.
 std::string beside(const std::string& file, const std::string& end) {
   const fs::path path(file);
   return (path.parent_path() / (path.stem().string() + end)).string();
 }
 
-/// "out.pairs.csv" beside "out.csv", for ".pairs"; none beside standard output.
+/// A second table's name, for example "out.pairs.csv" for "out.csv" and ".pairs"; empty for standard output.
 std::string table_beside(const std::string& csv, const std::string& name) {
   if (csv.empty() || csv == "-") return "";
   return beside(csv, name + fs::path(csv).extension().string());
 }
 
-/// Every file of --vtu. Throws std::invalid_argument for a name that cannot be a grid's.
+/// Adds all files of --vtu. Throws std::invalid_argument if the name does not end in .vtu.
 void add_grid_files(const std::string& vtu, std::vector<output_option>& all) {
   if (fs::path(vtu).extension() != ".vtu")
     throw std::invalid_argument(fmt::format("--vtu: found \"{}\"; allowed: a file that ends in .vtu", vtu));
@@ -49,7 +49,7 @@ void add_grid_files(const std::string& vtu, std::vector<output_option>& all) {
     all.push_back({vtu_increments, beside(vtu, name_of_state("", i)), true});
 }
 
-/// Every file that these options may write. Throws std::invalid_argument for names that cannot be theirs.
+/// Every file that these options may write. Throws std::invalid_argument if a name is invalid.
 std::vector<output_option> outputs_of(const run_options& o) {
   std::vector<output_option> all = {{"--json", o.json},
                                     {"--log", o.log},
@@ -64,8 +64,8 @@ std::vector<output_option> outputs_of(const run_options& o) {
   return with_reports(std::move(all), o.report);
 }
 
-/// For --vtu: throws std::invalid_argument where a structure given by its matrix has no coordinates, and
-/// warns of pairs that get no cell.
+/// For --vtu: throws std::invalid_argument if a structure given by its matrix has no coordinates, and warns
+/// of pairs that get no cell.
 void check_grid_coordinates(const problem& p) {
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
   if (a == nullptr) return;
@@ -108,14 +108,15 @@ int node_named(const model& m, const std::string& name) {
   throw std::invalid_argument(fmt::format("--node: found {}; allowed: {}", in_quotes(name), allowed));
 }
 
-/// What is run; complete before any file is opened.
+/// The input of a run, complete before any file is opened.
 struct run_setup {
   const run_options& options;
   std::vector<output_option> outputs = outputs_of(options);
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string date = utc_now();
   terminal screen = look_at_terminal();
-  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // heading, table and verdicts
+  bool prints =
+      !options.report.quiet && !takes_standard_output(outputs);  // prints heading, table and verdicts
   problem what = {};
   linear_structure structure = {};
 };
@@ -125,7 +126,7 @@ run_setup set_up(const run_options& o) {
   refuse_bad_options(o);
   setup.what = read_with_warnings(o, setup.outputs);
   if (!o.vtu.empty()) check_grid_coordinates(setup.what);
-  if (o.refine) (void)refined(setup.what);  // throws for a matrix
+  if (o.refine) (void)refined(setup.what);  // throws if the structure is given by a matrix
   setup.structure = structure_of(setup.what);
   return setup;
 }
@@ -143,14 +144,14 @@ run_request request_of(const run_setup& setup) {
   return r;
 }
 
-/// A run at the terminal. Files are opened before anything is solved: a place that cannot be written is
-/// reported at once.
+/// A run at the terminal. Files are opened before solving, so that a file that cannot be written is reported
+/// at once.
 struct shown_run {
   const run_setup& setup;
   contct::run run{setup.what, setup.structure, request_of(setup)};
   output_files files{setup.outputs};
   bool has_verdict = false;
-  std::string differences = {};  // of the kernels, lines
+  std::string differences = {};  // lines about differences of the kernels
 };
 
 void print_heading(const shown_run& o) {
@@ -174,7 +175,7 @@ void print_verdict(shown_run& o, paint p, const std::vector<std::string>& items)
   print_wrapped(o.setup.screen, p, items);
 }
 
-/// The path with a table of its increments, or the ends of its steps.
+/// Follows the path and prints a table of its increments, or only of the ends of steps.
 void go(shown_run& o) {
   const run_setup& setup = o.setup;
   print_heading(o);
@@ -190,7 +191,8 @@ void go(shown_run& o) {
   if (!rows.legend.empty()) print_verdict(o, paint::quiet, rows.legend);
 }
 
-/// Print how the comparison came out. A mismatch under a bad probe is the environment's.
+/// Prints the result of the comparison. Without strict floating point, a mismatch is attributed to the
+/// environment.
 void report_lockstep(shown_run& o) {
   const lockstep& compared = *o.run.result.compared_calls();
   const std::string names = joined(o.run.result.beside ? kernels_of_1989 : o.run.wanted.kernels, " and ");
@@ -208,7 +210,7 @@ void report_lockstep(shown_run& o) {
   if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
 }
 
-/// Let another kernel follow its own path, and print how it compares with the leader's.
+/// Lets another kernel follow its own path, and prints the comparison with the leader's path.
 void report_free_run(shown_run& o, const std::string& name) {
   const compared_path& other = o.run.follow_alone(name);
   const free_run_difference& d = other.difference;
@@ -235,11 +237,11 @@ void report_comparison(shown_run& o) {
   if (o.run.result.compared_calls() != nullptr) report_lockstep(o);
   for (const std::string& line : rule_1989_words(o.run.result)) print_verdict(o, paint::strong, {line});
   if (!o.run.wanted.free_run) return;
-  // Unit 26 exists only once: one kernel after the other.
+  // Kernels run one after the other because they share unit 26.
   for (const std::string& name : std::span(kernels).subspan(1)) report_free_run(o, name);
 }
 
-/// Solve once more on half the element size, and print what that changes.
+/// Solves again with half the element size, and prints the changes.
 void report_refinement(shown_run& o) {
   o.run.refine();
   const std::vector<std::string> items = refinement_words(o.run.result);
@@ -249,7 +251,6 @@ void report_refinement(shown_run& o) {
                     : items);
 }
 
-/// The report for --junit and --markdown.
 check_report check_report_of(const shown_run& o) {
   const run_result& run = o.run.result;
   const std::vector<std::string>& kernels = run.kernels;
@@ -268,7 +269,7 @@ check_report check_report_of(const shown_run& o) {
   r.results.push_back({"path", passed_if(solved), solved ? "every step's load is applied" : ended, ended});
   if (run.judged.all_certified()) {
     r.results.push_back({"certificate", outcome::passed, "every final state is certified", ""});
-  } else {  // without --strict nothing fails for it
+  } else {  // fails only with --strict
     r.results.push_back({"certificate", o.setup.options.strict ? outcome::failed : outcome::skipped,
                          "NOT certified", joined(certificate_complaints(run), "\n")});
   }
@@ -276,7 +277,7 @@ check_report check_report_of(const shown_run& o) {
   return r;
 }
 
-/// The collection last: whoever sees it finds all that it names.
+/// Writes the collection last, after all files that it names.
 void write_grids(const output_files& files, const std::string& vtu, const run_result& r) {
   const std::vector<structure_state> states = pictures_of(r);
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -285,14 +286,13 @@ void write_grids(const output_files& files, const std::string& vtu, const run_re
   files.write(vtu_collection, pvd_of_states(fs::path(vtu).stem().string(), states.size()));
 }
 
-/// Complete and name all files.
 void write_files(shown_run& o) {
   write_outputs(o.run);
   if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.vtu, o.run.result);
   o.files.write(check_report_of(o));
 }
 
-/// What every run ends with: certificate, files, messages, exit status.
+/// Ends a run: prints the certificate, writes the files, prints messages, returns the exit status.
 exit_status finish(shown_run& o) {
   const bool solved = o.run.result.end.status == path_status::solved;
   const bool certified = o.run.result.judged.all_certified();
@@ -300,8 +300,8 @@ exit_status finish(shown_run& o) {
   if (solved && certified) summary.front() += " for this mesh";
   print_verdict(o, solved && certified ? paint::good : paint::bad, summary);
   const exit_status status = o.run.exit();
-  if (status != exit_status::bad_input) write_files(o);  // without numbers no files
-  flush_standard_output();                               // the table before what is said about it
+  if (status != exit_status::bad_input) write_files(o);  // a run with bad input has no numbers
+  flush_standard_output();                               // the table comes before the messages
   complain_of(end_messages(o.run.result));
   return status == exit_status::solved && o.setup.options.strict && !certified ? exit_status::uncertified
                                                                                : status;

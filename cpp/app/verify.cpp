@@ -1,4 +1,4 @@
-// contct verify: every problem in reference/ against its published, closed-form and recomputed numbers.
+// contct verify: checks every problem in reference/ by its published, closed-form and recomputed numbers.
 #include "contct/lab/verify.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace {
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// The requested reference/; or the one installed with the program, even if both were moved; or that of the
-/// tree in which the program was built.
+/// The requested folder; otherwise reference/ as installed with the program, whose place is relative to the
+/// program; otherwise reference/ in the source tree of the build.
 fs::path find_reference(const std::string& asked) {
   if (!asked.empty()) return asked;
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
@@ -37,7 +37,7 @@ fs::path find_reference(const std::string& asked) {
 
 std::string_view mark_of(const verified_number& n) {
   if (!n.passed) return "FAILED";
-  if (n.expected.faithful) return "1989 differs";  // as the table knows
+  if (n.expected.faithful) return "1989 differs";  // the table has the value under the 1989 rule
   return n.certified ? "certified" : "not certified";
 }
 
@@ -73,7 +73,7 @@ json json_of(const verified_case& c) {
 /// The results of all cases so far.
 struct totals {
   int cases = 0, numbers = 0, failed = 0, known = 0;
-  int exact = 0, comparisons = 0;  ///< numbers whose exact value is known; what was compared with these
+  int exact = 0, comparisons = 0;  ///< numbers with a known exact value; comparisons with these values
   std::map<std::string, int> by_kind;
 
   void add(const verified_case& c) {
@@ -90,7 +90,7 @@ struct totals {
   }
 };
 
-/// The result of a problem as a test: its numbers and its failures.
+/// The result of a problem as a check for the report.
 check_result result_of(const verified_case& c) {
   check_result r{c.file, outcome::passed, "", c.failure.empty() ? "" : c.failure + "\n"};
   for (const verified_number& n : c.numbers) {
@@ -110,24 +110,24 @@ std::string words_of(const expected_number& e, double x) {
   return fmt::format("{:.8g}", x);
 }
 
-/// step, quantity, expected, computed, relative difference, tolerance, verdict
+/// A row has step, quantity, expected and computed value, relative difference, tolerance and verdict.
 constexpr std::string_view row = "{:>4} {:<20} {:>13} {:>13} {:>5} {:>5} {}\n";
 
-/// --json has the number of events as "toggles".
+/// Like quantity_words, with "events" for "toggles", which is the word of --json.
 std::string quantity_head(const expected_number& e) {
   std::string words = quantity_words(e);
   return words == "toggles" ? "events" : words;
 }
 
-/// Print the lines that belong to a row below it.
+/// Prints indented lines below a row.
 void print_below(const terminal& t, paint p, const std::string& words) {
   constexpr int indent = 9;
   for (const std::string& line : wrap({words}, t.width - indent))
     print_text(fmt::format("{:{}}{}\n", "", indent, painted(t, p, line)));
 }
 
-/// A row, and below it its exact value, and its source and the reason for its tolerance if they differ from
-/// those of the row before.
+/// Prints a row and below it its exact value. The source and the reason for the tolerance follow if they
+/// differ from those of the row before.
 void print(const terminal& t, const verified_number& n, std::string& printed) {
   const expected_number& e = n.expected;
   const paint p = !n.passed ? paint::bad : e.faithful ? paint::quiet : paint::good;
@@ -144,7 +144,6 @@ void print(const terminal& t, const verified_number& n, std::string& printed) {
   if (e.faithful) print_below(t, paint::quiet, e.reason);
 }
 
-/// Explain the table's columns, once.
 void print_legend(const terminal& t) {
   print_wrapped(t, paint::quiet,
                 {"error: relative difference between computed and expected", "tol: the largest error allowed",
@@ -179,7 +178,7 @@ void print(const terminal& t, const totals& all) {
       "here, so they were not compared.\n"));
 }
 
-/// The table, its problems and the files that these name.
+/// All input files: the table, its problems, and the files that these name.
 std::vector<output_option> files_read(const std::string& table, const fs::path& folder,
                                       const std::vector<verification_case>& cases) {
   std::vector<output_option> all = {{"the table of numbers", table}};
