@@ -27,9 +27,8 @@ void compare_events(const path_record& leader, const path_record& other, free_ru
   }
 }
 
-/// Largest difference of deflections, or of slopes, in any step, relative to the largest of them on the whole
-/// path: a step that takes all load off leaves nothing but rounding to measure by, and so does a plate that
-/// bends one way only in the slopes along the other.
+/// The largest difference of deflections, or of all slopes, at the end of any step. It is relative to the
+/// largest deflection, or slope in any direction, of the whole path.
 double relative_difference(const path_record& leader, const path_record& other, bool of_slopes,
                            std::size_t stride) {
   double difference = 0.0;

@@ -1,4 +1,4 @@
-// Tier 2: kernels in free run, compared by events, shares of the step and D.
+// Tier 2 compares kernels in free run by events, shares of the step, and D.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace contct {
 
-/// An event and the share of its step's load at which it happened.
+/// An event, and the share of the step at which it happens.
 struct timed_event {
   int step;  ///< from 1
   double fraction;
@@ -29,30 +29,31 @@ class path_record final : public observer {
 
   std::vector<timed_event> events;
   std::vector<std::vector<double>> displacement;  ///< at the end of each step [steps][dofs]
-  path_end end;                                   ///< for the caller to fill in
+  path_end end;                                   ///< set by the caller
 };
 
-/// How a kernel's own path differs from the leader's. s itself is not compared: it is a small difference of
-/// nearby event loads and loses digits even if the shares do not.
+/// The difference of a kernel's own path from the leader's. s is not compared: as a small difference of
+/// nearby event loads, it loses digits even if the shares do not.
 struct free_run_difference {
   bool same_end = true;          ///< both ended in the same way, in the same step
   bool same_events = true;       ///< the same pairs made and broke in the same order
-  std::string first_difference;  ///< of the ends or events, for people; empty when there is none
+  std::string first_difference;  ///< words for the first difference of ends or events; empty if they agree
   double fraction = 0.0;         ///< largest difference of the share of the step at an event
   double displacement = 0.0;     ///< largest difference of D, relative to the path's largest
-  double bound = 0.0;            ///< what `fraction` and `displacement` may reach
+  double bound = 0.0;            ///< the largest allowed `fraction` and `displacement`
 
   [[nodiscard]] bool within_bound() const {
     return same_end && same_events && fraction <= bound && displacement <= bound;
   }
 };
 
-/// The bound between kernels: 1e-9 for one precision and rule, 1e-4 for different ones.
+/// The bound for two kernels: 1e-9 if precision and rule are equal, otherwise 1e-4.
 [[nodiscard]] double free_run_bound(const kernel_facts& leader, const kernel_facts& other);
 
-/// Compare two recorded paths of one problem. Deflections, the first of a node's
-/// `dofs_per_node` dofs, are measured against the largest of them on the whole path, rotations against the
-/// largest of those: they have different units, and an unloaded step has no size of its own.
+/// Compares two recorded paths of one problem. A difference of deflections, the first of a node's
+/// `dofs_per_node` dofs, is relative to the largest deflection of the whole path, and a difference of
+/// rotations to the largest rotation. A single step may be unloaded, and have only rounding errors as
+/// displacements.
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 

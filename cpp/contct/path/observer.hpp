@@ -13,40 +13,40 @@ struct increment {
   int step;                        ///< from 1
   int number;                      ///< within the step, from 1
   double s;                        ///< s_min
-  double fraction;                 ///< share of the step's load consumed by now
+  double fraction;                 ///< share of the step's load applied so far
   std::span<const event> events;   ///< in order of pairs
-  bool snaps = false;              ///< a rigid-body motion to the next face, at constant load
-  std::span<const double> d = {};  ///< D at each pair after it [pairs]
-  std::span<const int> isep = {};  ///< ISEP after its events [pairs]
-  /// The force on the structure that each spring has gathered under the 1989 rule; 0 under any other [pairs].
+  bool snaps = false;              ///< this is a rigid-body motion to the next face, at constant load
+  std::span<const double> d = {};  ///< D at each pair after the increment [pairs]
+  std::span<const int> isep = {};  ///< ISEP after the events [pairs]
+  /// The force of each spring on the structure, summed over increments by the 1989 rule; else 0 [pairs].
   std::span<const double> pair_force = {};
 };
 
-/// Numbers of the end of a step that are more accurate than what its displacements, rounded to doubles, give.
+/// Numbers at the end of a step. They are more accurate than numbers computed from the rounded displacements.
 struct end_numbers {
-  std::vector<double> pair_forces;     ///< as force_of has them [pairs]
-  std::vector<double> reactions;       ///< as reactions(p, ..) has them [supports]
-  std::vector<double> element_values;  ///< as element_results has them
+  std::vector<double> pair_forces;     ///< see force_of [pairs]
+  std::vector<double> reactions;       ///< see reactions in solve_problem.hpp [supports]
+  std::vector<double> element_values;  ///< see element_results
 };
 
 /// The final state of a step, or of the path.
 struct step_state {
   int step;                              ///< from 1
-  double fraction;                       ///< share of the step's load consumed
+  double fraction;                       ///< share of the step's load applied
   std::span<const double> displacement;  ///< D at every dof [dofs]
   std::span<const int> isep;             ///< status of each pair [pairs]
-  double rcond;                          ///< of the equilibrated stiffness; 0 when it has no factor
-  bool from_fallback = false;            ///< the path was lost, or its end not proved: it is one of these
-  bool from_reference = false;           ///< the reference solution's own
-  bool from_exact_path = false;          ///< the end of the exact path's step
-  const end_numbers* numbers = nullptr;  ///< null: there are none
+  double rcond;                          ///< of the equilibrated stiffness; 0 if it has no factor
+  bool from_fallback = false;            ///< replaces the path's own state, which is missing or not proved
+  bool from_reference = false;           ///< from the reference solution
+  bool from_exact_path = false;          ///< from the exact path
+  const end_numbers* numbers = nullptr;  ///< may be null
 };
 
-/// Watches a path. The path does not depend on what an observer does.
+/// Observes a path without changing it.
 class observer {
  public:
   virtual ~observer() = default;
-  virtual void called(const answered_call& /*c*/) {}  // of the leading kernel
+  virtual void called(const answered_call& /*c*/) {}  // by the leading kernel
   virtual void incremented(const increment& /*i*/) {}
   virtual void step_ended(const step_state& /*s*/) {}
 };

@@ -12,7 +12,6 @@
 namespace contct {
 namespace {
 
-/// The loop, and how it ends.
 class path {
  public:
   path(const linear_structure& s, stiffness_engine& engine, kernel& leader,
@@ -38,7 +37,7 @@ class path {
  private:
   /// The paper's loop.
   path_end loop(int step, const load_history& total_load) {
-    now_.begin_step(step, total_load);  // R* = the step's total load less the previous one's
+    now_.begin_step(step, total_load);  // R* = the step's total load minus the previous total load
     policy_->begin_step();
     for (int number = 1; number <= increments_allowed_; ++number) {
       const response w_star = policy_->respond();  // K w* = R*, with the springs of the pairs now in contact
@@ -61,8 +60,8 @@ class path {
     return {status, now_.step, now_.fraction(), std::move(pairs)};
   }
 
-  /// A mechanism. The state reached is that just before the last separation, in which the springs of the
-  /// separating pairs still hold the structure, without force.
+  /// Ends in a mechanism. The state is set back to that before the last separation, in which the springs of
+  /// the separating pairs hold the structure without force.
   path_end set_free() {
     for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
     now_.find_events();
@@ -75,8 +74,8 @@ class path {
     double rcond;
   };
 
-  /// The state under the load applied so far; of a structure that cannot be held, the position after its
-  /// rigid-body motions. Nothing if it is out of the range of doubles.
+  /// The state under the load applied so far. If the structure cannot be held, this is its position after the
+  /// rigid-body motions. Nothing if the state is out of range in double precision.
   [[nodiscard]] std::optional<reached_state> reached() {
     reached_state r{std::vector<double>(now_.total.size()), 0.0};
     const bool is_held = policy_->displace(r.u);
@@ -87,8 +86,8 @@ class path {
     return r;
   }
 
-  /// The end of a step. The state that the 1989 rule reached is reported as it is. Any other is proved, or
-  /// replaced by one that is found without the path, as is that of a path that was lost.
+  /// Ends a step. Under the 1989 rule the state is reported unchanged. Under other rules it is proved. If the
+  /// proof or the path fails, a state that is found without the path replaces it.
   path_end finish(path_end end, const std::optional<reached_state>& reached) {
     if (!by_1989_rule_ || end.status != path_status::solved) end.has_equilibrium = now_.has_equilibrium();
     if (ends_ && !by_1989_rule_ && end.has_equilibrium != false) {
@@ -107,7 +106,7 @@ class path {
     return concluded(std::move(end));
   }
 
-  /// The path continues from there, with its own digits if it reached that state itself.
+  /// Continues the path from `found`. If the path reached this state itself, it keeps its own displacements.
   path_end arrive_at(const full_load_state& found, const std::optional<reached_state>& reached) {
     const bool is_own = reached && !found.from_reference && !found.from_exact_path;
     const bool has_rcond = is_own && found.isep == now_.status;
@@ -124,7 +123,7 @@ class path {
     return {path_status::solved, now_.step};
   }
 
-  /// A path that is lost ends in a mechanism only if there is certainly no equilibrium.
+  /// Sets the final status. A path that failed ends in a mechanism only if certainly no equilibrium exists.
   [[nodiscard]] path_end concluded(path_end end) const {
     const bool is_mechanism = end.has_equilibrium == false;
     if (end.status == path_status::mechanism) {
@@ -158,7 +157,7 @@ path_end follow_path(const linear_structure& s, int steps, const load_history& t
                      const path_limits& limits) {
   path p(s, engine, leader, observers, limits);
   path_end end;
-  bool stands = true;  // the step before was solved
+  bool stands = true;  // the previous step was solved
   for (int step = 1; step <= steps; ++step) {
     if (!stands && !total_load.from_zero(step)) continue;
     path_end of_step = p.follow_step(step, total_load);

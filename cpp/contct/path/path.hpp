@@ -15,30 +15,29 @@
 
 namespace contct {
 
-/// The status in which a path ended.
 enum class path_status {
   solved,           ///< every step's load is applied
   mechanism,        ///< nothing holds the structure any more, and its load has certainly no equilibrium
   cycle,            ///< the same pairs toggle for ever without progress
   iteration_limit,  ///< a step took more increments than allowed
-  not_factored,     ///< held, but too ill-conditioned for double precision, or beyond its range
+  not_factored,     ///< the structure is held, but ill-conditioned or out of range in double precision
   path_ended,       ///< nothing holds the structure any more, but its load may have an equilibrium
 };
 
 struct path_end {
   path_status status = path_status::solved;
-  int step = 0;                 ///< the step in which it ended, from 1
+  int step = 0;                 ///< the step in which the path ended, from 1
   double fraction = 1.0;        ///< share of that step's load reached
-  std::vector<int> pairs = {};  ///< mechanism and path_ended: whose separation led to it; cycle and
-                                ///< limit: those whose events repeat; from 0, empty when none did
-  engine_counts work = {};      ///< the engine's work
-  /// Not solved: has the step's full load an equilibrium? Nothing if that is undecided.
+  std::vector<int> pairs = {};  ///< from 0; mechanism, path_ended: pairs whose separation was the cause;
+                                ///< cycle, iteration_limit: pairs whose events repeat
+  engine_counts work = {};
+  /// If not solved: true if the step's full load has an equilibrium; nothing if undecided.
   std::optional<bool> has_equilibrium = {};
-  bool by_1989_rule = false;  ///< the leader's
-  /// The ends of later steps that were not solved either: each starts from zero.
+  bool by_1989_rule = false;  ///< the leader has the 1989 rule
+  /// The ends of later steps from zero that were not solved either.
   std::vector<path_end> others = {};
 
-  /// Records the end of one more step: the first that is not solved decides the status of the path.
+  /// Records the end of another step. The first step that is not solved decides the status of the path.
   void take(path_end of_step) {
     if (status == path_status::solved)
       *this = std::move(of_step);
@@ -47,18 +46,18 @@ struct path_end {
   }
 };
 
-/// Loads along the path, and moves of faces.
+/// The loads and face movements along the path.
 class load_history {
  public:
-  /// Write the total load at the end of `step` (from 1) to `total` [dofs], which comes zeroed; at dofs that
-  /// settle, the displacement that is prescribed (add_settlements). Where faces move, of displacements that
-  /// are counted from them (count_from_faces).
+  /// Writes the total load at the end of `step` (from 1) to `total` [dofs], which is 0 before. Dofs that
+  /// settle get their prescribed displacement instead (add_settlements). If faces move, the load is that for
+  /// displacements relative to the faces (count_from_faces).
   using totals = std::function<void(int step, std::span<double> total)>;
-  /// The work of that load on the rigid-body motions, without rounding.
+  /// The work of the total load on the rigid-body motions, without rounding.
   using works = std::function<rigid_work(int step)>;
-  /// Does a step start from the unloaded structure, whatever comes before it?
+  /// True if a step starts from the unloaded structure.
   using restarts = std::function<bool(int step)>;
-  /// Add how far the faces at each dof are moved at the end of `step` to `moved` [dofs].
+  /// Adds the movement of the faces at each dof, at the end of `step`, to `moved` [dofs].
   using moves = std::function<void(int step, std::span<double> moved)>;
 
   load_history() = default;
@@ -72,18 +71,18 @@ class load_history {
         moves_(std::move(moved)) {}
 
   void operator()(int step, std::span<double> total) const { total_(step, total); }
-  /// Empty if no step moves a face, and in step 0; otherwise [dofs].
+  /// The movement of faces at the end of a step [dofs]; empty if no step moves a face, or in step 0.
   [[nodiscard]] std::vector<double> moved(int step, std::size_t dofs) const {
     if (!moves_ || step == 0) return {};
     std::vector<double> m(dofs);
     moves_(step, m);
     return m;
   }
-  /// The same where a step begins.
+  /// The movement of faces at the beginning of a step.
   [[nodiscard]] std::vector<double> moved_before(int step, std::size_t dofs) const {
     return moved(from_zero(step) ? 0 : step - 1, dofs);
   }
-  /// Not known if only rounded loads are given, and in step 0.
+  /// Unknown in step 0, or if only rounded loads are given.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
   [[nodiscard]] bool from_zero(int step) const { return step == 1 || (from_zero_ && from_zero_(step)); }
 
@@ -98,39 +97,38 @@ class load_history {
 struct full_load_state {
   std::vector<double> displacement;         ///< [dofs]
   std::vector<int> isep;                    ///< [pairs]
-  std::optional<end_numbers> numbers = {};  ///< where the state was refined
+  std::optional<end_numbers> numbers = {};  ///< only of a refined state
   bool from_reference = false, from_exact_path = false;
 };
 
 /// The equilibrium found under the full load of a step.
 struct found_end {
   std::optional<full_load_state> state = {};
-  std::optional<bool> exists = {};  ///< nothing: it is not decided
+  std::optional<bool> exists = {};  ///< nothing if undecided
 };
 
-/// Ends a step, from 1: refines and proves the state that a path has reached. If that fails, or the path was
-/// lost and there is no state (null), it finds the equilibrium by other means.
+/// Ends a step, from 1: refines and proves the state `reached`, which is null if the path failed. Without a
+/// proved state, it finds the equilibrium by other means.
 using end_finder = std::function<found_end(int step, const full_load_state* reached)>;
 
 struct path_limits {
-  int increments_per_step = 0;  ///< 0: 1000, and 50 for each pair
-  /// Ends the steps of a leader whose rule is not the listing's. With that rule, it tells whether a load that
-  /// its path did not reach has an equilibrium.
+  int increments_per_step = 0;  ///< 0: 1000 plus 50 for each pair
+  /// Ends steps, except under the 1989 rule. Under the 1989 rule, it only decides whether a load that the
+  /// path did not reach has an equilibrium.
   end_finder ends = nullptr;
 };
 
-/// Most increments of a step that anybody may ask for.
+/// The largest limit of increments in a step.
 inline constexpr int most_increments = 1'000'000'000;
 
-/// The limit as a number, at most `most_increments`.
+/// The limit of increments in a step, at most `most_increments`.
 [[nodiscard]] int increments_allowed(const path_limits& limits, std::size_t pairs);
 
-/// Follow the path of `steps` load steps, and after one that is not solved only those from zero: `leader`
-/// decides, `engine` solves, `observers` watch. What else has to be decided is up to a policy: the 1989
-/// driver's for a leader with the 1989 rule, the corrected rule's for any other
+/// Follows the path of `steps` load steps. After a step that is not solved, only steps from zero are
+/// followed. `leader` decides about contact, and the policy of its rule makes all other decisions
 /// (contct/path/policy.hpp).
 ///
-/// The engine must be fresh: with the springs of the pairs that start in contact, and no others.
+/// The engine must contain the springs of the pairs that start in contact, and no others.
 path_end follow_path(const linear_structure& s, int steps, const load_history& total_load,
                      stiffness_engine& engine, kernel& leader, std::span<observer* const> observers,
                      const path_limits& limits = {});

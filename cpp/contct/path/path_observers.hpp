@@ -1,5 +1,5 @@
-// Who observes a path: its calls in lockstep with other kernels, its trace, the toggles that came too early,
-// and the explanation of its increments.
+// Observers of a path: lockstep with other kernels, early toggles, the trace, and the explanation of
+// increments.
 #pragma once
 
 #include <functional>
@@ -30,26 +30,25 @@ struct early_toggle {
   int step;         ///< from 1
   int number;       ///< of the increment, from 1
   event what;       ///< pair from 0
-  double distance;  ///< from the face when it was toggled
-  double share;     ///< the same, of the largest deflection at any pair so far
+  double distance;  ///< from the face at the toggle
+  double share;     ///< `distance` as a share of the largest deflection at any pair so far
 };
 
-/// Remembers the toggles that were off their face by more than rounding.
+/// Records toggles that are farther from the face than rounding explains.
 class early_toggles final : public observer {
  public:
   void called(const answered_call& c) override;
   void incremented(const increment& i) override;
 
-  /// In the order in which they happened.
   [[nodiscard]] const std::vector<early_toggle>& all() const { return all_; }
 
  private:
-  std::map<int, double> distances_;  // of the pairs toggled in the last call, from 0
+  std::map<int, double> distances_;  // from the face, by the pairs (from 0) that the last call toggled
   double largest_ = 0.0;
   std::vector<early_toggle> all_;
 };
 
-/// Hands a path's trace on as it grows, header first: memory does not grow with the calls.
+/// Passes the trace of a path on: first the header, then each call. Memory does not grow with the calls.
 class trace_recorder final : public observer {
  public:
   using sink = std::function<void(std::string_view text)>;
@@ -61,7 +60,7 @@ class trace_recorder final : public observer {
   std::string text_;
 };
 
-/// Which increments are wanted; 0 is all. All count from 1.
+/// The requested step and increment, from 1; 0 requests all.
 struct increments_wanted {
   int step = 0;
   int increment = 0;
@@ -70,23 +69,22 @@ struct increments_wanted {
   }
 };
 
-/// One increment, as passed to the observer.
+/// An increment and its explanation.
 struct explained_increment {
   const increment& what;
-  double fraction_before = 0.0;  ///< share of the step's load consumed before it
+  double fraction_before = 0.0;  ///< share of the step's load applied before the increment
   const explained_call& call;
-  const call_outputs* other = nullptr;  ///< the second kernel's; null if there is no answer of one
-  std::optional<mismatch> apart;        ///< where the second kernel differs first
-  bool left_undone = false;  ///< the driver took the toggles back: the load that is left is rounding
+  const call_outputs* other = nullptr;  ///< the second kernel's outputs; null without an answer
+  std::optional<mismatch> apart;        ///< the first difference of the second kernel
+  bool left_undone = false;  ///< the driver undid the toggles, because the remaining load is only rounding
 };
 
-/// Explains a path of a kernel that has the 1989 rule, and passes on the requested increments, one at a time,
-/// with another kernel's answer: earlier ones are not kept.
+/// Explains the path of a kernel with the 1989 rule. Passes each requested increment on, with a second
+/// kernel's answer, and keeps none.
 class explained_path final : public observer {
  public:
   using sink = std::function<void(const explained_increment&)>;
-  /// `second`: one kernel by name, or none. Throws std::invalid_argument when it differs in precision or
-  /// rule.
+  /// `second` names one kernel, or is empty. Throws std::invalid_argument if its precision or rule differs.
   explained_path(const kernel_facts& leader, std::span<const std::string> second, increments_wanted wanted,
                  sink to);
 
@@ -99,8 +97,9 @@ class explained_path final : public observer {
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return compared_.first(); }
   /// The number of increments passed on.
   [[nodiscard]] std::int64_t explained() const { return explained_; }
-  /// The number of steps begun, and the increments of the longest requested one.
+  /// The number of steps begun.
   [[nodiscard]] int steps() const { return steps_; }
+  /// The number of increments of the longest requested step.
   [[nodiscard]] int most_increments() const { return most_increments_; }
 
  private:
@@ -110,9 +109,9 @@ class explained_path final : public observer {
   sink to_;
   std::int64_t explained_ = 0;
   int steps_ = 0, number_ = 0, most_increments_ = 0;
-  double fraction_ = 0.0;  // share of the step's load consumed so far
-  double largest_ = 0.0;   // deflection so far
-  explained_call call_;    // the last one
+  double fraction_ = 0.0;  // share of the step's load applied so far
+  double largest_ = 0.0;   // the largest deflection so far
+  explained_call call_;    // the last call
 };
 
 }  // namespace contct

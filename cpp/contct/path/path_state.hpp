@@ -1,4 +1,4 @@
-// The state of a path, in the paper's symbols, and the detection of cycles.
+// The state of a path, in the symbols of the paper, and the detection of cycles.
 #pragma once
 
 #include <algorithm>
@@ -20,19 +20,17 @@
 
 namespace contct {
 
-/// Watches statuses while nothing moves. The path is deterministic: when a set of statuses returns while D
-/// and R* are the same to the last bit, the same toggles follow for ever. Brent's method finds this with one
-/// saved set.
+/// Detects cycles of statuses. The path is deterministic: if all statuses return while D and R* are the same
+/// to the bit, the same toggles follow for ever. Brent's method detects this with one saved set of statuses.
 class cycle_detector {
  public:
-  /// A new step begins.
   void reset() {
     saved_.clear();
     recent_.clear();
   }
 
-  /// Tell of one increment: whether D or R* moved, the statuses after it, and its events.
-  /// Returns true when these statuses came before and nothing has moved since.
+  /// Adds an increment: whether it changed D or R*, the statuses after it, and its events. Returns true if
+  /// the same statuses occurred before and nothing changed since.
   bool repeats(bool moved, std::span<const int> status, std::span<const event> events) {
     recent_.emplace_back(events.begin(), events.end());
     if (recent_.size() > remembered_increments) recent_.pop_front();
@@ -49,7 +47,7 @@ class cycle_detector {
     return false;
   }
 
-  /// Pairs, from 0, that toggled more than once in the last 200 increments.
+  /// The pairs, from 0, that toggled more than once in the last 200 increments.
   [[nodiscard]] std::vector<int> restless_pairs() const {
     std::map<int, int> toggles;
     for (const std::vector<event>& events : recent_)
@@ -68,16 +66,15 @@ class cycle_detector {
   std::deque<std::vector<event>> recent_;
 };
 
-/// R*, D, d*, and all that belongs to the pairs. Pairs and dofs count from 0, but for ID.
-/// Displacements, D and d* among them, are counted from moving faces (count_from_faces): a row of DD and
-/// DTEST at which faces move is that of the pairs there, and a pair between two dofs has a row of its own
-/// behind those of the structure, with the difference of the two. What leaves the path is the displacement
-/// itself.
+/// R*, D, d* and the data of pairs. Pairs and dofs count from 0; ID counts from 1.
+/// D, d* and other displacements are relative to moving faces (count_from_faces), but observers receive
+/// absolute displacements at the end of a step. A pair between two dofs has an additional row of DD and
+/// DTEST, after the structure's rows, with the difference of the two dofs.
 struct path_state {
-  /// `as_listed`: the kernel is called with D and d* over the dofs of the whole structure, and finds its
-  /// pairs there by ID, INDOF and NDOFPN, as the listing was; and springs gather their forces increment by
-  /// increment. Otherwise the pairs' own D and d* are all that the kernel gets, and ID counts them: a call
-  /// then costs no more on a larger structure. All arguments must outlive this object.
+  /// If `as_listed`, the kernel receives D and d* of the whole structure, in which ID, INDOF and NDOFPN
+  /// address the pairs, as in the listing; spring forces are summed over increments. Otherwise the kernel
+  /// receives only the D and d* of the pairs, which ID numbers, so that the cost of a call does not grow with
+  /// the structure. All arguments must outlive this object.
   path_state(const linear_structure& structure_of_path, stiffness_engine& e, std::span<observer* const> o,
              bool as_listed)
       : structure(structure_of_path),
@@ -94,7 +91,7 @@ struct path_state {
     int own_rows = 0;
     for (const contact_pair& p : structure.pairs) {
       c.push_back(p.face);
-      const bool has_own_row = !as_listed || p.other >= 0;  // after those of the structure
+      const bool has_own_row = !as_listed || p.other >= 0;  // after the structure's rows
       const int before = as_listed ? structure.dofs() : 0;
       id.push_back(has_own_row ? before + ++own_rows : p.node + 1);
       surface.push_back(p.surface);
@@ -114,29 +111,29 @@ struct path_state {
   stiffness_engine& engine;
   int step = 0;                     ///< from 1
   std::vector<double> total;        ///< load at the end of the step [dofs]
-  std::vector<double> increment;    ///< total less the previous step's [dofs]
+  std::vector<double> increment;    ///< total minus the previous step's total [dofs]
   residual_load residual{};         ///< R*
-  std::vector<double> shape;        ///< where steps ended and rigid-body motions led to [dofs]
+  std::vector<double> shape;        ///< position after the last step and later rigid-body motions [dofs]
   std::vector<double> d;            ///< D where each pair acts [pairs]
-  std::vector<double> d_star;       ///< d* there [pairs]
+  std::vector<double> d_star;       ///< d* where each pair acts [pairs]
   std::vector<double> c;            ///< faces [pairs]
   std::vector<double> s;            ///< scale factors of the last call [pairs]
   std::vector<int> id;              ///< ID, from 1 [pairs]
   std::vector<int> surface;         ///< ISURF [pairs]
   std::vector<int> status;          ///< ISEP [pairs]
   std::vector<int> sprung;          ///< status of each pair in the engine's stiffness [pairs]
-  std::vector<double> pair_force;   ///< force on the structure that each spring has gathered [pairs]
+  std::vector<double> pair_force;   ///< force of each spring on the structure, summed over increments [pairs]
   std::vector<std::size_t> at_dof;  ///< dof of each pair [pairs]
-  std::vector<event> events;        ///< by which `status` differs from `sprung`
-  std::vector<int> last_opened;     ///< pairs separated by the step's last increment that separated any
+  std::vector<event> events;        ///< the differences of `status` from `sprung`
+  std::vector<int> last_opened;     ///< pairs of the last separation in this step
   cycle_detector cycles;
 
   [[nodiscard]] std::size_t pairs() const { return status.size(); }
 
-  /// The share of the step's load increment applied by now.
+  /// The share of the step's load increment applied so far.
   [[nodiscard]] double fraction() const { return 1.0 - residual.share; }
 
-  /// R* becomes the load of step `number` less the previous one's.
+  /// Sets R* to the load of step `number` minus the previous load.
   void begin_step(int number, const load_history& total_load) {
     step = number;
     moved_.clear();
@@ -153,7 +150,7 @@ struct path_state {
     loads_ = &total_load;
   }
 
-  /// Back to the state before any load: D, ISEP and what springs have gathered.
+  /// Resets D, ISEP and the spring forces to the state before any load.
   void unload() {
     for (std::vector<double>* const all : {&total, &shape, &pair_force}) std::ranges::fill(*all, 0.0);
     std::vector<int> isep;
@@ -161,36 +158,37 @@ struct path_state {
     put_at(shape, isep);
   }
 
-  /// The rigid-body motion that the residual load drives and that nothing stops now; nothing if it drives
-  /// none.
+  /// The rigid-body motion that supports and contacts leave free and on which the residual load does work;
+  /// nothing if no such motion exists.
   [[nodiscard]] std::optional<free_motion> driven_motion() const {
     const rigid_work work = loads_->work(step);
     return structure.driven_motion(held_by(), increment,
                                    loads_->from_zero(step) ? work : work.less(loads_->work(step - 1)));
   }
 
-  /// Is there an equilibrium at the end of the step? If so, there is one throughout the step. Nothing if only
+  /// True if an equilibrium exists at the end of the step, and therefore throughout the step. Nothing if only
   /// rounding would decide.
   [[nodiscard]] std::optional<bool> has_equilibrium() const {
     return structure.has_equilibrium(loads_->work(step));
   }
 
-  /// Does the step's total load drive what nothing stops now? Nothing if only rounding would decide.
+  /// True if the step's total load does work on a rigid-body motion that supports and contacts leave free.
+  /// Nothing if only rounding would decide.
   [[nodiscard]] std::optional<bool> total_drives_a_motion() const {
     const rigid_work work = loads_->work(step);
     if (!work.is_known()) return std::nullopt;
     return structure.driven_motion(held_by(), total, work).has_value();
   }
 
-  /// Put one call to the kernel, with `d_test` [pairs] for d*, and tell the observers. Sets s, status and
-  /// events; returns s_min. Throws no_factor when d* is not finite.
+  /// Calls the kernel with `d_test` [pairs] as d*, and notifies the observers. Sets s, status and events;
+  /// returns s_min. Throws no_factor if d* is not finite.
   double ask(kernel& leader, std::span<const double> d_test) {
     if (!std::ranges::all_of(d_star, [](double moves) { return std::isfinite(moves); }))
       throw no_factor("the response to the residual load is not finite");
     call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
-        const bool has_own_row = structure.pairs[i].other >= 0;  // a matrix: one dof a node
+        const bool has_own_row = structure.pairs[i].other >= 0;  // in a matrix, with one dof per node
         const std::size_t row = has_own_row ? id[i] - std::size_t{1} : at_dof[i];
         dd_[row] = d[i];
         dtest_[row] = d_test[i];
@@ -210,7 +208,7 @@ struct path_state {
     return arguments.smin;
   }
 
-  /// The events of statuses that something else than the kernel has set.
+  /// Sets `events` to the differences of `status` from `sprung`.
   void find_events() {
     events.clear();
     for (std::size_t i = 0; i < pairs(); ++i)
@@ -218,7 +216,7 @@ struct path_state {
         events.push_back({static_cast<int>(i), status[i] == in_contact ? change::make : change::break_});
   }
 
-  /// D <- D + s_min d*. False when nothing moved to the last bit and no load was applied.
+  /// D <- D + s_min d*. Returns false if D is the same to the bit and no load was applied.
   bool advance(double s_min) {
     for (std::size_t i = 0; as_listed_ && i < pairs(); ++i)
       if (sprung[i] == in_contact) pair_force[i] -= structure.pairs[i].stiffness * (s_min * d_star[i]);
@@ -229,26 +227,27 @@ struct path_state {
     return moved;
   }
 
-  /// Switch the springs of the pairs whose events these are.
+  /// Inserts or removes the springs of the pairs in `events`.
   void switch_springs() {
     for (const event& e : events) engine.switch_spring(e.pair, e.what == change::make);
     if (std::vector<int> pairs = opened(); !pairs.empty()) last_opened = std::move(pairs);
     sprung = status;
   }
 
-  /// The movement of the faces at a dof when that share of the step's load is still to be applied.
+  /// The movement of the faces at a dof when the share `share_left` of the step's load is not applied yet.
   [[nodiscard]] double moved(std::size_t dof, double share_left) const {
     if (moved_.empty()) return 0.0;
     const double before = moved_before_.empty() ? 0.0 : moved_before_[dof];
     return moved_[dof] - share_left * (moved_[dof] - before);
   }
 
-  /// `v` [dofs], counted from the faces, becomes the displacement under the load applied so far.
+  /// Converts displacements relative to the faces, `v` [dofs], to absolute ones under the load applied so
+  /// far.
   void to_displacement(std::span<double> v) const {
     for (std::size_t dof = 0; dof < v.size(); ++dof) v[dof] += moved(dof, residual.share);
   }
 
-  /// At the end of the step the displacement where the pairs act is `u` [dofs], and their statuses are `isep`
+  /// Sets D and ISEP to the state at the end of the step: displacements `u` [dofs] and statuses `isep`
   /// [pairs].
   void put_at(std::span<const double> u, std::span<const int> isep) {
     for (std::size_t i = 0; i < pairs(); ++i) d[i] = structure.seen_by_pair(i, u) - moved(at_dof[i], 0.0);
@@ -257,14 +256,14 @@ struct path_state {
     switch_springs();
   }
 
-  /// The rigid-body motions that supports and pairs in contact stop, and whether these are all.
+  /// The rigid-body motions that supports and pairs in contact stop.
   [[nodiscard]] rigid_rank held_by() const { return held_by(status); }
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& isep) const {
     return structure.held_by([&isep](std::size_t i) { return isep[i] == in_contact; });
   }
   [[nodiscard]] bool held() const { return structure.is_held(held_by()); }
 
-  /// The pairs that these events separate.
+  /// The pairs that `events` separate.
   [[nodiscard]] std::vector<int> opened() const {
     std::vector<int> open;
     for (const event& e : events)
@@ -279,8 +278,8 @@ struct path_state {
     return applied;
   }
 
-  /// The part of the springs' forces on the structure that does not depend on D [pairs]: as listed each with
-  /// the force that it has gathered, whatever its law says; otherwise by its law, k c.
+  /// The part of the spring forces on the structure that does not depend on D [pairs]: k c by the spring's
+  /// law. If `as_listed`, the summed force replaces the law.
   [[nodiscard]] std::vector<double> spring_forces() const {
     std::vector<double> forces = pair_force;
     for (std::size_t i = 0; i < pairs(); ++i) {
@@ -290,7 +289,7 @@ struct path_state {
     return forces;
   }
 
-  /// The structure moved by `s_min` of this rigid-body motion, and pairs that made contact are at their
+  /// Moves the structure by `s_min` times a rigid-body motion, and puts pairs that made contact at their
   /// faces.
   void move_shape(double s_min, std::span<const double> motion) {
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
@@ -298,7 +297,6 @@ struct path_state {
       if (structure.pairs[e.pair].other < 0) shape[at_dof[e.pair]] = c[e.pair];
   }
 
-  /// Tell the observers.
   void tell_increment(int number, double s_min, bool rigid) const {
     for (observer* o : observers_)
       o->incremented({step, number, s_min, fraction(), events, rigid, d, status, pair_force});
@@ -312,11 +310,12 @@ struct path_state {
 
  private:
   const load_history* loads_ = nullptr;
-  std::vector<double> moved_before_, moved_;  // faces, at the step's start and end; empty: nowhere [dofs]
+  std::vector<double> moved_before_,
+      moved_;  // of faces at the step's start and end; empty if none move [dofs]
   std::span<observer* const> observers_;
   std::int64_t calls_ = 0;
   bool as_listed_;
-  std::vector<double> dd_, dtest_;  // D and d* over the structure, where the kernel is called so [dofs]
+  std::vector<double> dd_, dtest_;  // D and d* of the whole structure, if `as_listed` [dofs]
 };
 
 }  // namespace contct

@@ -20,7 +20,7 @@ std::optional<double> path_policy::decide() {
   return s_min < 1.0 && reaches_full_load(s_min) ? leave_undone() : s_min;
 }
 
-/// The springs of the last increment, which its events have not switched yet, are those in the stiffness.
+/// Uses `sprung`, the statuses in the stiffness, because the last events may not have switched springs yet.
 bool path_policy::displace(std::span<double> u) {
   if (!now_.structure.is_held(now_.held_by(now_.sprung))) return false;
   now_.engine.recover(now_.applied_load(), now_.spring_forces(), u);
@@ -38,17 +38,17 @@ bool path_policy::reaches_full_load(double s_min) const {
 
 namespace {
 
-/// a - b, or 0 if it is only rounding: two dofs of one body move alike.
+/// a - b, or 0 if this is only rounding, because two dofs of one rigid body can move equally.
 double difference(double a, double b, double rounding) {
   const double largest = std::max(std::abs(a), std::abs(b));
   return std::abs(a - b) <= std::max(1e-10, rounding) * largest ? 0.0 : a - b;
 }
 
-/// A structure that nothing holds moves as a rigid body, at constant load, to the next face. Write to d* a
-/// rigid-body motion that the residual load drives and that supports and pairs in contact leave free: the
-/// limit, up to its size, of the response of the structure on a ground that gets ever softer. It is long
-/// enough to reach every separated pair on its way; `everywhere` [dofs] becomes all of it. False, and nothing
-/// written, when the load does no work on any rigid-body motion.
+/// A structure that nothing holds moves as a rigid body, at constant load, to the next face. Writes this
+/// motion to d*, and at all dofs to `everywhere` [dofs]. Supports and pairs in contact leave the motion free,
+/// and the residual load drives it. Its direction is the limit of the response on an ever softer ground; its
+/// size reaches every separated pair on the way. Returns false, and writes nothing, if the load does no work
+/// on any free motion.
 bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   const std::optional<free_motion> motion = now.driven_motion();
   if (!motion) return false;
@@ -69,8 +69,7 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   return true;
 }
 
-/// Springs of separated pairs that hold a structure for a solve. They are out again when it has been solved,
-/// and when it could not be.
+/// Inserts springs of separated pairs to hold the structure for a solve. The destructor removes them.
 class holding_springs {
  public:
   holding_springs(stiffness_engine& engine, std::vector<int> separated_pairs)
@@ -89,11 +88,13 @@ class holding_springs {
   stiffness_engine& engine_;
 };
 
-/// The policy of the corrected rule: what no kernel can decide from one call (reference/corrected-rule.md).
+/// The policy of the corrected rule, for decisions that need more than one call
+/// (reference/corrected-rule.md).
 ///
-/// Rigid-body motions that the load drives are followed to the next face at constant load; those that it does
-/// not drive are held by springs without force. A pair that toggles twice in a row without progress stays in
-/// contact until the load advances, and after many answers without progress the pair of least index toggles.
+/// A rigid-body motion that the load drives continues to the next face at constant load. Springs without
+/// force stop the other rigid-body motions. A pair that toggles twice in succession without progress stays in
+/// contact until the load advances. After many answers without progress, the pair with the least index
+/// toggles.
 class corrected_policy final : public path_policy {
  public:
   using path_policy::path_policy;
@@ -119,7 +120,7 @@ class corrected_policy final : public path_policy {
     if (answers_at_rest_ > quick_answers_at_rest(now_.pairs()) && !now_.events.empty())
       toggle_first_at_rest();
     if (rigid_ && s_min == 1.0) return std::nullopt;
-    // Only the last pairs that hold the structure separate too early; any other event is followed.
+    // Only events that separate the last pairs that hold the structure are undone.
     if (s_min < 1.0 && !now_.held() && opens_at_full_load(s_min)) s_min = leave_undone();
     if (keep_in_contact_if_toggled_again(s_min)) now_.cycles.reset();
     if (rigid_) now_.move_shape(s_min, motion_);
@@ -132,7 +133,7 @@ class corrected_policy final : public path_policy {
     const auto springs = hold();
     if (!springs) return false;
     std::vector<double> load = now_.applied_load();
-    for (const int pair : springs->pairs)  // no force where the pair is
+    for (const int pair : springs->pairs)  // makes the spring's force 0 at the current D
       add_at_pair(now_.structure, pair, now_.structure.pairs[pair].stiffness * now_.d[pair], load);
     now_.engine.recover(load, now_.spring_forces(), u);
     return true;
@@ -142,14 +143,14 @@ class corrected_policy final : public path_policy {
     const auto springs = hold();
     try {
       return now_.engine.reciprocal_condition();
-    } catch (const no_factor&) {  // the state is still known: it was found without the path
+    } catch (const no_factor&) {  // the state is known even so, because it was found without the path
       return 0.0;
     }
   }
 
  private:
-  /// Of the pairs at their faces the kernel toggles that with the largest response. That may cycle; choosing
-  /// the least index never does (Murty 1974).
+  /// Toggles the pair with the least index among those at their faces, which never cycles (Murty 1974). The
+  /// kernel chooses the pair with the largest response, which can cycle.
   void toggle_first_at_rest() {
     const auto first = std::ranges::find(now_.s, 0.0);
     if (first == now_.s.end()) return;
@@ -158,8 +159,8 @@ class corrected_policy final : public path_policy {
     now_.find_events();
   }
 
-  /// Do the last pairs that hold the structure separate at full load, up to rounding? The load of the step
-  /// then does no work on the motions that they free.
+  /// True if the last pairs that hold the structure separate at full load, up to rounding. The step's load
+  /// then does no work on the motions that become free.
   [[nodiscard]] bool opens_at_full_load(double s_min) const {
     constexpr double rounding_at_most = 1e-6;
     const std::optional<bool> driven = now_.total_drives_a_motion();
@@ -167,9 +168,9 @@ class corrected_policy final : public path_policy {
     return !*driven && now_.residual.share * (1.0 - s_min) <= rounding_at_most;
   }
 
-  /// If supports and pairs in contact leave rigid-body motions that the load does not drive, springs of
-  /// separated pairs hold the structure for a solve, each at rest where its pair is. Null when even these do
-  /// not hold it.
+  /// Holds the structure for a solve. If supports and pairs in contact leave rigid-body motions free that the
+  /// load does not drive, it inserts springs of separated pairs, without force. Returns null if these do not
+  /// suffice.
   [[nodiscard]] std::unique_ptr<holding_springs> hold() {
     rigid_rank rank = now_.held_by();
     std::vector<int> pairs = now_.structure.pairs_that_hold(rank);
@@ -177,8 +178,8 @@ class corrected_policy final : public path_policy {
     return std::make_unique<holding_springs>(now_.engine, std::move(pairs));
   }
 
-  /// In exact arithmetic d* keeps its sign when its pair is toggled at its face, d' = d / (1 + k F): a pair
-  /// toggled twice running without progress has a d* of rounding.
+  /// In exact arithmetic, toggling a pair at its face does not change the sign of d*: d' = d / (1 + k F). The
+  /// d* of a pair that toggles twice in succession without progress is therefore rounding.
   bool keep_in_contact_if_toggled_again(double s_min) {
     if (s_min > 0.0) {
       begin_step();
@@ -194,11 +195,11 @@ class corrected_policy final : public path_policy {
     return true;
   }
 
-  /// d* as the kernel is to see it [pairs].
+  /// d* for the call of the kernel, with 0 for pairs that are kept in contact [pairs].
   [[nodiscard]] std::span<const double> d_test() {
     if (kept_in_contact_.empty()) return now_.d_star;
     d_test_ = now_.d_star;
-    for (const int pair : kept_in_contact_)  // and for every other that acts there
+    for (const int pair : kept_in_contact_)  // and for other pairs at the same dofs
       for (std::size_t i = 0; i < d_test_.size(); ++i)
         if (now_.at_dof[i] == now_.at_dof[pair] &&
             now_.structure.pairs[i].other == now_.structure.pairs[pair].other)
@@ -206,12 +207,12 @@ class corrected_policy final : public path_policy {
     return d_test_;
   }
 
-  bool rigid_ = false;                // the last response
-  std::vector<double> motion_;        // that response, if it is a rigid-body motion [dofs]
-  int answers_at_rest_ = 0;           // in a row, with SMIN = 0
-  int last_toggled_at_rest_ = -1;     // the pair that the last answer without progress toggled
-  std::vector<int> kept_in_contact_;  // pairs that are not asked until the load advances
-  std::vector<double> d_test_;        // d* with 0 for the pairs kept in contact [pairs]
+  bool rigid_ = false;                // the last response is a rigid-body motion
+  std::vector<double> motion_;        // the last rigid-body motion [dofs]
+  int answers_at_rest_ = 0;           // number of successive answers with SMIN = 0
+  int last_toggled_at_rest_ = -1;     // the pair that the last answer with SMIN = 0 toggled
+  std::vector<int> kept_in_contact_;  // pairs that stay in contact until the load advances
+  std::vector<double> d_test_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The path of a problem.
+// The structure, the loads and the path of a problem.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +16,19 @@
 
 namespace contct {
 
-/// The structure that a problem describes; the supports that its steps move are built to settle.
+/// The structure of a problem. Supports that a step moves are built to settle.
 [[nodiscard]] inline linear_structure structure_of(const problem& p) {
   std::vector<support> supports = p.supports;
   std::set<std::pair<int, int>> settling;
   for (const load& l : p.steps)
     for (const prescribed_displacement& g : l.settlements) settling.emplace(g.node, g.dof);
-  for (const load& l : p.steps)  // counted from a face that moves, a fixed dof does too
+  for (const load& l : p.steps)  // relative to a moving face, a fixed dof moves too
     for (const face_move& m : l.moves) settling.emplace(m.node, m.dof);
   for (support& s : supports) s.settles = s.fixed && settling.contains({s.node, s.dof});
   return build(p.geometry, supports, p.pairs);
 }
 
-/// The loads of a problem's steps. `p` and its structure must outlive them.
+/// The loads of a problem's steps. Both arguments must outlive them.
 [[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
   const auto moved = [&p](int step, std::span<double> m) {
     add_moves(p.steps[step - 1], dofs_per_node(p.geometry), m);
@@ -49,24 +49,24 @@ namespace contct {
           any ? load_history::moves(moved) : nullptr};
 }
 
-/// The engine of a path that a kernel leads: the requested one, by name, or the fastest for "auto"; by
-/// default one factorisation an increment, as in 1989, for the 1989 rule, and the fastest for others.
+/// The name of the engine for a path: the requested engine, or the fastest for "auto". The default for the
+/// 1989 rule is one factorisation per increment, as in 1989; for other rules it is the fastest engine.
 [[nodiscard]] inline std::string engine_for(const kernel_facts& leader, const std::string& asked,
                                             const linear_structure& s) {
   if (asked.empty() && leader.rule == contact_rule::listing) return "refactor";
   return asked.empty() || asked == "auto" ? std::string(quickest_engine(s)) : asked;
 }
 
-/// Follow a problem's path on an engine of its own, by name. `s` is its structure.
+/// Follows a problem's path on a new engine, which is given by its name. `s` is the structure of the problem.
 inline path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
                        const std::vector<observer*>& observers, const path_limits& limits = {}) {
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
   return follow_path(s, static_cast<int>(p.steps.size()), loads_of(p, s), *solves, leader, observers, limits);
 }
 
-/// The force (or moment) on the structure by each support of `p`, in their order, under displacement `u`
-/// [dofs] and load `l`, with the pairs in the statuses `isep` [pairs]: the force of a pair on a fixed
-/// deflection, which a settlement may have moved, is not a support's reaction.
+/// The force or moment on the structure by each support of `p` [supports], for displacements `u` [dofs], load
+/// `l` and statuses `isep` [pairs]. The force of a pair on a fixed deflection is not part of the support's
+/// reaction.
 [[nodiscard]] inline std::vector<double> reactions(const problem& p, const load& l, std::span<const double> u,
                                                    std::span<const int> isep) {
   std::vector<double> all = reactions(p.geometry, l, p.supports, u);
