@@ -27,7 +27,7 @@ void refuse_dof(const call<double>& c, std::size_t pair) {
 }  // namespace
 
 void refuse_beyond_limits(const call<double>& c, std::span<const int> isep) {
-  constexpr std::int64_t most_pairs = 2'147'483'646;  // the counter of the listing's DO loops ends at NC + 1
+  constexpr std::int64_t most_pairs = 2'147'483'646;  // the counter of a DO loop ends at NC + 1
   const auto pairs = static_cast<std::int64_t>(c.cc.size());
   if (pairs > most_pairs) refuse("NC", std::to_string(pairs), "0 to " + std::to_string(most_pairs));
   for (std::size_t i = 0; i < c.cc.size(); ++i) {

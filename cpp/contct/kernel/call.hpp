@@ -1,5 +1,4 @@
-// One call of CONTCT: the listing's arguments as data, with storage of their own, and with the answer to
-// them.
+// One call of CONTCT: its arguments as views or as owned arrays, and its answer.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +27,9 @@ inline constexpr int in_contact = -1;
 inline constexpr int face_above = 1;
 inline constexpr int face_below = -1;
 
-/// What can happen to a pair: making contact (advancing) or breaking it (receding).
+/// A change of a pair's status: it makes contact (advancing) or breaks contact (receding).
 enum class change { make, break_ };
 
-/// A contact event, as data.
 struct event {
   int pair;     ///< from 0
   change what;  ///< make: ISEP became -1; break_: ISEP became +1
@@ -39,19 +37,18 @@ struct event {
   friend bool operator==(const event&, const event&) = default;
 };
 
-/// Which branch of the listing's DO 10 loop gave a pair its s.
+/// The branch of the listing's DO 10 loop that set the s of a pair.
 enum class listing_branch {
   no_response,       ///< d* = 0: s is 1, the mark for "no event"
-  stationary,        ///< at its face, and the load keeps it as it is: s is 1, the same mark
-  stationary_event,  ///< at its face, and the load changes it: eq. 12
+  stationary,        ///< at its face, and the load does not change its status: s is 1, the same mark
+  stationary_event,  ///< at its face, and the load changes its status: eq. 12
   moving,            ///< advancing or receding: eq. 4
 };
 
 /// The arguments of CONTCT in the listing's order, and COMMON /DOF/.
-/// `nc` is cc.size(); every array over pairs has that length. Every id[i] must address a dof
-/// inside dd and dtest, nc must be below 2^31 - 1, and neither (id[i] - 1) * ndofpn + indof nor isep[i] *
-/// isurf[i] may leave 32 bits; the listing does not check, and neither do the kernels: refuse_beyond_limits
-/// does.
+/// `nc` is cc.size(), the length of every array over pairs; it must be below 2^31 - 1. Every id[i] must
+/// address a dof inside dd and dtest. The values of (id[i] - 1) * ndofpn + indof and of isep[i] * isurf[i]
+/// must fit in 32 bits. Neither the listing nor the kernels check this; refuse_beyond_limits does.
 template <class Real>
 struct call {
   std::span<const Real> dd;     ///< DD: D, accumulated deflection [system dofs]
@@ -67,15 +64,15 @@ struct call {
   [[nodiscard]] int nc() const { return static_cast<int>(cc.size()); }
 };
 
-/// A call with the answer to it, as comparisons, traces and those who observe a path see it.
+/// A call and its answer, for comparisons, traces and the observers of a path.
 struct answered_call {
   call<double> c;                             ///< inputs and outputs; c.isep is already toggled
-  std::span<const int> isep_before;           ///< ISEP as it went in [pairs]
-  std::optional<std::string_view> text = {};  ///< unit 26; nothing if there is none, or it is not compared
-  std::int64_t number = 0;                    ///< on its path or in its trace, from 1
+  std::span<const int> isep_before;           ///< ISEP before the call [pairs]
+  std::optional<std::string_view> text = {};  ///< unit-26 text; nothing if the kernel has none
+  std::int64_t number = 0;                    ///< number of the call in its path or trace, from 1
 };
 
-/// The inputs of one call, owned. dd and dtest may be longer than the dofs in use.
+/// The inputs of one call in owned arrays. dd and dtest may be longer than the dofs in use.
 template <class Real>
 struct call_inputs {
   std::vector<Real> dd, dtest;       ///< [dofs]
@@ -84,22 +81,22 @@ struct call_inputs {
   dof_layout dof;
 
   [[nodiscard]] std::size_t pairs() const { return cc.size(); }
-  /// The dof of pair `i`, from 0: its place in dd and dtest.
+  /// The dof of pair `i`, from 0: its index in dd and dtest.
   [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const { return dof.dof_of(id[i]) - 1; }
 };
 
 /// The value of SMIN and SS before a call, which every kernel must overwrite.
 inline constexpr double not_an_answer = -7.0;
 
-/// The outputs of one call, owned.
+/// The outputs of one call in owned arrays.
 struct call_outputs {
   double smin = 0.0;
   std::vector<double> ss;  ///< [pairs]
   std::vector<int> isep;   ///< [pairs]
-  std::string text;        ///< unit 26, of a kernel that has text
+  std::string text;        ///< unit-26 text; empty if the kernel has none
 
-  /// Ready for a call with `in`: outputs hold values that no kernel may leave there, and ISEP the statuses
-  /// before the call.
+  /// Returns a call with the inputs `in` and these outputs. SMIN and SS are not_an_answer, and ISEP is
+  /// in.isep.
   call<double> prepare(const call_inputs<double>& in) {
     ss.assign(in.pairs(), not_an_answer);
     isep = in.isep;
@@ -107,8 +104,7 @@ struct call_outputs {
   }
 };
 
-/// `then(call<float>&)` with the call of a 4-byte kernel, which comes in double precision, rounded as the
-/// kernel rounds it.
+/// Calls then(call<float>&) with `c`, a call of a 4-byte kernel in double precision, rounded to float.
 template <class Then>
 auto as_float_call(const call<double>& c, Then then) {
   const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
@@ -120,9 +116,8 @@ auto as_float_call(const call<double>& c, Then then) {
   return then(narrow);
 }
 
-/// Throws std::invalid_argument where NC, a product ISEP * ISURF or a dof of `c` leaves the 32 bits of
-/// INTEGER: the result of an overflow is undefined in FORTRAN and in C++, and compilers differ there. `isep`
-/// is ISEP before the call.
+/// Throws std::invalid_argument if NC, a product ISEP * ISURF or a dof of `c` does not fit in 32 bits: the
+/// result of an overflow is undefined in FORTRAN and in C++. `isep` is ISEP before the call.
 void refuse_beyond_limits(const call<double>& c, std::span<const int> isep);
 
 }  // namespace contct

@@ -43,15 +43,15 @@ constexpr bool is_static = false;
 
 constexpr std::string_view ready_word = "ready";
 
-/// An answer that begins with this names a forbidden action of the kernel in its first line.
+/// An answer that begins with this word describes a forbidden action of the kernel in its first line.
 constexpr std::string_view fault_word = "fault ";
 
 [[noreturn]] void fail_to_start(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-/// Close the parent's files except the channel, drop its unprinted text, and reset its signal handlers: a
-/// crash of the child must end it. No core dumps.
+/// In the child: closes the parent's files except the channel, discards the parent's unprinted text, disables
+/// core dumps, and resets signal handlers, so that a crash ends the child.
 void detach_from_parent(int channel) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   __fpurge(stdout);
@@ -68,7 +68,7 @@ void detach_from_parent(int channel) {
   close_range(kept + 1, ~0U, 0);
 }
 
-/// Wait until the channel is ready for `events`. False when the deadline comes first.
+/// Waits until the channel is ready for `events`. Returns false if the deadline comes first.
 bool ready(int channel, short events, clock::time_point deadline) {
   while (true) {
     using namespace std::chrono;
@@ -80,15 +80,14 @@ bool ready(int channel, short events, clock::time_point deadline) {
   }
 }
 
-/// The result of sending or receiving a message: done; not before the deadline; the channel is closed.
+/// The result of sending or receiving a message: complete, deadline missed, or channel closed.
 enum class sent { whole, late, gone };
 
-/// A child process and a channel to it. The child ends with this object, and with its parent.
+/// A child process and a channel to it. The child ends with this object or with the parent process.
 class child_process {
  public:
-  /// Fork; the child runs `body`, which gets its end of the channel and must not return to the caller's code:
-  /// when it returns, the child ends. No other file of the parent is open in the child; its printed output
-  /// goes to standard error.
+  /// Forks. The child runs `body` with its end of the channel, and ends when `body` returns. No other file of
+  /// the parent is open in the child. The printed output of the child goes to standard error.
   explicit child_process(const std::function<void(int channel)>& body) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -123,7 +122,7 @@ class child_process {
     return sent::whole;
   }
 
-  /// Append the next bytes, at least one, to `message`.
+  /// Appends the next bytes, at least one, to `message`.
   [[nodiscard]] sent receive(std::string& message, clock::time_point deadline) const {
     char block[1 << 14];
     while (true) {
@@ -136,13 +135,13 @@ class child_process {
     }
   }
 
-  /// End the child. "was ended by signal 11 (Segmentation fault)", "ended with status 2", or, when it had to
-  /// be stopped, `was_stopped`.
+  /// Ends the child. Returns "was ended by signal 11 (Segmentation fault)", "ended with status 2" or, if it
+  /// did not end by itself, `was_stopped`.
   std::string end() {
     if (pid_ < 0) return was_stopped;
     if (channel_ >= 0) close(channel_);
     channel_ = -1;
-    // A child that is ending has a moment to do so: its status says how.
+    // Waits briefly for a child that is about to end, to get its status.
     int status = 0;
     pid_t waited = 0;
     for (int i = 0; i < 50 && (waited = waitpid(pid_, &status, WNOHANG)) == 0; ++i)
@@ -171,11 +170,11 @@ bool is_whole_answer(std::string_view text) {
   return text == "end\n" || text.ends_with("\nend\n");
 }
 
-/// A kernel that answers in a child process: one call as trace text in, one answer out.
+/// A kernel in a child process. Calls and answers are trace text.
 class kernel_in_child final : public kernel {
  public:
-  /// The child runs `body`, which first `loads` something, and sends `ready_word` or an error message; after
-  /// an error this throws std::invalid_argument.
+  /// The child runs `body`. If `loads` is true, it first loads a library and sends `ready_word` or an error
+  /// message; an error is thrown as std::invalid_argument.
   kernel_in_child(kernel_facts facts, std::function<void(int channel)> body, bool loads,
                   const outside_limits& limits)
       : facts_(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {
@@ -195,7 +194,7 @@ class kernel_in_child final : public kernel {
     const auto until = deadline();
     asked_.clear();
     append_inputs({c, c.isep, {}, ++calls_}, "", asked_);
-    // More than any answer takes: a kernel that never stops talking must not take all memory.
+    // Longer than any valid answer. A kernel that writes without end must not use all memory.
     const std::size_t most_answer = (std::size_t{1} << 20) + 1024 * c.ss.size();
     sent how = child_->send(asked_, until);
     answered_.clear();
@@ -211,7 +210,7 @@ class kernel_in_child final : public kernel {
 
   [[nodiscard]] clock::time_point deadline() const { return clock::now() + limits_.patience; }
 
-  /// Make the child. Returns the error of loading; empty if there is none.
+  /// Starts the child. Returns the error of loading, or an empty text.
   std::string start() {
     child_.emplace(body_);
     if (!loads_) return "";
@@ -224,14 +223,14 @@ class kernel_in_child final : public kernel {
     return how == sent::late ? too_slow : words + " while it was loaded";
   }
 
-  /// Throws kernel_failure when the kernel has failed too often to be asked again.
+  /// Throws kernel_failure if the kernel has failed too often to be called again.
   void refuse_when_enough() const {
     if (failures_ < limits_.most_failures && waits_ < limits_.most_waits) return;
     throw kernel_failure("is not called again after " + std::to_string(failures_ + waits_) +
                          " failures; the last: it " + last_);
   }
 
-  /// End the child, and throw a failure, for which the caller had to wait or not.
+  /// Ends the child and throws kernel_failure. `waited`: the failure is a timeout.
   [[noreturn]] void fail(const std::string& words, bool waited = false) {
     child_.reset();
     ++(waited ? waits_ : failures_);
@@ -239,24 +238,24 @@ class kernel_in_child final : public kernel {
     throw kernel_failure("it " + words);
   }
 
-  /// End the child, and throw what kept a message from being sent or received whole.
+  /// Ends the child and throws the reason why a message was not sent or received completely.
   [[noreturn]] void fail_without_answer(sent how) {
     const std::string words = child_->end();
     if (how == sent::late)
       fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
     if (words == child_process::was_stopped)
-      fail("closed its end of the pipe", true);  // and continued to run
+      fail("closed its end of the pipe", true);  // the child continued to run
     fail(words);
   }
 
-  /// Output before the first call would be taken for its answer.
+  /// Refuses output before a call, because it would be read as the answer to the call.
   void refuse_stray_answer() {
     answered_.clear();
     if (child_->receive(answered_, clock::now()) == sent::whole) fail("answered without being called");
   }
 
   void read_answer(call<double>& c) {
-    if (answered_.starts_with(fault_word))  // with a fresh child next: what else it did is not known
+    if (answered_.starts_with(fault_word))  // ends the child, in which the fault may have other effects
       fail(answered_.substr(fault_word.size(), answered_.find('\n') - fault_word.size()));
     out_.ss.resize(c.ss.size());
     out_.isep.resize(c.ss.size());
@@ -287,8 +286,8 @@ class kernel_in_child final : public kernel {
   call_outputs out_;
 };
 
-/// The child becomes the command, with the channel as its standard input and output. Where there is no shell,
-/// as in an empty container, it becomes the program that the command's first word names.
+/// Replaces the child by the command, with the channel as standard input and output. Without a shell, as in
+/// an empty container, executes the command's first word directly.
 void become(const std::string& command, int channel) {
   dup2(channel, STDIN_FILENO);
   dup2(channel, STDOUT_FILENO);
@@ -306,7 +305,7 @@ void become(const std::string& command, int channel) {
 
 using abi_function = decltype(&contct_kernel_abi);
 
-/// Make the call, and return its answer as trace text.
+/// Makes the call and returns its answer as trace text.
 std::string answer_to(std::string_view asked, kernel_procedure* ask) {
   recorded_call recorded;
   trace_reader(asked, "the call").next_inputs(recorded);
@@ -325,7 +324,7 @@ void say(int channel, std::string_view words) {
   }
 }
 
-/// The loop of a plug-in's child until its channel is closed: wait for a call, execute it, send the answer.
+/// In a plug-in's child: waits for calls, executes them and sends the answers, until the channel is closed.
 void answer_calls(kernel_procedure* ask, int channel) {
   char block[1 << 14];
   std::string asked;
@@ -341,15 +340,14 @@ void answer_calls(kernel_procedure* ask, int channel) {
   }
 }
 
-/// The work of a plug-in's child: load the library, send `ready_word` or an error message, and answer calls
-/// until its end of the channel is closed.
+/// In a plug-in's child: loads the library, sends `ready_word` or an error message, and answers calls.
 void host_plugin(const std::string& path, int channel) {
   if (is_static)
     return say(channel,
                "a static program loads no shared library; allowed: pipe:COMMAND, with a command that "
                "reference/adopt/pipe_main.c makes of the kernel's source");
   fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
-  // dlopen looks for a name without a slash among the system's libraries only.
+  // dlopen searches a name without a slash only among the system's libraries.
   void* const library =
       dlopen((path.find('/') == std::string::npos ? "./" + path : path).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return say(channel, std::string("cannot be loaded: ") + dlerror());

@@ -1,6 +1,6 @@
-// External kernels: a shared library with the plug-in ABI, or a command that speaks the trace format. Each
-// has a process of its own: it may crash, hang or answer nonsense, and the run goes on. And functions of this
-// process: the caller's, or a plug-in's in its own process.
+// External kernels: a shared library with the plug-in ABI, or a command that reads and writes the trace
+// format. Each runs in a child process, so that a crash, an endless loop or an invalid answer does not end
+// the run. Also kernels that are functions of the calling process.
 #pragma once
 
 #include <chrono>
@@ -12,30 +12,30 @@
 
 namespace contct {
 
-/// How long an external kernel may take for one call, and after how many failures it is given up. A crash
-/// costs a millisecond, and many crashes may show a common cause; a timeout costs the user `patience`.
+/// The time limit of an external kernel for one call, and the numbers of failures and of timeouts after which
+/// it is not called again. More failures than timeouts are allowed, because a crash costs only a millisecond.
 struct outside_limits {
   std::chrono::milliseconds patience{10'000};
   int most_failures = 1000;
   int most_waits = 3;
 };
 
-/// "plugin:PATH". The library is loaded, and every call made, in a child process. Throws
-/// std::invalid_argument when it cannot be loaded, lacks a symbol, or has another ABI.
+/// Makes the kernel "plugin:PATH". A child process loads the library and makes every call. Throws
+/// std::invalid_argument if the library cannot be loaded, lacks a symbol, or has another ABI version.
 [[nodiscard]] std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& limits = {});
 
-/// "pipe:COMMAND", run by the shell.
+/// Makes the kernel "pipe:COMMAND". The shell runs the command.
 [[nodiscard]] std::unique_ptr<kernel> make_pipe(const std::string& command,
                                                 const outside_limits& limits = {});
 
 using kernel_procedure = decltype(contct_kernel);
 
-/// Throws std::invalid_argument if a function may not have that name, for example because another kernel has
-/// it.
+/// Throws std::invalid_argument if a function kernel may not have this name, for example because a kernel of
+/// this name exists.
 void refuse_name_of_function(const std::string& name);
 
-/// Make a call of `procedure`, which gets copies of all arrays, between guard bytes. Throws kernel_failure,
-/// "changed its input DD", if it wrote outside its outputs; `c` is then unchanged.
+/// Calls `procedure` with copies of all arrays between guard bytes. If it changed an input or a guard byte,
+/// throws kernel_failure (for example "changed its input DD") and leaves `c` unchanged.
 void put_guarded(call<double>& c, kernel_procedure* procedure);
 
 /// A kernel that makes each call by put_guarded.

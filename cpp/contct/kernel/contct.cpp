@@ -1,5 +1,4 @@
-// The C++ kernels as machine code: one function for each precision, called by everything that calls CONTCT in
-// C++.
+// The only compiled C++ kernels, one for each precision.
 #include "contct/kernel/contct.hpp"
 
 namespace contct {

@@ -9,8 +9,8 @@
 
 namespace contct {
 
-/// The constants of the listing's DATA statement, each literal read in the precision of the
-/// build: the single-precision 1.E-20 is not the double nearest to 1e-20.
+/// The constants of the listing's DATA statement. Each literal has the precision of the build: the
+/// single-precision 1.E-20 is not the double nearest to 1e-20.
 template <class Real>
 struct constants;
 
@@ -28,8 +28,8 @@ struct constants<double> {
   static constexpr double epsmul = .390625E-02;
 };
 
-/// s of one pair: the body of the listing's DO 10, steps 3 to 11 of the paper's algorithm.
-/// Position `d`, response `d_star`, face `c`, status `i_sep`, side `i_surf`.
+/// Returns s of one pair, as the body of the listing's DO 10 does in steps 3 to 11 of the paper's algorithm.
+/// Arguments: deflection D, response d*, face c, ISEP and ISURF.
 template <class Real>
 [[nodiscard]] Real scale_factor(Real d, Real d_star, Real c, int i_sep, int i_surf) {
   const Real gap = c - d;                 // eq. 5, without its sign
@@ -41,9 +41,9 @@ template <class Real>
   return gap / d_star;  // eq. 4
 }
 
-/// One call of CONTCT. Sets c.ss and c.smin, toggles c.isep, and writes what happened, in order
-/// of pairs, to `events` (room for nc). Returns the number of events: 0 means that the whole
-/// residual load can be applied. Allocates nothing, writes nothing, throws nothing.
+/// One call of CONTCT. Sets c.ss and c.smin, toggles c.isep, and writes the events, in order of pairs, to
+/// `events` (length at least nc). Returns the number of events; 0 means that the whole residual load can be
+/// applied. Allocates no memory, prints nothing, and throws no exception.
 template <class Real>
 [[gnu::noinline]] int contct(call<Real>& c, std::span<event> events) noexcept;
 
@@ -72,8 +72,8 @@ int contct(call<Real>& c, std::span<event> events) noexcept {
   return happened;
 }
 
-/// One call under the corrected rule (reference/corrected-rule.md), one event at a time: sets c.ss and c.smin
-/// and toggles at most one pair in c.isep.
+/// One call under the corrected rule (reference/corrected-rule.md). Sets c.ss and c.smin, and toggles at most
+/// one pair in c.isep.
 void contct_corrected(call<double>& c) noexcept;
 
 }  // namespace contct

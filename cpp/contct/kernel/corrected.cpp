@@ -5,8 +5,9 @@
 
 #include "contct/kernel/contct.hpp"
 
-// On x86 a call uses the widest vectors that the processor has. Each lane is an IEEE operation by itself, so
-// the bits are the same on all of them. A function is chosen before a sanitizer could be ready for it.
+// On x86 a call uses the widest vectors of the processor. Each lane is a separate IEEE operation, so the
+// results are the same to the bit for all widths. Sanitizers are not ready when the loader chooses the
+// function.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define CONTCT_WIDEST_VECTORS [[gnu::target_clones("avx512f", "avx2", "default")]]
@@ -17,12 +18,13 @@
 namespace contct {
 namespace {
 
-/// theta of the rule, as a share of the largest response |d*|: a separated pair that approaches its face by
-/// less than that has a d* of rounding. A missed make costs this share in position. A missed break locks in a
-/// force, so pairs in contact have no threshold.
+/// theta of the rule, as a share of the largest response |d*|. A separated pair with a smaller response
+/// towards its face is not approaching it: the response is rounding. A missed make costs this share in
+/// position. Pairs in contact have no threshold, because a missed break locks in a force.
 constexpr double quiet_share = 1e-10;
 
-/// `take` over `start` and `number(i)`, i below `n`: in eight chains that do not wait for each other.
+/// Reduces `start` and number(i), for i below `n`, by `take`: the largest or smallest number. The eight
+/// chains are independent for speed.
 template <class Number, class Take>
 [[gnu::always_inline]] inline double folded(std::size_t n, double start, Number number, Take take) {
   std::array<double, 8> chains{};
@@ -35,9 +37,9 @@ template <class Number, class Take>
   return start;
 }
 
-/// Rules 1 and 2: s of each pair, or 1 if it has no event ahead; `dof(i)`: the dof of pair i, from 0. An
-/// unneeded division costs less than a mispredicted branch, and a loop of its own lets the compiler divide
-/// for two pairs at a time.
+/// Rules 1 and 2: sets s of each pair, or 1 if no event is ahead. `dof(i)` is the dof of pair i, from 0. All
+/// pairs are divided in a separate loop, which the compiler vectorises: an unneeded division costs less than
+/// a mispredicted branch.
 template <class Dof>
 [[gnu::always_inline]] inline void find_scale_factors(call<double>& c, Dof dof) {
   const std::size_t nc = c.cc.size();
@@ -68,7 +70,7 @@ std::size_t dof_at(const call<double>& c, std::size_t i) {
   return c.dof.dof_of(c.id[i]) - 1;
 }
 
-/// Is the dof of each pair its own number, as on a path, which hands over the pairs' own D and d*?
+/// True if the dof of each pair is the pair's number, as on a path, which passes only the pairs' D and d*.
 [[gnu::always_inline]] inline bool are_in_order(const call<double>& c) {
   int differs = (c.dof.indof - 1) | (c.dof.ndofpn - 1);
   for (std::size_t i = 0; i < c.id.size(); ++i) differs |= (c.id[i] - 1) ^ static_cast<int>(i);
@@ -88,7 +90,7 @@ CONTCT_WIDEST_VECTORS void contct_corrected(call<double>& c) noexcept {
   c.smin = folded(c.cc.size(), 1.0, s, [](double a, double b) { return std::min(a, b); });
   if (c.smin == 1.0) return;
 
-  // Rules 3 and 4: the first pair at SMIN; but of those at their faces the one with the largest |d*|.
+  // Rules 3 and 4: choose the first pair at SMIN or, if SMIN = 0, the pair at its face with the largest |d*|.
   const auto size_of_response = [&c](std::size_t i) { return std::abs(c.dtest[dof_at(c, i)]); };
   const bool by_index = c.smin > 0.0;
   std::size_t chosen = c.cc.size();

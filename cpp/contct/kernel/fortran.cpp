@@ -28,7 +28,6 @@ log_act contct_f2c_log_flush, contct_f2c_log_rewind, contct_f2c_log_close;
 
 namespace contct::fortran {
 
-// The compilers' names are set by CMake.
 compiled_listing gfortran{"fortran",
                           CONTCT_FORTRAN_COMPILER,
                           CONTCT_FORTRAN_FLAGS " -fdefault-real-8",
@@ -83,7 +82,7 @@ unit_26::unit_26(compiled_listing& of) : listing_(of) {
   const signals_wait until_unlinked;
   std::string path;
 #ifdef __linux__
-  // In memory: on a full disk the listing's runtime would lose lines without a word.
+  // In memory, because on a full disk the listing's run-time library loses lines without an error.
   file_ = memfd_create("contct-unit26", MFD_CLOEXEC);
   path = "/proc/self/fd/" + std::to_string(file_);
 #endif
@@ -96,7 +95,7 @@ unit_26::unit_26(compiled_listing& of) : listing_(of) {
   if (file_ < 0)
     throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
   const int status = listing_.log.open(path.data(), static_cast<int>(path.size()));
-  if (!in_memory) unlink(path.c_str());  // both sides hold it open
+  if (!in_memory) unlink(path.c_str());  // both this object and the run-time library have opened it
   if (status != 0) {
     close(file_);
     throw std::runtime_error("cannot connect unit 26 to " + path);

@@ -8,7 +8,7 @@
 namespace contct {
 namespace {
 
-/// Append `digits` right-justified in a field of `width`; asterisks when it does not fit.
+/// Appends `digits`, right-justified in a field of `width`; asterisks if they do not fit.
 void append_field(std::string_view digits, std::size_t width, std::string& text) {
   if (digits.size() > width) {
     text.append(width, '*');
@@ -17,18 +17,17 @@ void append_field(std::string_view digits, std::size_t width, std::string& text)
   }
 }
 
-/// FORTRAN's I3.
+/// Appends a number in the format I3.
 void append_i3(int value, std::string& text) {
   char digits[16];
   const char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   append_field({digits, static_cast<std::size_t>(end - digits)}, 3, text);
 }
 
-/// FORTRAN's Ew.d for a positive number: 0.ddddE+ee, and 0.dddd-eee without the E when the
-/// exponent has three digits.
+/// Appends a positive number in the format Ew.d: 0.ddddE+ee, or 0.dddd-eee if the exponent has three digits.
 template <class Real>
 void append_e(Real value, int significant, std::size_t width, std::string& text) {
-  // d.ddde+ee, where a locale may have another point. to_chars brings 110 kB of tables into a static program.
+  // d.ddde+ee; a locale may change the point. to_chars would add 110 kB of tables to the static program.
   char scientific[48];
   const int length =
       std::snprintf(scientific, sizeof scientific, "%.*e", significant - 1, static_cast<double>(value));
@@ -36,7 +35,7 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   const std::string_view all(scientific, length);
   const std::size_t mark = all.find('e');
   int exponent = 0;
-  std::from_chars(all.data() + mark + 2, end, exponent);  // after the sign, which from_chars does not take
+  std::from_chars(all.data() + mark + 2, end, exponent);  // after the sign, because from_chars refuses '+'
   if (all[mark + 1] == '-') exponent = -exponent;
   ++exponent;  // all digits are after the point here
   const int size = std::abs(exponent);

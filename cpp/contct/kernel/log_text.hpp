@@ -1,4 +1,4 @@
-// The listing's text on unit 26, written from events as data.
+// The listing's text on unit 26, made from events.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace contct {
 
-/// Append the unit-26 text of one finished call: its FORMATs 20, or 40, 50 and 60, byte for byte
-/// as gfortran writes them. `c` holds the outputs of the call, `events` what it returned.
-/// Precondition: 0 < c.smin <= 1, which the listing guarantees.
+/// Appends the unit-26 text of a finished call, byte for byte as gfortran writes it: FORMAT 20, or FORMATs
+/// 40, 50 and 60 for each event. `c` contains the outputs of the call. Precondition: 0 < c.smin <= 1, as
+/// always in the listing.
 template <class Real>
 void append_log_text(const call<Real>& c, std::span<const event> events, std::string& text);
 

@@ -21,7 +21,7 @@ class fenced {
   }
   [[nodiscard]] T* data() { return copy_.data() + fence; }
 
-  /// A forbidden change that a kernel made to it; empty if there is none.
+  /// Describes a forbidden change by the kernel; empty if the kernel made none.
   [[nodiscard]] std::string fault(bool is_input) {
     if (!is_intact(copy_.data())) return std::string("wrote before the start of ") + name_;
     if (!is_intact(data() + values_.size())) return std::string("wrote past the end of ") + name_;

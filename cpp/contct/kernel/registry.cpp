@@ -23,7 +23,6 @@ const char* const cxx_compiler = CONTCT_CXX_COMPILER;    // NOLINT: set by CMake
 const char* const cxx_flags = CONTCT_CXX_FLAGS;          // NOLINT: set by CMake
 const char* const fortran_flags = CONTCT_FORTRAN_FLAGS;  // NOLINT: set by CMake
 
-/// A kernel with the text that it gathers in `text_`, if any.
 class built_in : public kernel {
  public:
   explicit built_in(kernel_facts facts) : facts_(std::move(facts)) {}
@@ -37,14 +36,13 @@ class built_in : public kernel {
   kernel_facts facts_;
 };
 
-/// The corrected rule. It writes no text.
 class corrected_kernel final : public built_in {
  public:
   using built_in::built_in;
   void answer(call<double>& c) override { contct_corrected(c); }
 };
 
-/// A call answered in 4-byte numbers, with doubles at the boundary.
+/// Answers a call in 4-byte numbers.
 template <class Answer>
 void answer_narrow(call<double>& c, Answer answer) {
   as_float_call(c, [&](call<float>& narrow) {
@@ -54,7 +52,6 @@ void answer_narrow(call<double>& c, Answer answer) {
   });
 }
 
-/// C++ CONTCT, with its text.
 class cpp_kernel final : public built_in {
  public:
   using built_in::built_in;
@@ -74,7 +71,8 @@ class cpp_kernel final : public built_in {
   std::vector<event> events_;
 };
 
-/// The 1989 code by one compiler, with the unit 26 of that one's library kept while this kernel lives.
+/// The 1989 code as one compiler builds it. Uses unit 26 of this compiler's library as long as this object
+/// lives.
 class fortran_kernel final : public built_in {
  public:
   fortran_kernel(const kernel_facts& facts, fortran::compiled_listing& by)
@@ -132,7 +130,7 @@ const std::vector<entry>& known_kernels() {
   return known;
 }
 
-/// Throws std::invalid_argument, naming what there is, when none has that name.
+/// Throws std::invalid_argument, with the known names, if the name is unknown.
 const entry& built_in_named(std::string_view name) {
   for (const entry& e : known_kernels())
     if (name == e.facts.name) return e;
@@ -141,7 +139,7 @@ const entry& built_in_named(std::string_view name) {
                               "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
 }
 
-/// What follows "plugin:" or "pipe:" in a name; nothing if it has neither.
+/// The part of a name after `prefix`; nothing if the name does not start with it or has no such part.
 std::optional<std::string> after(std::string_view prefix, std::string_view name) {
   if (!name.starts_with(prefix) || name.size() == prefix.size()) return {};
   return std::string(name.substr(prefix.size()));

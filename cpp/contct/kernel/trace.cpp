@@ -12,8 +12,8 @@
 namespace contct {
 namespace {
 
-/// The lines "key value" of the header after "about", in order; "kernel" is followed by "real" and "rule". A
-/// line with an empty value is omitted.
+/// The header lines "key value" after "about", in order. The lines "real" and "rule" follow "kernel". A line
+/// with an empty value is omitted.
 constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[] = {
     {"kernel", &trace_header::kernel},     {"listing", &trace_header::listing},
     {"compiler", &trace_header::compiler}, {"flags", &trace_header::flags},
@@ -22,11 +22,11 @@ constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[]
 void append_line(std::string& text, std::string_view key, std::string_view value) {
   if (value.empty()) return;
   text.append(key).append(" ").append(value).append("\n");
-  // A kernel's name may be a command of several lines; a line of a trace may not.
+  // The name of a kernel may be a command of several lines, but a value in a trace is one line.
   std::replace(text.end() - static_cast<std::ptrdiff_t>(value.size()) - 1, text.end() - 1, '\n', ' ');
 }
 
-/// The dofs, from 0 and in order, that the pairs of a call address.
+/// The dofs of a call's pairs, from 0, sorted and without duplicates.
 std::vector<std::size_t> addressed_dofs(const call<double>& c) {
   std::vector<std::size_t> dofs;
   dofs.reserve(c.id.size());
@@ -37,37 +37,37 @@ std::vector<std::size_t> addressed_dofs(const call<double>& c) {
 }
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-// Invalid ISEP and ISURF values are accepted, as in 1989; their product must not overflow.
-constexpr int most_status = std::numeric_limits<int>::max();  // of ISEP, ISURF and their product
+// Invalid values of ISEP and ISURF are accepted, as in 1989, but their product must not overflow.
+constexpr int most_status = std::numeric_limits<int>::max();  // limit of ISEP, of ISURF and of their product
 constexpr std::int64_t most_calls = 1'000'000'000'000'000'000;
 
 constexpr std::string_view dofs_line =
     "\"indof I ndofpn N dofs M nc K\", I and N from 1, M up to 10000000, K up to 10000000";
 
-/// A hexfloat, as in -0x1.8p+1, or a decimal number; inf; nan.
+/// Reads a hexadecimal number such as -0x1.8p+1, a decimal number, inf or nan.
 std::optional<double> real_in(std::string_view word) {
   const bool negative = word.starts_with('-');
   if (negative) word.remove_prefix(1);
   const bool hex = word.starts_with("0x");
   if (hex) word.remove_prefix(2);
-  // from_chars accepts a sign, and inf after 0x.
+  // from_chars would accept a second sign, and inf after 0x.
   if (word.starts_with('-') || (hex && word.find_first_of("0123456789abcdefABCDEF") != 0)) return {};
   const auto value = number_in<double>(word, hex ? std::chars_format::hex : std::chars_format::general);
   return value && negative ? -*value : value;
 }
 
-/// Reads a line word by word, one blank between words. A failure lasts: `done` is then false.
+/// Reads a line word by word, with one blank between words. After a failure, `done` is false.
 class trace_words {
  public:
   explicit trace_words(std::string_view line) : rest_(line) {}
 
-  /// The next word must be `word`.
+  /// Reads the next word, which must be `word`.
   trace_words& key(std::string_view word) {
     if (next() != word) failed_ = true;
     return *this;
   }
 
-  /// The next two words must be `word` and a whole number from `least` to `most`.
+  /// Reads the next two words, which must be `word` and an integer from `least` to `most`.
   template <class Whole>
   trace_words& whole(std::string_view word, Whole& value, std::int64_t least, std::int64_t most) {
     const auto read = key(word).take(number_in<std::int64_t>(next()));
@@ -76,13 +76,13 @@ class trace_words {
     return *this;
   }
 
-  /// The next two words must be `word` and a real.
+  /// Reads the next two words, which must be `word` and a real number.
   trace_words& real(std::string_view word, double& value) {
     value = key(word).take(real_in(next()));
     return *this;
   }
 
-  /// Was everything as required, and is nothing left?
+  /// True if all words were as required and the line has no further word.
   [[nodiscard]] bool done() const { return !failed_ && rest_.empty(); }
 
  private:
@@ -104,7 +104,7 @@ class trace_words {
   bool failed_ = false;
 };
 
-/// Cut `key` and a blank off the front of `line`.
+/// Removes `key` and a blank from the start of `line`. Returns false if the line does not start with them.
 bool takes(std::string_view& line, std::string_view key) {
   if (!line.starts_with(key) || line.size() <= key.size() || line[key.size()] != ' ') return false;
   line.remove_prefix(key.size() + 1);
@@ -275,7 +275,7 @@ void trace_reader::read_layout(call_inputs<double>& in) {
   if (is_given_.size() < dofs) is_given_.resize(dofs, 0);
 }
 
-/// Clear only the dofs of the call before: clearing all dofs at every call would be quadratic.
+/// Clears only the dofs of the previous call. Clearing all dofs at every call would cost quadratic time.
 void trace_reader::forget_dofs(call_inputs<double>& in) {
   for (const std::size_t dof : given_) {
     if (dof < in.dd.size()) in.dd[dof] = in.dtest[dof] = unknown;

@@ -1,5 +1,5 @@
-// Calls of CONTCT as text: the format of trace files and of the messages through a pipe.
-// reference/trace-format.md describes it for people.
+// Calls of CONTCT as text: the format of trace files and of messages to a pipe kernel, described in
+// reference/trace-format.md.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,32 @@
 
 namespace contct {
 
-/// The first line of every trace: the format and the day on which it was fixed.
+/// The first line of every trace: the name and the date of the format.
 inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
 
-/// The header of a trace. `real_bytes` and `rule` decide which kernels can answer it, and the kernel "f2c"
-/// how its text is compared; the rest is for the reader.
+/// The header of a trace. Only kernels with the same `real_bytes` and `rule` can be compared with it. The
+/// name "f2c" in `kernel` makes text compared by meaning. The other fields are only documentation.
 struct trace_header {
-  std::vector<std::string> about;  ///< the purpose of the trace, by lines
-  std::string kernel;              ///< who answered
+  std::vector<std::string> about;  ///< lines about the purpose of the trace
+  std::string kernel;              ///< name of the kernel that answered
   int real_bytes = 8;              ///< 8, or 4 for the listing as printed
   contact_rule rule = contact_rule::listing;
   std::string listing;         ///< checksum of fortran/contct.f
-  std::string compiler;        ///< of the kernel that answered
-  std::string flags;           ///< and its floating-point flags
-  std::string lapack;          ///< whose solves the inputs come from, or "none"
-  std::string floating_point;  ///< the result of the probe
+  std::string compiler;        ///< compiler of this kernel
+  std::string flags;           ///< floating-point flags of this compiler
+  std::string lapack;          ///< library whose solves gave the inputs, or "none"
+  std::string floating_point;  ///< the result of the floating-point probe
 };
 
-/// One call, and the answer to it.
+/// A call and its answer.
 struct recorded_call {
   std::int64_t number = 0;
   std::string note;  ///< the purpose of the call; may be empty
   call_inputs<double> in;
   call_outputs out;
 
-  /// The same for comparisons. A kernel with text writes some in every call: where the trace has none, its
-  /// kernel had none.
+  /// The call for comparisons. Without text in the trace, its kernel has none: every call of a kernel with
+  /// text writes some.
   [[nodiscard]] answered_call answered() {
     return {{in.dd, in.dtest, in.cc, out.ss, out.smin, in.id, out.isep, in.isurf, in.dof},
             in.isep,
@@ -47,48 +47,46 @@ struct recorded_call {
   }
 };
 
-/// The header of a trace that a kernel with these facts answers, in this process: `listing` is the checksum;
-/// `lapack` names the library whose solves gave the inputs; empty if none did.
+/// The header of a trace that a kernel with these facts answers in this process. `listing` is the checksum of
+/// the listing; `lapack` names the library whose solves gave the inputs.
 [[nodiscard]] trace_header header_for(const kernel_facts& k, const std::string& listing,
                                       const std::string& lapack = "none");
 
-/// Append the header of a trace.
 void append_header(const trace_header& h, std::string& text);
 
-/// Append the inputs of a call, from "call N" and its note to "ask". Of dd and dtest only the dofs of the
-/// pairs are written: a kernel may not read others.
+/// Appends the inputs of a call, from "call N" and its note to "ask". Writes dd and dtest only at the dofs of
+/// pairs, because a kernel may read no other dofs.
 void append_inputs(const answered_call& answered, std::string_view note, std::string& text);
 void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
                    std::string& text);
 
-/// Append an answer, from "smin" to "end".
+/// Appends an answer, from "smin" to "end".
 void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,
                    std::string_view unit_26, std::string& text);
 
-/// Reads calls as text. Every error is an input_error that names file, line, what was found and what is
-/// allowed; nothing is half-accepted.
+/// Reads calls as text. Every error is an input_error with file, line, the text found and the text allowed.
 class trace_reader {
  public:
-  /// Most dofs of a call: a trace that names one dof must not take all memory.
+  /// The largest number of dofs of a call, so that a short trace cannot use all memory.
   static constexpr int most_dofs = 10'000'000;
 
-  /// `text` must outlive this object. `name` is the file's, for messages.
+  /// `text` must outlive this object. `name` is the file's name in messages.
   trace_reader(std::string_view text, std::string_view name) : lines_(text, name) {}
 
-  /// The header. Call it once, first.
+  /// Reads the header. Must be the first call, and the only one of this function.
   [[nodiscard]] trace_header read_header();
 
-  /// The next call with its answer; false at the end of the text. Calls are numbered in rising order.
-  /// dd and dtest are NaN wherever the trace says nothing, so that a kernel that reads there is noticed.
+  /// Reads the next call with its answer; returns false at the end of the text. The numbers of calls must
+  /// rise. dd and dtest are NaN where the trace has no value, so that a kernel that reads them is noticed.
   bool next(recorded_call& c);
 
-  /// The inputs alone, up to "ask"; false at the end of the text.
+  /// Reads only inputs, up to "ask"; returns false at the end of the text.
   bool next_inputs(recorded_call& c);
 
-  /// The answer alone, for as many pairs as `out.ss` has.
+  /// Reads only an answer, for out.ss.size() pairs.
   void read_answer(call_outputs& out);
 
-  /// The number of the line read last, from 1.
+  /// The number of the last line read, from 1.
   [[nodiscard]] std::int64_t line() const { return lines_.line(); }
 
  private:
@@ -103,8 +101,8 @@ class trace_reader {
 
   text_lines lines_;
   std::int64_t last_call_ = 0;
-  std::vector<std::size_t> given_;  // the dofs that the last call gave, from 0
-  std::vector<char> is_given_;      // by dof; never shrinks
+  std::vector<std::size_t> given_;  // the dofs with values in the last call, from 0
+  std::vector<char> is_given_;      // 1 if a dof is in given_ [dofs]; never shrinks
 };
 
 }  // namespace contct

@@ -48,7 +48,7 @@ double difference(double a, double b, double rounding) {
 /// motion to d*, and at all dofs to `everywhere` [dofs]. Supports and pairs in contact leave the motion free,
 /// and the residual load drives it. Its direction is the limit of the response on an ever softer ground; its
 /// size reaches every separated pair on the way. Returns false, and writes nothing, if the load does no work
-/// on any free motion.
+/// on any such motion.
 bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   const std::optional<free_motion> motion = now.driven_motion();
   if (!motion) return false;
@@ -168,9 +168,8 @@ class corrected_policy final : public path_policy {
     return !*driven && now_.residual.share * (1.0 - s_min) <= rounding_at_most;
   }
 
-  /// Holds the structure for a solve. If supports and pairs in contact leave rigid-body motions free that the
-  /// load does not drive, it inserts springs of separated pairs, without force. Returns null if these do not
-  /// suffice.
+  /// Holds the structure for a solve. If supports and pairs in contact do not hold it, inserts springs of
+  /// separated pairs, without force. Returns null if these do not suffice.
   [[nodiscard]] std::unique_ptr<holding_springs> hold() {
     rigid_rank rank = now_.held_by();
     std::vector<int> pairs = now_.structure.pairs_that_hold(rank);

@@ -70,7 +70,7 @@ class path_policy {
   kernel& leader_;
 };
 
-/// Makes the policy for the leader's rule. Both arguments must outlive the policy.
+/// Makes the policy that fits the rule of `leader`. Both arguments must outlive the policy.
 [[nodiscard]] std::unique_ptr<path_policy> make_policy(path_state& now, kernel& leader);
 
 }  // namespace contct
