@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.25)
-# Writes files as strings of a C++ source, so that the program needs none of them when it runs.
+# Writes files as string constants of a C++ source.
 # Usage: cmake -DFILES=report.html,report.css,report.js -DNAMESPACE=contct -DOUT=report_files.cpp -P embed.cmake
 set(source "// Made by embed.cmake.\n#include <string_view>\n\nnamespace ${NAMESPACE} {\n\n")
 string(REPLACE "," ";" files "${FILES}")

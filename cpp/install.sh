@@ -1,6 +1,6 @@
-# Installs Debian packages that are missing, and fetches the source of one. Sourced by cpp/run.sh, tests/run.sh and others:
+# Installs missing Debian packages, and fetches the source of LAPACK. Sourced by cpp/run.sh, tests/run.sh and others:
 #     need "why" package...
-# Reports its actions; on a system without apt-get, it names the packages and stops.
+# Without apt-get it continues if cmake and gfortran are installed; otherwise it names the packages and fails.
 
 need() {
   why=$1
@@ -13,7 +13,7 @@ need() {
   done
   [ -z "$missing" ] && return 0
   if ! command -v apt-get >/dev/null 2>&1; then
-    # Another system: its own packages may serve as well. Let CMake decide when the compilers are there.
+    # On another system, CMake decides whether the installed packages suffice.
     if command -v cmake >/dev/null 2>&1 && command -v gfortran >/dev/null 2>&1; then
       echo "not Debian: going on with what is installed ($why; on Debian:$missing)"
       return 0
@@ -46,8 +46,8 @@ need_program() {
   need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
 }
 
-# The source of reference LAPACK, from Debian, in $lapack. Called in the project's root; the machine's own lists of packages stay as
-# they are.
+# Fetches the source of reference LAPACK from Debian to $lapack. Must be called in the project's root. Does not change
+# the lists of packages of the system.
 fetch_lapack() {
   sources=$(pwd)/build/playground/sources
   lapack=$sources/lapack

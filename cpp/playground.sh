@@ -1,8 +1,7 @@
 #!/bin/sh
-# Builds the playground, build/playground/contct.html, and the course with its scenes, build/course/index.html: pages in which
-# the 1989 code, the C++ kernels and all the rest of the program run, compiled to WebAssembly. Installs what is missing.
-# Opened as files they need no network.
-# Exit 0: built; 77: skipped, Emscripten or the source of LAPACK cannot be had.
+# Builds the playground, build/playground/contct.html, and the course with its scenes, build/course/index.html. In these
+# pages the program runs as WebAssembly, with the 1989 code and the C++ kernels. The pages need no network. Installs
+# missing packages. Exit status 0: built; 77: skipped, because Emscripten or the source of LAPACK is not available.
 set -eu
 cd "$(dirname "$0")/.."
 . cpp/install.sh

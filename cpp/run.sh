@@ -1,7 +1,6 @@
 #!/bin/sh
-# Installs missing packages, builds, and runs the main job: a beam on one-sided supports, solved by the 1989
-# FORTRAN and by C++ side by side, increment by increment. Arguments, if any, go to contct, which runs where
-# the caller is: file names are the caller's.
+# Installs missing packages, builds, and runs contct in the caller's folder with the given arguments. Without arguments
+# it solves a beam on one-sided supports by the 1989 FORTRAN and by C++ in lockstep.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
 . "$here/cpp/install.sh"
@@ -16,7 +15,7 @@ if ! (cd "$here" && cmake --preset release -DCONTCT_BUILD_TESTS=OFF && cmake --b
 fi
 rm -f "$log"
 root="$here/"
-[ "$(pwd -P)" != "$here" ] || root="" # names as the README has them
+[ "$(pwd -P)" != "$here" ] || root="" # prints relative names, as in the README
 [ $# -gt 0 ] || set -- run "${root}reference/problems/pb07-three-gap-supports.toml"
 echo "${root}build/release/contct $*"
 echo
