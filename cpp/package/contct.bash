@@ -1,18 +1,18 @@
-# Completion of contct for bash. What it offers it reads from contct --help.
+# Completion of contct for bash. It reads commands and options from contct --help.
 _contct_words() { mapfile -t COMPREPLY < <(compgen -W "$2" -- "$1"); }
 _contct_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "$1"); }
-# A list with commas: its last word.
+# Completes the last word of a list with commas.
 _contct_list() {
   local before=''
   [[ $1 != *,* ]] || before=${1%,*},
   mapfile -t COMPREPLY < <(compgen -P "$before" -W "$2" -- "${1##*,}")
 }
-# The line of an option in a help text, and what it takes: TEXT, INT, ..; nothing for a flag.
+# Prints the type of an option's value in a help text: TEXT, INT, ..; nothing for a flag.
 _contct_taken() { sed -nE "s/^  $1 ([A-Z][A-Z/]*)([ :=].*)?\$/\1/p" <<<"$help"; }
 _contct() {
   local program=${COMP_WORDS[0]} cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command='' help words i
   COMPREPLY=()
-  # bash takes --json=f for three words.
+  # bash splits --json=f into three words.
   if [[ $cur == '=' ]]; then cur=''; elif [[ $prev == '=' ]]; then prev=${COMP_WORDS[COMP_CWORD-2]}; fi
   for ((i = 1; i < COMP_CWORD; i++)); do
     [[ ${COMP_WORDS[i]} == -* ]] || { command=${COMP_WORDS[i]}; break; }

@@ -1,9 +1,9 @@
 """CONTCT from Python: the 1989 contact subroutine, its reimplementation, and the program around them.
 
-`run`, `exact`, `explain`, `check` and `certify` take a problem: the name of a file (a text that ends in ".toml", or a
-path), the text of a problem file (it has a line break), or a dict with the same keys. What comes back is the program's JSON,
-each key an attribute and an item. Bad input raises `InputError`. Functions may be called from several threads.
-reference/python.md has an example and the options of everything.
+The problem of `run`, `exact`, `explain`, `check` and `certify` is a file (a path, or a str that ends in ".toml"), the
+text of a problem file (a str with a line break), or a dict with the same keys. They return the program's JSON, with
+each key as an attribute and as an item. Bad input raises `InputError`. Several threads may call the functions.
+reference/python.md has examples and all options.
 """
 from __future__ import annotations
 
@@ -43,12 +43,13 @@ _kernel_function = ctypes.CFUNCTYPE(None, _doubles, _doubles, _doubles, _doubles
 
 
 class Error(Exception):
-    """What this module raises beside TypeError, OSError, MemoryError and ImportError."""
+    """The base of this module's own errors. It also raises TypeError, OSError, MemoryError and ImportError."""
 
 
 class InputError(Error, ValueError):
-    """A problem, a trace or an argument is refused: exit status 2 of the program. `file`, `line` and `column`, from 1, are None
-    where the message has no place; of a dict they are those of the text that `to_toml` writes, in the file "problem"."""
+    """A problem, a trace or an argument is refused: exit status 2 of the program. `file`, `line` and `column`, from 1,
+    are None if the message names no place. For a dict they refer to the text that `to_toml` makes, as the file
+    "problem"."""
 
     def __init__(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
                  column: Optional[int] = None) -> None:
@@ -61,8 +62,8 @@ class InputError(Error, ValueError):
 
 
 class NotSolved(Error):
-    """Under strict=True: a run that is not solved, equal and certified; and whatever else ends without a result. `exit` is the exit
-    status of the program; `result`, the Result with all that was computed, may be None."""
+    """A run with strict=True is not solved, or not certified, or its kernels differ. `exit` is the exit status of the
+    program. `result` is the Result with everything that was computed, or None."""
 
     def __init__(self, message: str, exit: int, result: Optional[Result] = None) -> None:
         super().__init__(message, exit, result)
@@ -90,13 +91,13 @@ _RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion",
 
 
 class Record(Mapping[str, Any]):
-    """An object of the program's JSON. Its keys are attributes and items; two records are equal if their JSON is.
+    """An object of the program's JSON. Its keys are attributes and items. Two records are equal if their JSON is equal.
 
-    A key that is not a name in Python, such as "if" in an explanation, is an item only.
+    A key that is a keyword of Python, such as "if" in an explanation, is only an item.
     """
 
     def __init__(self, data: dict[str, Any], rational: bool = False) -> None:
-        """`rational`: its numbers are texts as "p/q"."""
+        """`rational`: numbers are texts such as "p/q"."""
         self._data, self._rational = data, rational
         self._views: dict[str, Any] = {}
 
@@ -108,7 +109,7 @@ class Record(Mapping[str, Any]):
                 return _numpy.array(value, dtype=_numpy.float64)
             return [self._view(key, item) for item in value]
         if self._rational and key in _RATIONAL and isinstance(value, str):
-            p, _, q = value.partition("/")  # int takes at most 4300 digits of a text, and any number of a Decimal
+            p, _, q = value.partition("/")  # int accepts at most 4300 digits of a text, but all of a Decimal
             return Fraction(int(Decimal(p)), int(Decimal(q or 1)))
         return value
 
@@ -140,13 +141,13 @@ class Record(Mapping[str, Any]):
         return f"<contct.{type(self).__name__} {shown if len(shown) <= 200 else shown[:196] + ' ...'}>"
 
     def to_dict(self) -> dict[str, Any]:
-        """The JSON itself, as dicts, lists, texts and numbers; a copy."""
+        """A copy of the JSON as dicts, lists, texts and numbers."""
         return copy.deepcopy(self._data)
 
 
 class Answer(Record):
-    """A result of its own, with the exit status of the program (reference/running.md) and, as `messages`, its warnings and what it
-    prints on standard error."""
+    """The result of a command. `exit` is the exit status of the program (reference/running.md); `messages` are its
+    warnings and the lines that it prints on standard error."""
     exit: int
     messages: list[str]
 
@@ -161,7 +162,7 @@ class Answer(Record):
 
 
 def _text_of(key: str, what: str) -> Any:
-    """A text that `Result` makes when it is first wanted."""
+    """A property of `Result`: a text that is made when it is first read."""
     def text(self: Result) -> str:
         if key not in self._texts:
             if self._again is None:
@@ -179,7 +180,7 @@ def _coordinates(result: Result, key: str) -> Any:
 
 
 class Result(Answer):
-    """What `run` and `certify` find: reference/result-file.md has every key."""
+    """The result of `run` or `certify`. reference/result-file.md has every key."""
     title: str
     kernels: list[str]
     engine: str
@@ -189,15 +190,16 @@ class Result(Answer):
 
     def __init__(self, answer: dict[str, Any], again: Optional[tuple[_Source, dict[str, Any]]] = None,
                  right: Union[None, _Source, Result] = None) -> None:
-        """`again`: what `run` was asked; its pages and texts are made from it. `right`: of `certify`, see `answer`."""
+        """`again`: the arguments of `run`, from which pages and texts are made. `right`: only for `certify`, see
+        `answer`."""
         super().__init__(answer)
         self._again, self._right = again, right
         self._texts: dict[str, str] = {}
-        self._drawable: Optional[Record] = None  # this result with its structure, where that is in another one
+        self._drawable: Optional[Record] = None  # the same result with its structure, if `self` has no structure
 
     @property
     def answer(self) -> Result:
-        """Of `certify`: the right answer, the equilibrium under each step's load, which is certified itself."""
+        """After `certify`: the certified equilibrium under each step's load, as a `Result`."""
         if self._right is None:
             raise InputError("found a result of contct.run; allowed: `answer` of what contct.certify returns")
         if not isinstance(self._right, Result):
@@ -209,8 +211,8 @@ class Result(Answer):
     trace = _text_of("trace", "Every call of the leading kernel (`--trace`), for `replay`")
     proof = _text_of("proof", "The proof of the error bounds as JSON (`--proof`)")
 
-    x = property(lambda self: _coordinates(self, "x"), doc="Where each node is, in the order of `nodes`: an array.")
-    y = property(lambda self: _coordinates(self, "y"), doc="The same across a plate.")
+    x = property(lambda self: _coordinates(self, "x"), doc="x of each node, in the order of `nodes`: an array.")
+    y = property(lambda self: _coordinates(self, "y"), doc="y of each node of a plate: an array like `x`.")
 
     @property
     def _verdict(self) -> str:
@@ -222,19 +224,20 @@ class Result(Answer):
         return self._summary(self._verdict)
 
     def _repr_html_(self) -> Optional[str]:
-        """A notebook shows the page, in a frame of its own."""
+        """The page in a frame, for a notebook."""
         try:
             page = self.page
-        except Error:  # no path, or nothing to draw: the notebook shows __repr__
+        except Error:  # without a path or a picture, the notebook shows __repr__
             return None
         return (f'<iframe srcdoc="{html.escape(page)}" title="{html.escape(self.title)}" sandbox="allow-scripts"'
                 ' style="width: 100%; height: 45em; border: 0"></iframe>')
 
 
     def plot(self, quantity: str = "w", step: int = -1, ax: Any = None) -> Any:
-        """Draw the end of a step, one of `steps`, with matplotlib, and return the axes. The first use runs the problem again. Of a beam
-        "w", "moment" or "shear": dots are at extremes, squares at pairs in contact, bars at the faces of the others. Of a plate
-        the deflection in colours."""
+        """Draw the end of `steps[step]` with matplotlib, and return the axes. The first use runs the problem again.
+
+        `quantity` is "w", "moment" or "shear" for a beam. Dots mark extremes; for "w", squares mark pairs in contact,
+        and bars mark the faces of separated pairs. A plate has only "w", in colours."""
         shown = self._with_structure()
         kind, end = shown.structure.kind, shown.steps[step]
         allowed = {"beam": ["w", "moment", "shear"], "plate": ["w"]}.get(kind, [])
@@ -275,21 +278,21 @@ def _pieces(shown: Record, end: Record, e: int) -> list[tuple[Any, ...]]:
     if "pieces" in own:
         return [(p.x, p.w, p.theta, p.moment, p.shear, p.curvature) for p in own.pieces]
     w0, t0, w1, t1 = end.displacement[2 * e:2 * e + 4]
-    if e + 2 in shown.structure.get("hinges", []):  # the node's slope is that on the right of a hinge
+    if e + 2 in shown.structure.get("hinges", []):  # theta of a node with a hinge is the slope on the right
         h, (m0, m1), (v0, v1) = nodes[e + 1].x - nodes[e].x, own.moment, own.shear
         t1 = t0 + h * ((m0 + m1) / 2 + h * (v0 - v1) / 12) / shown.structure.EI[e]
     return [((nodes[e].x, nodes[e + 1].x), (w0, w1), (t0, t1), own.moment, own.shear, 0.0)]
 
 
 def _along(shown: Record, end: Record, quantity: str) -> tuple[list[float], list[float]]:
-    """x and the quantity along a beam, between nodes too: exact where the load along an element is linear, as in the page."""
+    """x and the quantity along a beam, also between nodes: exact if the load along an element is linear."""
     stiffness = shown.structure.EI
     parts = max(2, 480 // len(stiffness))
     xs, ys = [], []
     for e, EI in enumerate(stiffness):
         for (left, right), (w0, w1), (t0, t1), (m0, m1), (v0, v1), curvature in _pieces(shown, end, e):
             h = right - left
-            # Curvatures at the ends, less what the cubic of deflections and slopes has.
+            # Curvatures at the ends, minus those of the cubic that deflections and slopes determine.
             k0 = m0 / EI + curvature - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h
             k1 = m1 / EI + curvature - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h
             for a, b in ((k / parts, 1 - k / parts) for k in range(parts + 1)):
@@ -326,7 +329,8 @@ def _count(number: int, thing: str) -> str:
 
 
 class Exact(Answer):
-    """What `exact` finds: the path without rounding, each number a `fractions.Fraction`; reference/exact.md has every key."""
+    """The result of `exact`: the path without rounding. Numbers are `fractions.Fraction`. reference/exact.md has every
+    key."""
     title: str
     status: str
     steps: list[Record]
@@ -340,24 +344,24 @@ class Exact(Answer):
 
 
 class Judgement(Answer):
-    """What `judge` finds: reference/check-results.md has every key."""
+    """The result of `judge`. reference/check-results.md has every key."""
     calls: int
     values_compared: int
     mismatches: int
 
     @property
     def equal(self) -> bool:
-        """True: every value of every call has the leading kernel's bits, and enough was compared to say so."""
+        """True if every value of every call equals the leading kernel's to the bit, and enough was compared."""
         return self.exit == 0 and self.mismatches == 0 and self.values_compared > 0
 
     @property
     def level(self) -> str:
-        """The closest equality that holds: "bits", "ulps", "events", "certificate" or "none"."""
+        """The highest level of equality reached: "bits", "ulps", "events", "certificate" or "none"."""
         return str(self.followers[0].rung)
 
     @property
     def findings(self) -> list[str]:
-        """The first mismatch, line by line; empty if there is none."""
+        """Lines about the first mismatch; empty if no value differs."""
         return list(self.followers[0].findings)
 
     def __repr__(self) -> str:
@@ -367,7 +371,8 @@ class Judgement(Answer):
 
 
 class Call(NamedTuple):
-    """What one call of a kernel answers: s of each pair, SMIN, the new status of each pair, and what was written to unit 26."""
+    """The answer of a kernel to one call: s of each pair, SMIN, the new status of each pair, and the text of unit
+    26."""
     ss: Any
     smin: float
     isep: Any
@@ -375,8 +380,8 @@ class Call(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). Lists of Python's floats, which are
-    the listing's 8-byte REAL, and of ints; they are the kernel's own. `call` says what each is."""
+    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). They are lists of floats, the
+    listing's 8-byte REAL, and of ints, which the kernel may change. `call` describes each argument."""
     dd: list[float]
     dtest: list[float]
     cc: list[float]
@@ -388,7 +393,7 @@ class Inputs(NamedTuple):
 
     @property
     def dofs(self) -> list[int]:
-        """[pairs] The dof of each pair, as an index of dd and dtest, from 0: NDOF - 1 of line 29."""
+        """The dof of each pair, as an index of dd and dtest, from 0: NDOF - 1 of line 29 [pairs]."""
         return [(node - 1) * self.ndofpn + self.indof - 1 for node in self.id]
 
 
@@ -396,8 +401,8 @@ class Inputs(NamedTuple):
 
 
 def _load() -> ctypes.CDLL:
-    """The first one found beside the module, in $CONTCT_LIBRARY, by the system. One that cannot be loaded, or is another
-    version, is an error."""
+    """Load the first library found: next to the module, by the name in $CONTCT_LIBRARY, or by the system's search.
+    Raises ImportError if it cannot be loaded or has another version."""
     beside = [str(file) for file in sorted(Path(__file__).resolve().parent.glob("libcontct.so*"))]
     name = (beside + [os.environ.get("CONTCT_LIBRARY") or ctypes.util.find_library("contct") or "libcontct.so.0"])[0]
     try:
@@ -417,7 +422,7 @@ def _load() -> ctypes.CDLL:
     for function in ("about", "call", "certify", "check", "exact", "explain", "judge", "replay", "run"):
         library_function = getattr(library, f"contct_{function}")
         library_function.argtypes = arguments.get(function, (ctypes.c_char_p, ctypes.c_char_p))
-        library_function.restype = ctypes.c_void_p  # not c_char_p: the text has to be freed
+        library_function.restype = ctypes.c_void_p  # not c_char_p, because the text must be freed
     library.contct_free.argtypes, library.contct_free.restype = (ctypes.c_void_p,), None
     return library
 
@@ -426,7 +431,7 @@ _library = _load()
 
 
 def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
-    """What a function of the library answers; its error raised, if it has one instead of a result."""
+    """The answer of a function of the library. An error in the answer is raised."""
     text = function(*arguments)
     if not text:
         raise MemoryError("libcontct: memory does not suffice for an answer")
@@ -442,7 +447,7 @@ def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
 
 
 def _options(given: Mapping[str, Any]) -> bytes:
-    """As JSON, NumPy's numbers included."""
+    """Options as JSON. They may contain NumPy's numbers."""
     def plain(value: Any) -> Any:
         if hasattr(value, "tolist"):
             return value.tolist()
@@ -452,7 +457,7 @@ def _options(given: Mapping[str, Any]) -> bytes:
 
 
 def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str, Any]:
-    """One function of the library that takes a text and options. Options that are None are left to the library."""
+    """The answer of a library function to a text and options. For options that are None the library has defaults."""
     given = {key: value for key, value in options.items() if value is not None}
     given |= {"file": source.file, "folder": source.folder}
     given |= {"allow_outside": True} if source.allow_outside else {}
@@ -470,7 +475,7 @@ def _ask(function: Any, source: _Source, options: Mapping[str, Any]) -> dict[str
 
 
 class _Source(NamedTuple):
-    """A text for the library, and the place to which its messages refer: `file` in `folder`."""
+    """A text for the library. Its messages refer to `file` in `folder`."""
     text: bytes
     file: str
     folder: str
@@ -483,7 +488,7 @@ class _Source(NamedTuple):
 
 
 def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_outside: bool = False) -> _Source:
-    """The text behind a path, a text or a dict. A file's folder is its own."""
+    """The text of a problem or trace that is given as a path, a text or a dict."""
     if isinstance(given, os.PathLike) or (isinstance(given, str) and "\n" not in given and given.endswith(ending)):
         beside, name = os.path.split(os.fspath(given))
         source = _Source(Path(given).read_bytes(), name, beside, True, allow_outside)
@@ -496,7 +501,7 @@ def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_out
         kind: type[Exception] = InputError if isinstance(given, str) else TypeError
         raise kind(f"{what}: found {shown}; allowed: a path or a name that ends in \"{ending}\", a text with a line break"
                    f"{or_dict}")
-    if b"\0" in source.text:  # the library's texts end there
+    if b"\0" in source.text:  # ends a text of the library
         before = source.text[:source.text.index(b"\0")]
         raise InputError("found a character of code 0; allowed: text", source.place, before.count(b"\n") + 1,
                          len(before) - before.rfind(b"\n"))
@@ -504,8 +509,8 @@ def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_out
 
 
 def read(path: Union[str, os.PathLike[str]]) -> dict[str, Any]:
-    """A problem file as a dict, to change and to run. Its numbers become Python's: a literal with more digits than a
-    double holds is rounded. Files that the problem names are then relative to `folder` of `run`."""
+    """Read a problem file into a dict, which can be changed and run. Its floats are rounded to doubles. Names of files
+    in the dict are relative to the argument `folder` of `run`."""
     with open(path, "rb") as file:
         try:
             return tomllib.load(file)
@@ -528,7 +533,7 @@ def _toml_key(key: object, where: str) -> str:
 
 
 def _toml_value(value: Any, where: str) -> str:
-    """A value on one line. `where`: its name, for messages."""
+    """A value on one line. `where` is its name in messages."""
     if hasattr(value, "tolist"):  # NumPy's arrays and numbers, array.array
         value = value.tolist()
     if isinstance(value, bool):
@@ -552,8 +557,8 @@ def _toml_value(value: Any, where: str) -> str:
 
 
 def to_toml(problem: Mapping[str, Any]) -> str:
-    """The text of a problem file for a dict; `run` reads this text, and its lines are those of an `InputError`.
-    Whatever TOML does not have is refused, with its place: `contact[1].face`."""
+    """The text of a problem file for a dict. `run` reads this text, and the lines in an `InputError` refer to it. A
+    value that TOML cannot express is refused with its place, such as `contact[1].face`."""
     lines, tables = [], []
     for key, value in problem.items():
         name = _toml_key(key, "")
@@ -573,15 +578,17 @@ def _kernel_list(kernels: Kernels) -> list[str]:
     return kernels.split(",") if isinstance(kernels, str) else list(kernels)
 
 
-# What a problem is put to
+# Functions of a problem
 
 
 def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional[str] = None, final_only: bool = False,
         envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
         folder: Folder = None, allow_outside: bool = False) -> Result:
-    """Follow the path of a problem: `contct run`; reference/python.md has the options. `kernels` are names, or one text with commas;
-    None: both rules. `strict`: raise NotSolved unless all steps are solved and certified, and the kernels equal. `folder`: where
-    files that a text or a dict names are looked for. Raises InputError for a bad problem or option."""
+    """Follow the path of a problem: `contct run`. reference/python.md has the options.
+
+    `kernels` are names, or one text with commas; None selects both rules. With `strict`, NotSolved is raised unless all
+    steps are solved and certified and the kernels are equal. `folder` is the folder of files that a text or a dict
+    names. Raises InputError for a bad problem or option."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     options = {"kernels": None if final_only or kernels is None else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
                "envelope": envelope or None, "states": states or None, "max_increments": max_increments or None}
@@ -594,16 +601,16 @@ def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional
 
 
 def check(problem: Problem, *, folder: Folder = None, allow_outside: bool = False) -> Answer:
-    """Read a problem and solve nothing: `contct check`. The answer has `title`, `kind` ("beam", "plate" or "matrix"),
-    counts, names of the steps, `units`, and of a beam or a plate `x` (and `y`) of every node."""
+    """Read a problem without solving it: `contct check`. The answer has `title`, `kind` ("beam", "plate" or "matrix"),
+    counts, the names of the steps, and `units`; for a beam `x` of every node, for a plate also `y`."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Answer(_ask(_library.contct_check, source, {}))
 
 
 def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
           folder: Folder = None, allow_outside: bool = False) -> Exact:
-    """Follow the path in rational arithmetic, from the decimals that the file's numbers mean, by the rule "corrected" or "1989":
-    `contct exact`. `kernels` are compared with it: how many of their digits are right."""
+    """Follow the path in rational arithmetic by the rule "corrected" or "1989": `contct exact`. The numbers of the file
+    are exact decimals. The result has the number of correct digits of each of `kernels`."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Exact(_ask(_library.contct_exact, source, {"rule": rule, "kernels": _kernel_list(kernels) if kernels else None}))
 
@@ -611,8 +618,8 @@ def exact(problem: Problem, *, rule: str = "corrected", kernels: Kernels = (),
 def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: Optional[str] = None,
             step: Optional[int] = None, increment: Optional[int] = None,
             folder: Folder = None, allow_outside: bool = False) -> Answer:
-    """What each line of the listing did, and why: `contct explain`; reference/explain-format.md has the keys. `kernels` are one or
-    two of the 1989 rule; None for `step` and `increment`: all of them."""
+    """Explain what each line of the listing does, and why: `contct explain`. reference/explain-format.md has the keys.
+    `kernels` are one or two kernels of the 1989 rule. None for `step` or `increment` selects all."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     return Answer(_ask(_library.contct_explain, source, {"kernels": _kernel_list(kernels), "engine": engine, "step": step,
                                                          "increment": increment}))
@@ -621,12 +628,14 @@ def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: 
 def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] = None, pairs: Iterable[Sequence[Any]] = (),
             loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, folder: Folder = None,
             allow_outside: bool = False) -> Result:
-    """Bounds on the errors of states that another program, or a formula, gives: the displacement of every dof under the whole load
-    of each of the first steps. Beams have w, theta of node 1, then of node 2, ..; plates w, wx, wy; a matrix the order of its rows:
-    lengths and slopes, positive up. `problem` is one, or a stiffness matrix: a SciPy sparse matrix, or what else has `tocoo()`;
-    reference/python.md has what goes with it. `closed`: for each state the pairs that are in contact, from 1; None: those whose
-    faces it touches or enters. The result has `w`, `pairs`, `error` and `certificate` of each state, and no increments; its
-    `answer` is the right one.
+    """Compute bounds on the errors of states from another program or a formula.
+
+    `displacement` has, for each of the first steps, the displacement of every dof under the whole load: w and theta of
+    each node of a beam; w, wx and wy of each node of a plate; the rows of a matrix in their order. They are lengths,
+    positive up, and slopes. `problem` may also be a stiffness matrix, such as a SciPy sparse matrix, that has the
+    method `tocoo()`; reference/python.md describes the arguments for it. `closed` has the pairs in contact for each
+    state, from 1; None selects the pairs whose faces the state touches or penetrates. The result has `w`, `pairs`,
+    `error` and `certificate` of each state, and no increments; its `answer` is the equilibrium.
     """
     if hasattr(problem, "tocoo"):
         with tempfile.TemporaryDirectory() as files:
@@ -634,7 +643,7 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
             lists = None if closed is None else [list(closed)]
             try:
                 found = certify(written, [displacement], closed=lists, folder=files)
-                _ = found.answer  # while the files are there
+                _ = found.answer  # made while the files exist
                 return found
             except InputError as error:
                 raise InputError(error.message, error.file and Path(error.file).name, error.line, error.column) from None
@@ -652,7 +661,7 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
 
 
 def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
-    """The lower triangle, (row, column, value) from 0; entries of one place are summed up."""
+    """The entries (row, column, value) of the lower triangle, from 0. Entries at the same place are added."""
     entries: dict[tuple[int, int], float] = {}
     coo = matrix.tocoo()
     if coo.shape[0] != coo.shape[1]:
@@ -670,7 +679,7 @@ def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
 
 def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, supports: Any, labels: Optional[Sequence[str]],
                     folder: Path) -> dict[str, Any]:
-    """A problem whose files are in this folder."""
+    """Write a matrix and its labels to `folder`, and return a problem that names these files."""
     entries, size = _symmetric_entries(matrix), matrix.shape[0]
     names = [str(name) for name in labels] if labels is not None else [str(row) for row in range(size)]
     if len(names) != size:
@@ -716,7 +725,7 @@ def _finite(number: Any, state: int, dof: int) -> float:
 
 
 def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = None) -> Any:
-    """An array argument, of the type that a kernel takes."""
+    """An array argument in the type of a kernel's argument."""
     try:
         owner = array.array("d" if real else "i", values)
     except OverflowError as error:
@@ -730,16 +739,18 @@ def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = No
 
 
 def _numbers(values: Any) -> Any:
-    """A ctypes array as a user gets it: a NumPy array of its own, or a list."""
+    """A copy of a ctypes array: a NumPy array, or a list if NumPy is not installed."""
     return _numpy.array(values) if _numpy else list(values)
 
 
 def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, isep: Numbers, isurf: Numbers, indof: int = 1,
          ndofpn: int = 1) -> Call:
-    """One call of a kernel, by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 19 of the listing.
+    """Call a kernel, which is given by its name: CALL CONTCT(DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC), line 19 of
+    the listing.
 
-    contct/kernel/plugin.h says what each argument is. `isep` is not changed: the new one is in the answer. Raises InputError if
-    lengths differ, or if an id leads outside dd, or a product isep * isurf out of 32 bits.
+    contct/kernel/plugin.h describes each argument. `isep` is not changed; the answer has the new statuses. Raises
+    InputError if lengths differ, if an id addresses a dof outside dd, or if a product isep * isurf does not fit in 32
+    bits.
     """
     d, cc = _argument("dd", dd, True), _argument("cc", cc, True)
     ndof, nc = len(d), len(cc)
@@ -752,7 +763,7 @@ def call(kernel: str, dd: Numbers, dtest: Numbers, cc: Numbers, id: Numbers, ise
 
 
 def _write(answer: Any, ss: Any, smin: Any, isep: Any, nc: int) -> None:
-    """What a function answered, where the library reads it."""
+    """Write the answer of a Python function to the library's arrays."""
     try:
         s, least, status = answer
         s, least, status = array.array("d", s), float(least), array.array("i", (int(x) for x in status))
@@ -767,21 +778,22 @@ def _write(answer: Any, ss: Any, smin: Any, isep: Any, nc: int) -> None:
 
 def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 20000, problems: int = 40, seed: int = 1989,
           leader: str = "fortran", name: Optional[str] = None) -> Judgement:
-    """Is a Python function CONTCT? Random and adversarial calls, and the paths of whole problems: `contct fuzz`.
+    """Compare a Python function with the kernel `leader` to the bit, on random and adversarial calls and on the paths
+    of whole problems: `contct fuzz`.
 
-    The function is given `Inputs` and returns (ss, smin, isep), as lists or arrays, from its inputs alone; it is compared with the
-    kernel `leader` to the bit. With 1000 calls or more, every branch of the listing must have been taken often enough to
-    compare; otherwise `exit` is 2, `equal` is False, and `messages` say what was missed. An exception in the function,
-    KeyboardInterrupt too, ends the judgement and is raised after it, with the call as a note.
+    The argument of the function is `Inputs`. It returns (ss, smin, isep) as lists or arrays, and must not depend on
+    anything else. With 1000 calls or more, every branch of the listing must be taken often enough; otherwise `exit` is
+    2, `equal` is False, and `messages` name the branches. An exception in the function, also KeyboardInterrupt, ends
+    the comparison and is raised, with the call as a note.
     """
     raised: list[BaseException] = []
 
     def asked(dd: Any, dtest: Any, cc: Any, ss: Any, smin: Any, id: Any, isep: Any, isurf: Any, nc: int, indof: int,
               ndofpn: int, ndof: int) -> None:
         smin[0] = float("nan")
-        if raised:  # the library still asks; nothing counts any more
+        if raised:  # the library continues to call, but its result is not used
             return
-        def inputs() -> Inputs:  # a slice of a pointer is a list
+        def inputs() -> Inputs:
             return Inputs(dd[:ndof], dtest[:ndof], cc[:nc], id[:nc], isep[:nc], isurf[:nc], indof, ndofpn)
 
         try:
@@ -801,15 +813,16 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
 
 
 def replay(trace: Union[str, os.PathLike[str]], *, kernel: Optional[str] = None) -> Record:
-    """Put a recorded trace to a kernel, and compare every answer: `contct replay`. The record has `calls`, `values_compared`,
-    `mismatches`, and the `first` mismatch in words, or None. None for `kernel`: the 1989 code in the precision of the trace."""
+    """Repeat the calls of a recorded trace with a kernel, and compare every answer: `contct replay`. The record has
+    `calls`, `values_compared`, `mismatches`, and `first`: words for the first mismatch, or None. The default `kernel`
+    for a trace of the 1989 rule is the 1989 code in the precision of the trace."""
     return Record(_ask(_library.contct_replay, _source(trace, ".trace", "trace"), {"kernel": kernel})["result"])
 
 
 def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, str]:
-    """Prove that the machine code of each kernel in an ELF file is CONTCT: `contct prove`. It needs capstone and z3.
-    The verdict on each, by its symbol, is "proved: ..", "differs: .." or "undecided: ..". `symbol` names a function with the
-    plug-in's interface, if it is not contct_kernel.
+    """Prove that the machine code of each kernel in an ELF file is CONTCT: `contct prove`. Needs capstone and z3.
+    Returns the verdict on each symbol: "proved: ..", "differs: .." or "undecided: ..". `symbol` names a function with
+    the plug-in interface; the default is contct_kernel.
     """
     prover = importlib.import_module("contct_prove.__main__")
     path = os.fspath(library)
@@ -817,5 +830,6 @@ def prove(library: Union[str, os.PathLike[str]], symbol: str = "") -> dict[str, 
 
 
 def about() -> Record:
-    """`version`, `listing_sha256`, `floating_point`, `lapack`, `kernels` with precision, rule and compiler, `engines`."""
+    """Return `version`, `listing_sha256`, `floating_point`, `lapack`, `engines`, and `kernels` with precision, rule and
+    compiler."""
     return Record(_answer_of(_library.contct_about)["result"])

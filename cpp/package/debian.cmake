@@ -1,5 +1,5 @@
-# Debian packages for cpack, one of each component: contct (program), libcontct-dev (dev) and python3-contct (python).
-# `cmake --workflow --preset package` makes them; tests/package/debian.sh checks and uses them.
+# Debian packages for cpack, one for each component: contct (program), libcontct-dev (dev), python3-contct (python).
+# `cmake --workflow --preset package` makes them; tests/package/debian.sh tests them.
 if(NOT CONTCT_BUILD_PROGRAM OR TARGET contct_flang OR TARGET contct_f2c)
   message(FATAL_ERROR "CONTCT_PACKAGES: packages have the program, and the listing as gfortran compiles it. "
                       "Use cmake --workflow --preset package")
@@ -14,14 +14,14 @@ find_program(CONTCT_PYTHON3 python3 REQUIRED)
 find_program(CONTCT_DATE_COMMAND date REQUIRED)
 mark_as_advanced(CONTCT_GZIP CONTCT_PYTHON3 CONTCT_DATE_COMMAND)
 
-# Without times of their own, so that the same sources give the same packages.
+# compress(FILE INTO): gzip without a time stamp, so that the same sources give the same packages.
 set(compressed_files)
 function(compress file into)
   add_custom_command(OUTPUT ${into} COMMAND ${CONTCT_GZIP} -9 -n < ${file} > ${into} DEPENDS ${file} VERBATIM)
   list(APPEND compressed_files ${into})
   set(compressed_files ${compressed_files} PARENT_SCOPE)
 endfunction()
-# manual(NAMES SECTION SUMMARY PAGE): a page of reference/ as a manual page.
+# manual(NAMES SECTION SUMMARY PAGE): makes a manual page from a page of reference/.
 function(manual names section summary page)
   string(REGEX REPLACE ",.*" "" name ${names})
   set(made ${CMAKE_CURRENT_BINARY_DIR}/${name}.${section})
@@ -63,7 +63,7 @@ compress(${debian_changelog} ${debian_changelog}.gz)
 compress(${PROJECT_SOURCE_DIR}/reference/CHANGELOG.md ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
 add_custom_target(contct_compressed ALL DEPENDS ${compressed_files})
 
-# package(COMPONENT NAME SECTION DESCRIPTION): what every package has. The description's first line is its summary.
+# package(COMPONENT NAME SECTION DESCRIPTION): sets the data of a package. The first line of DESCRIPTION is the summary.
 set(CPACK_COMPONENTS_ALL)
 macro(package component name section description)
   string(TOUPPER ${component} key)
@@ -91,7 +91,7 @@ Static libraries, headers, CMake and pkg-config files for programs that call
 the subroutine CONTCT, or follow the load path of beams and plates with it,
 prove error bounds, and read problem files and write results.
 C and C++ programs need no Fortran compiler. The Fortran module is gfortran's.")
-# The libraries that ours link, and those that contct-config.cmake looks for.
+# The packages of the libraries that contct's libraries link, and of those that contct-config.cmake searches.
 string(REGEX MATCH "^[0-9]+" gfortran ${CMAKE_Fortran_COMPILER_VERSION})
 set(needed libgfortran-${gfortran}-dev liblapack-dev libblas-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
 if(CONTCT_HAS_CHOLMOD)
@@ -119,7 +119,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python3-
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the description of each package has one
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/strip.cmake)
 set(CPACK_CONTCT_STRIP ${CMAKE_STRIP})

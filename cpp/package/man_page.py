@@ -1,8 +1,8 @@
-"""man_page.py NAMES SECTION SUMMARY VERSION DATE PAGE: a page of reference/ as a manual page, in the macros of man.
+"""man_page.py NAMES SECTION SUMMARY VERSION DATE PAGE: converts a page of reference/ to a manual page with man macros.
 
-Of Markdown it takes headings, paragraphs, lists, tables, code, bold text, code spans and links, of which the text stays. A row of
-a table becomes an entry: its first cell is the term, and the cells between it and the last one follow the names of their columns.
-One that begins with bold text is a heading."""
+It converts headings, paragraphs, lists, tables, code, bold text, code spans, and the text of links. A row of a table
+becomes an entry: the first cell is the term, and the middle cells get the names of their columns. A row that begins
+with bold text becomes a heading."""
 import re
 import sys
 import textwrap
@@ -15,12 +15,13 @@ SEE_ALSO = ("contct (1)", "contct-problem (5)", "contct-result (5)")
 
 
 def roff(text):
-    """No hyphen becomes a dash, and no line begins a request."""
+    """Escape a text, so that hyphens do not become dashes and no line begins a request."""
     return re.sub(r"^\.", r"\\&.", "".join(ESCAPES.get(character, character) for character in text), flags=re.M)
 
 
 def lines(text):
-    """At most 60 characters each, without macros. Of links the words stay; bold text and code are bold."""
+    """Convert a paragraph to lines of at most 60 characters. Links become their text; bold text and code become
+    bold."""
     text = re.sub(r"\[((?:`[^`]*`|[^]`])*)\]\([^)]*\)", r"\1", " ".join(text.split()))
     text = "\n".join(textwrap.wrap(text, 60, break_long_words=False, break_on_hyphens=False))
     parts = re.split(r"`([^`]*)`|\*\*(.*?)\*\*", text, flags=re.S)
@@ -52,7 +53,7 @@ def blocks(markdown):
 
 def main(names, section, summary, version, date, page):
     title = names.split(",")[0]
-    text = re.sub(r"^(\.S[HS] .*)\n\.PP", r"\1", "\n".join(blocks(Path(page).read_text())), flags=re.M)  # man begins one there
+    text = re.sub(r"^(\.S[HS] .*)\n\.PP", r"\1", "\n".join(blocks(Path(page).read_text())), flags=re.M)
     print(f'.TH {roff(title.upper())} {section} {date} "contct {version}"\n.nh\n.SH NAME\n{roff(names)} \\- {summary}\n.SH DESCRIPTION\n'
           f"{text.removeprefix('.PP').strip()}\n.SH SEE ALSO")
     print(",\n".join(f".BR {roff(other)}" for other in SEE_ALSO if other.split()[0] != title))

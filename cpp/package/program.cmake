@@ -1,5 +1,5 @@
-# Files installed with the program: command completion for bash, the problems that it verifies, and the pages.
-# install_program_files(FOLDER FILE...)
+# Files installed with the program: completion for bash, the problems of `contct verify`, and the pages.
+# install_program_files(FOLDER FILE...): installs files of the component "program".
 function(install_program_files folder)
   install(FILES ${ARGN} DESTINATION ${folder} COMPONENT program)
 endfunction()
@@ -10,8 +10,8 @@ if(TARGET contct_petsc)
 endif()
 install(FILES contct.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME contct COMPONENT program)
 
-# The program reads some of reference/. The pages are installed next to README.md as here, with links to the
-# files that the program reads.
+# The program reads some files of reference/. The pages are installed next to README.md, as in the source tree, with
+# links to these files.
 set(reference ${PROJECT_SOURCE_DIR}/reference)
 set(installed_reference ${CMAKE_INSTALL_DATADIR}/contct/reference)
 set(installed_pages ${CMAKE_INSTALL_DOCDIR}/reference)

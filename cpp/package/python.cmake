@@ -1,6 +1,6 @@
-# The Python module, and beside it, where it looks first, the shared library that it loads.
+# The Python module, and in the same folder the shared library that it loads.
 configure_file(contct.py ${PROJECT_BINARY_DIR}/contct.py COPYONLY)
-if(CONTCT_PACKAGES)  # the folder of Debian's python3, whatever the processor; there the library is the module's alone
+if(CONTCT_PACKAGES)  # Debian's folder for all processors; only the module uses the library there
   set(python_folder lib/python3/dist-packages)
   install(FILES $<TARGET_FILE:contct_shared> DESTINATION ${python_folder} RENAME libcontct.so COMPONENT python)
 else()

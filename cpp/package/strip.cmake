@@ -1,6 +1,6 @@
-# Run by cpack before it packs: removes from programs and libraries what neither running nor linking needs.
+# cpack runs this file before packing. It removes the sections that neither running nor linking needs.
 set(comments --remove-section=.comment --remove-section=.note)
-# strip(KIND HOW PATTERN...): there must be some.
+# strip(KIND HOW PATTERN...): strips the files that match. At least one must exist.
 function(strip kind how)
   set(files)
   foreach(pattern IN LISTS ARGN)

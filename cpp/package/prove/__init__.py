@@ -1,7 +1,7 @@
-"""The prover: symbolic execution of a kernel's machine code against the specification of CONTCT.
+"""The prover compares a kernel's machine code with the specification of CONTCT by symbolic execution.
 
-`python3 -m contct_prove LIBRARY` is its command line, and reference/proved-equal.md says what is proved and how."""
+Its command line is `python3 -m contct_prove LIBRARY`. reference/proved-equal.md describes the proof."""
 
 
 class Undecided(Exception):
-    """Why nothing is proved and nothing is refuted, with the place in the disassembly where there is one."""
+    """The reason why nothing is proved or refuted, with the place in the disassembly if known."""

@@ -57,8 +57,8 @@ KERNELS = [
 
 
 def kernels_of(image: Image, symbol: str) -> list[Kernel]:
-    """The kernel of that name, by default with plugin.h's interface; else that of plugin.h; else the program's four, all of
-    them, so that one that is missing is noticed."""
+    """The kernel `symbol`, with the interface of plugin.h unless it is a known kernel. Without `symbol`: contct_kernel
+    if the file has it, otherwise all four kernels of the program, so that a missing kernel is noticed."""
     if symbol:
         return [k for k in KERNELS if k.symbol == symbol] or [Kernel(image.symbol(symbol).name, 64, interfaces.plugin, symbol)]
     *ours, plugin = KERNELS
@@ -77,7 +77,7 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
     try:
         proof = Proof(machine, kernel.interface(machine), image.symbol(kernel.symbol).address)
         proof.prove()
-    except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # the latter from code of a form not thought of
+    except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # LookupError: unexpected code
         return _refuted(path, kernel, machine, str(why))
     code = image.code_of(kernel.symbol)
     return PROVED, (f"proved: {len(code)} bytes of SHA-256 {hashlib.sha256(code).hexdigest()}; {len(proof.heads)} loops, "
@@ -86,12 +86,13 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
 
 
 def _refuted(path: str, kernel: Kernel, machine: Machine, why: str) -> tuple[int, str]:
-    """Only a call that the kernel answers otherwise, both having been run, is a difference."""
+    """The verdict without a proof. Only a call that the kernel and FORTRAN answer differently when run is a
+    difference."""
     if kernel.symbol != "contct_kernel":
         return UNDECIDED, f"undecided: {why}"
     try:
         found = replay.search(os.path.abspath(path), machine.constants)
-    except Exception as failure:  # no library, a kernel that crashes: no call was compared
+    except Exception as failure:  # a missing library or a crash: no call was compared
         return UNDECIDED, f"undecided: {why}; run with contct.py: {failure}"
     return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; no call that differs was found")
 
@@ -120,7 +121,7 @@ def main() -> int:
 
 
 def fail_closed(*failure: Any) -> None:
-    """An error of the prover itself is no verdict, and Python's own exit status would be that of a difference."""
+    """Exit as undecided after an error of the prover, because Python's exit status 1 would mean a difference."""
     sys.__excepthook__(*failure)
     os._exit(UNDECIDED)
 

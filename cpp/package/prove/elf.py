@@ -1,18 +1,18 @@
-"""A linked ELF file of x86-64: its bytes, its symbols, and what the loader puts where."""
+"""A linked ELF file of x86-64: its bytes, symbols and relocations."""
 
 import struct
 from typing import NamedTuple
 
 from . import Undecided
 
-_HEADER = "<6s12xH12xQQ6xHHHH"  # of the file: magic number, machine, places, sizes and counts of its tables
+_HEADER = "<6s12xH12xQQ6xHHHH"  # file header: magic number, machine, and the places, sizes and counts of tables
 _X86_64, _LOAD, _RELOCATIONS, _SYMBOLS, _DYNAMIC_SYMBOLS = 62, 1, 4, 2, 11
 _WRITABLE = 2
 _R_64, _R_GLOB_DAT, _R_JUMP_SLOT, _R_RELATIVE = 1, 6, 7, 8
 
 
 class Symbol(NamedTuple):
-    """A symbol of the file. `address` is 0 where another file defines it."""
+    """A symbol of the file. `address` is 0 if another file defines the symbol."""
 
     name: str
     address: int
@@ -20,7 +20,7 @@ class Symbol(NamedTuple):
 
 
 class Image:
-    """The file as it stands in memory, loaded at an address that only the loader knows."""
+    """The file as loaded in memory, at an unknown address."""
 
     def __init__(self, path: str):
         self.path = path
@@ -33,7 +33,7 @@ class Image:
         self._segments = self._rows("<IIQQQQQQ", programs, program_size * program_count)
         sections = self._rows("<IIQQQQIIQQ", sections, section_size * section_count)
         self.symbols: dict[str, Symbol] = {}
-        self.relocations: dict[int, str | int] = {}  # a name of another file, or an address of this one
+        self.relocations: dict[int, str | int] = {}  # a name in another file, or an address in this file
         for _, kind, _, _, at, size, link, *_ in sections:
             if kind in (_SYMBOLS, _DYNAMIC_SYMBOLS):
                 self.symbols |= {s.name: s for s in self._table(at, size, sections[link]) if s.address}
@@ -58,7 +58,7 @@ class Image:
                 self.relocations[where] = symbol.address + addend if symbol.address else symbol.name
 
     def bytes_at(self, address: int, size: int) -> tuple[bytes, bool]:
-        """`size` bytes, or as many as are left in their segment; and whether the program may write them."""
+        """`size` bytes, or fewer at the end of the segment, and whether the program may write them."""
         for kind, flags, offset, start, _, in_file, in_memory, _ in self._segments:
             if kind == _LOAD and start <= address < start + in_memory:
                 held = self.data[offset + address - start : offset + in_file][:size]
@@ -66,7 +66,7 @@ class Image:
         raise Undecided(f"{self.path}: address {address:#x} is not in the file")
 
     def symbol(self, name: str) -> Symbol:
-        """The symbol of that name."""
+        """The symbol `name`."""
         if name not in self.symbols:
             raise Undecided(f"{self.path}: found no symbol {name}; a stripped file keeps exported symbols only")
         return self.symbols[name]

@@ -1,4 +1,4 @@
-"""The proof of one kernel: it does what the specification does, from loop head to loop head, for any number of pairs."""
+"""The proof that a kernel equals the specification from loop head to loop head, for any number of pairs."""
 
 from typing import NamedTuple
 
@@ -13,25 +13,25 @@ from .state import State
 
 MOST_ROUNDS = 40
 Slot = tuple[str, int, int]  # a region, the first byte and the size
-VARYING = {"i", "smin", "toggled", "unknown"}  # symbols that mean something else at another time
+VARYING = {"i", "smin", "toggled", "unknown"}  # symbols whose meaning depends on the position
 
 
 class Differs(Exception):
-    """Why a path is not the specification's."""
+    """The reason why a path differs from the specification."""
 
 
 class Head:
-    """A loop head: in which loop the listing is there, and what is assumed to hold, over the symbols of Specification.here.
-    Assumptions that an arrival refutes are given up, until none is: what is left is an invariant."""
+    """A loop head: the loop of the listing, and assumptions about the symbols of Specification.here. Assumptions that
+    an arrival refutes are removed until none is refuted. The remaining assumptions are an invariant."""
 
     def __init__(self, loop: int, facts: list[z3.BoolRef], guesses: dict[Slot, list[z3.BitVecRef]]):
         self.loop, self.facts = loop, facts
-        self.guesses = guesses  # what each slot may hold; the first is assumed
-        self.version = 0  # how often the assumptions changed
+        self.guesses = guesses  # possible values of each slot; the first is assumed
+        self.version = 0  # number of changes of the assumptions
 
 
 class Arrival(NamedTuple):
-    """The end of a path, and where it began: at which head (0: the function's entry), at which position, with what known."""
+    """The end of a path, and its begin: the head (0: the function's entry), the position, and the known facts."""
 
     s: State
     origin: int
@@ -40,7 +40,8 @@ class Arrival(NamedTuple):
 
 
 class Advance(NamedTuple):
-    """What the listing does on a path: where it comes to, what it writes to SS and ISEP, and what DO 30 does."""
+    """The listing along a path: its final position, the elements of SS and ISEP that it writes, and the toggles of DO
+    30."""
 
     to: Position
     elements: dict[tuple[str, int], z3.BitVecRef]
@@ -48,13 +49,14 @@ class Advance(NamedTuple):
 
 
 class Proof:
-    """The proof of the function at `address`. `prove` returns where it holds, or raises Differs or Undecided."""
+    """The proof of the function at `address`. `prove` returns if the function is proved; else raises Differs or
+    Undecided."""
 
     def __init__(self, machine: Machine, interface: Interface, address: int):
         self.machine, self.spec, self.interface, self.address = machine, machine.spec, interface, address
         self.cuts = machine.cuts(address, set(), set())
         self.heads: dict[int, Head] = {}
-        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # the paths from each head, and the version they began with
+        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # each head's version, and the paths from it
 
     def prove(self) -> None:
         if not comparisons_are_ieee(self.spec.width) or not self.spec.is_kept():
@@ -65,13 +67,13 @@ class Proof:
             if not any([self._weaken(a) for a in arrivals if a.s.pc in self.heads]):
                 if not new:
                     return self._judge_all(arrivals)
-                self._make_head(new[0])  # those before it are settled
+                self._make_head(new[0])  # earlier heads need no further change
         raise Undecided(f"no invariant after {MOST_ROUNDS} rounds")
 
     # Paths.
 
     def _arrivals(self) -> list[Arrival]:
-        """All paths. Those from a head whose assumptions are what they were are not taken again."""
+        """All paths. Paths from a head whose assumptions did not change are reused."""
         first = Position(1, z3.BitVecVal(0, 64), self.spec.one, z3.BitVecVal(0, 32))
         if not self.taken:
             self.taken[0] = 0, self._paths(entry(self.machine, self.interface, self.address), 0, first, [])
@@ -84,7 +86,7 @@ class Proof:
         return [a for _, arrivals in self.taken.values() for a in arrivals]
 
     def _paths(self, s: State, origin: int, at: Position, facts: list[z3.BoolRef]) -> list[Arrival]:
-        """The paths from a state, where `facts`, the preconditions and the specification's invariant hold."""
+        """The paths from a state in which `facts`, the preconditions and the specification's invariant hold."""
         facts = facts + self.spec.of_call() + self.spec.of_position(at)
         facts += [fact for k in range(3) for fact in self.spec.of_pair(at.i + k)]
         self.machine.begin(at, facts)
@@ -93,7 +95,8 @@ class Proof:
     # Assumptions.
 
     def _make_head(self, a: Arrival) -> None:
-        """Assume of every slot what it holds now, or how it grew when the loop has come round once."""
+        """Make a head with an assumption for every slot: its current value, or its growth in the first turn of the
+        loop."""
         self.machine.begin(a.at, a.facts)
         to = self._advance(a).to
         known = (self.heads[a.origin].facts if a.origin else []) + a.s.path
@@ -106,7 +109,7 @@ class Proof:
         self.heads[a.s.pc] = Head(to.loop, [z3.ULT(self.spec.here.i, self.spec.pairs), *facts], guesses)
 
     def _guesses(self, a: Arrival, to: Position, slot: Slot, turns: list[State]) -> list[z3.BitVecRef]:
-        """What a slot may hold whenever the loop begins a pair: what grows from what it holds now, SMIN, or the number of
+        """Possible values of a slot when the loop begins a pair: its current value with growth, SMIN, or the number of
         events."""
         here, start = self.spec.here, a.s.read(*slot)
         guesses = []
@@ -120,10 +123,10 @@ class Proof:
         return guesses
 
     def _weaken(self, a: Arrival) -> bool:
-        """Give up what this arrival refutes. Whether anything was given up."""
+        """Remove the assumptions that this arrival refutes. True if any was removed."""
         head = self.heads[a.s.pc]
         if a.origin and self.heads[a.origin].version != self.taken[a.origin][0]:
-            return False  # this path began with what has been given up
+            return False  # this path began with removed assumptions
         self.machine.begin(a.at, a.facts)
         to = self._advance(a).to
         when = lambda term: z3.simplify(z3.substitute(term, *zip(self.spec.here[1:], to[1:])))  # at that position
@@ -139,10 +142,10 @@ class Proof:
         found = a.s.read(*slot)
         return found is not None and self.machine.same(a.s, found, value)
 
-    # The listing beside a path.
+    # The listing along a path.
 
     def _advance(self, a: Arrival) -> Advance:
-        """What the listing does while the kernel takes this path: as many pairs as have an element of SS touched."""
+        """Run the listing along this path, for as many pairs as have an element of SS read or written."""
         at, elements, toggles = a.at, {}, []
         for k in sorted(a.s.pairs):
             if at.loop == 1:
@@ -156,7 +159,8 @@ class Proof:
         return Advance(self._turned(a, at), elements, toggles)
 
     def _turned(self, a: Arrival, at: Position) -> Position:
-        """On to the next loop, or to the end, where the path says that no pair is left; a new head may be in either loop."""
+        """Move to the next loop or to the end if the path implies that no pair remains. A new head may be in either
+        loop."""
         ended = lambda: self.machine.holds(a.s, at.i == self.spec.pairs)
         smin_is_1 = lambda: self.machine.holds(a.s, at.smin == self.spec.one)
         below_1 = lambda: self.machine.holds(a.s, at.smin != self.spec.one)
@@ -202,7 +206,7 @@ class Proof:
 
 
 def _growing(start: z3.BitVecRef, after: z3.BitVecRef | None, pairs: int, i: z3.BitVecRef) -> z3.BitVecRef | None:
-    """A value that grows by the same with each pair, as a whole or in its lower 32 bits."""
+    """A value that grows by a constant with each pair, in all bits or in the lower 32 bits."""
     if after is None or start.size() > 64:
         return start if after is not None and after.eq(start) else None
     for width in {start.size(), min(start.size(), 32)}:

@@ -1,4 +1,4 @@
-"""How a kernel is called: where the arguments stand on entry, and how what it did is read at the end."""
+"""The interfaces of kernels: the places of the arguments on entry, and the results on return."""
 
 from typing import Callable, NamedTuple
 
@@ -9,23 +9,23 @@ from .runtime import END
 from .specification import Toggle
 from .state import GENERAL, KEPT, State
 
-REGISTERS = ["rdi", "rsi", "rdx", "rcx", "r8", "r9"]  # of the first arguments; the others are on the stack
+REGISTERS = ["rdi", "rsi", "rdx", "rcx", "r8", "r9"]  # for the first six arguments; others are on the stack
 POINTERS = [BASE[name] for name in ("DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF")]
 
 
 class Interface(NamedTuple):
-    """One of the three interfaces, for one function."""
+    """An interface of a kernel."""
 
     arguments: list[z3.BitVecRef]
-    cells: dict[tuple[str, int], z3.BitVecRef]  # what stands in memory on entry
+    cells: dict[tuple[str, int], z3.BitVecRef]  # contents of memory on entry
     told: Callable[[State], list[z3.BitVecRef]]  # the events of a path
-    expected: Callable[[list[Toggle], bool], list[z3.BitVecRef]]  # those of toggled pairs, or of a return without any
+    expected: Callable[[list[Toggle], bool], list[z3.BitVecRef]]  # the events for toggles, or for no event
     smin: tuple[str, int] = ("SMIN", 0)
     returns_count: bool = False
 
 
 def fortran(machine: Machine) -> Interface:
-    """contct_: pointers to everything, COMMON /DOF/, and WRITEs."""
+    """contct_, the listing: pointers to all arguments, COMMON /DOF/, and WRITEs as events."""
     spec, common = machine.spec, machine.image.symbol("dof_").address
 
     def expected(toggles: list[Toggle], no_event: bool) -> list[z3.BitVecRef]:
@@ -41,7 +41,7 @@ def fortran(machine: Machine) -> Interface:
 
 
 def cpp(machine: Machine) -> Interface:
-    """contct<Real> of contct.hpp: a struct with spans, and events as data, as many as it returns."""
+    """contct<Real> of contct.hpp: a struct with spans, and an array of events, whose number is returned."""
     spec = machine.spec
     places = {"DD": 0, "DTEST": 16, "CC": 32, "SS": 48, "ID": 72, "ISEP": 88, "ISURF": 104}
     cells = {("CALL", at): BASE[name] for name, at in places.items()}
@@ -60,7 +60,7 @@ def cpp(machine: Machine) -> Interface:
 
 
 def plugin(machine: Machine) -> Interface:
-    """contct_kernel of plugin.h: no events."""
+    """contct_kernel of plugin.h, which has no events."""
     spec = machine.spec
     numbers = [spec.nc, spec.indof, spec.ndofpn, z3.Extract(31, 0, spec.dofs)]
     arguments = [z3.Concat(z3.BitVec(f"entry upper {k}", 32), n) for k, n in enumerate(numbers)]
@@ -72,7 +72,7 @@ def _on_entry(name: str, width: int) -> z3.BitVecRef:
 
 
 def entry(machine: Machine, interface: Interface, address: int) -> State:
-    """The state in which the function is called."""
+    """The state on entry of the function."""
     machine.output = interface.smin
     s, real = State(address), machine.spec.width
     for name in GENERAL:
@@ -92,7 +92,7 @@ def entry(machine: Machine, interface: Interface, address: int) -> State:
 
 
 def fault_of_return(machine: Machine, interface: Interface, s: State, smin: z3.BitVecRef, toggled: z3.BitVecRef) -> str:
-    """What is wrong with the state in which the function returns; empty if nothing is."""
+    """The registers and results that are wrong when the function returns; empty if all are right."""
     expected = {name: _on_entry(name, 64) for name in KEPT} | {"rsp": BASE["STACK"] + 8}
     expected |= {"eax": toggled} if interface.returns_count else {}
     wrong = [name for name, value in expected.items() if not machine.same(s, s.register(name), value)]

@@ -1,4 +1,4 @@
-"""Symbolic execution of one function: memory by regions that do not overlap, branches, calls."""
+"""Symbolic execution of one function: memory in regions that do not overlap, branches, and calls."""
 
 import sys
 from typing import Iterator
@@ -16,19 +16,19 @@ from .state import State
 LONGEST_PATH = 4000  # instructions from one loop head to the next
 RED_ZONE = 128  # bytes below the stack pointer that no signal handler overwrites
 ARRAYS = ["DD", "DTEST", "CC", "SS", "ID", "ISEP", "ISURF", "EVENTS"]
-CELLS = ["STACK", "IMAGE", "CALL", "SMIN", "NC"]  # their bytes have places that are known numbers
+CELLS = ["STACK", "IMAGE", "CALL", "SMIN", "NC"]  # regions in which offsets are constants
 BASE = {name: z3.BitVec(name, 64) for name in [*ARRAYS, *CELLS]}
-RETURN = z3.BitVec("return", 64)  # where the caller goes on
+RETURN = z3.BitVec("return", 64)  # the return address
 sys.setrecursionlimit(20_000)  # Machine.cuts calls itself for each instruction
 
 
 class Machine:
-    """What all states of one proof share: the file, the arrays, and Z3."""
+    """The data that all states of a proof use: the file, the arrays, and Z3."""
 
     def __init__(self, image: Image, spec: Specification):
         self.image, self.spec = image, spec
-        self.output: tuple[str, int] = ("", 0)  # where SMIN stands, the only argument in memory that is written
-        self.constants: set[int] = set()  # that the function uses
+        self.output: tuple[str, int] = ("", 0)  # place of SMIN, the only written argument that is not an array
+        self.constants: set[int] = set()  # constants in the function's code
         self.questions = self.paths = self._names = 0
         self.at, self.facts = None, None
         self._decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
@@ -39,7 +39,7 @@ class Machine:
     # Questions to Z3.
 
     def begin(self, at: Position, facts: list[z3.BoolRef]) -> None:
-        """From now on paths begin `at` a place of the listing, and `facts` hold."""
+        """Set the position of the listing at which the next paths begin, and the facts that hold."""
         if facts is not self.facts or at is not self.at:
             self.at, self.facts, self._of_numbers = at, facts, list(filter(of_numbers, facts))
             self.solver = z3.SimpleSolver()
@@ -64,7 +64,7 @@ class Machine:
         return a.eq(b) or (a.size() == b.size() and self.holds(s, a == b))
 
     def fresh(self, width: int) -> z3.BitVecRef:
-        """A value of which nothing is known."""
+        """An unknown value."""
         self._names += 1
         return z3.BitVec(f"unknown {self._names}", width)
 
@@ -79,7 +79,7 @@ class Machine:
         return z3.simplify(BASE["IMAGE"] + address)
 
     def locate(self, s: State, address: z3.BitVecRef) -> tuple[str, z3.BitVecRef | int]:
-        """The region into which an address points, and the offset from its first byte: a number, but in arrays."""
+        """The region of an address, and the offset from its first byte: a constant, except in arrays."""
         address = z3.simplify(address)
         for term in address.children() if address.decl().kind() == z3.Z3_OP_BADD else [address]:
             name, offset = str(term), z3.simplify(address - term)
@@ -96,7 +96,7 @@ class Machine:
         return offset
 
     def element(self, s: State, array: str, offset: z3.BitVecRef, width: int) -> int:
-        """Which pair's element stands there, counted from the path's first pair. No other is read or written."""
+        """The pair whose element is at an offset, from the path's first pair. Other places are refused."""
         if width != self.spec.widths[array]:
             raise self.undecided(s, f"{width} bits of {array}, whose elements have {self.spec.widths[array]}")
         for k in range(len(s.pairs) + 1):
@@ -107,8 +107,8 @@ class Machine:
         raise self.undecided(s, f"a subscript of {array} that is not the next pair's: {offset}")
 
     def _stands_at(self, s: State, array: str, i: z3.BitVecRef, offset: z3.BitVecRef) -> bool:
-        """Whether that is the offset of pair `i`'s element, if there is such a pair, and inside the array. The answer rests
-        on the preconditions and on what is known of the call's numbers, not of arrays, so that it can be kept."""
+        """True if `offset` is that of pair `i`'s element and inside the array, provided that the pair exists. The
+        answer depends only on facts about the call's numbers, not on arrays, so that it can be stored."""
         index, known = self.spec.index(array, i), [*self._of_numbers, *filter(of_numbers, s.path)]
         place = z3.simplify(index * (self.spec.widths[array] // 8))
         key = (offset.sexpr(), place.sexpr(), *(fact.sexpr() for fact in known))
@@ -119,7 +119,7 @@ class Machine:
         return self._is_element[key]
 
     def _event(self, s: State, offset: z3.BitVecRef) -> int:
-        """Which half of an event stands there, counted from the path's first event."""
+        """The half of an event at an offset, counted from the path's first event."""
         for k in range(2 * len(s.pairs)):
             if self.same(s, offset, z3.ZeroExt(32, self.at.toggled) * 8 + 4 * k):
                 return k
@@ -133,14 +133,14 @@ class Machine:
             raise self.undecided(s, f"{region} is read")
         if region in ARRAYS:
             k = self.element(s, region, offset, width)
-            if region == "SS" and self.at.loop == 1:  # else what the caller left there
+            if region == "SS" and self.at.loop == 1:  # not written yet: the caller's value
                 return s.elements.get((region, k), self.fresh(width))
             return s.elements.get((region, k), self.spec.element(region, self.at.i + k))
         value = s.read(region, offset, width // 8)
         return self._initial(s, region, offset, width) if value is None else value
 
     def _initial(self, s: State, region: str, offset: int, width: int) -> z3.BitVecRef:
-        """What stands where this call has not written."""
+        """The value at a place to which this call has not written."""
         if region == "STACK" and offset < 0:
             s.write(region, offset, self.fresh(width))
             return s.read(region, offset, width // 8)
@@ -192,7 +192,7 @@ class Machine:
         return self._decoded[address]
 
     def cuts(self, at: int, above: set[int], done: set[int]) -> set[int]:
-        """Places at which every loop is cut: the targets of edges that lead back in a search in depth."""
+        """Addresses that cut every loop: the targets of back edges in a depth-first search."""
         if at in above or at in done:
             return {at} & above
         above.add(at)
@@ -208,13 +208,13 @@ class Machine:
             return []
         if ins.mnemonic != "call" and not ins.mnemonic.startswith("j"):
             return [after]
-        slots = [after + o.mem.disp for o in ins.operands if o.type == names.X86_OP_MEM]  # of the linkage table
+        slots = [after + o.mem.disp for o in ins.operands if o.type == names.X86_OP_MEM]  # entries of the linkage table
         known = [to for slot in slots if isinstance(to := self.image.relocations.get(slot), int)]
         known += [o.imm for o in ins.operands if o.type == names.X86_OP_IMM]
         return known if ins.mnemonic == "jmp" else [*known, after]
 
     def explore(self, start: State, cuts: set[int]) -> Iterator[State]:
-        """Every path from `start` to a cut or to the end, whose states have pc 0."""
+        """Every path from `start` to a cut or to the end. At the end, pc is 0."""
         waiting = [start]
         while waiting:
             s = waiting.pop()
@@ -255,7 +255,7 @@ class Machine:
         return [s.branch(pc, claim) for claim, pc in claims if self.possible(s, claim)]
 
     def _go(self, s: State, target: z3.BitVecRef) -> list[State]:
-        """To a place in the file, back to the caller, or into the run-time library, which comes back."""
+        """Jump to an address of the file, return to the caller, or call the run-time library."""
         name = str(target)
         if name.startswith("extern "):
             runtime.call(self, s, name.removeprefix("extern "))
@@ -271,7 +271,7 @@ class Machine:
 
 
 def symbols(term: z3.ExprRef) -> set[str]:
-    """The constants of a term, by the first words of their names, and () where it has unknown functions."""
+    """The first words of the names of a term's symbols, and "()" if it has unknown functions."""
     found, seen, waiting = set(), set(), [term]
     while waiting:
         term = waiting.pop()
@@ -284,5 +284,5 @@ def symbols(term: z3.ExprRef) -> set[str]:
 
 
 def of_numbers(fact: z3.BoolRef) -> bool:
-    """Whether a fact is of NC, INDOF, NDOFPN, the arrays' lengths and I alone."""
+    """True if a fact has no symbols but NC, INDOF, NDOFPN, the arrays' lengths and I."""
     return symbols(fact).isdisjoint({"()", "unknown", "smin", "toggled"})

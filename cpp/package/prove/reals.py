@@ -1,34 +1,34 @@
-"""Reals as bits. Comparisons are exact; +, -, *, / and conversions are functions of which nothing is known but that
-the same bits in the same order give the same bits."""
+"""Reals as bits. Comparisons are exact. +, -, *, / and conversions are unknown functions: the same bits in the same
+order give the same bits."""
 
 import z3
 
-z3.set_param("rewriter.elim_sign_ext", False)  # whole terms are quicker than single bits
+z3.set_param("rewriter.elim_sign_ext", False)  # faster with whole terms than with single bits
 
-EFFORT = 100_000_000  # of Z3 for a question, by its own count, so that no verdict depends on the machine's load
+EFFORT = 100_000_000  # limit for a question in Z3's own units, so that verdicts do not depend on the machine's load
 INFINITY = {32: 0x7F800000, 64: 0x7FF0000000000000}
 
 
 def function(name: str, width: int, *arguments: z3.BitVecRef) -> z3.BitVecRef:
-    """An unknown function of bits, for each name and width the same one."""
+    """An unknown function of bits, which is the same for the same name and width."""
     return z3.Function(f"{name}{width}", *(a.sort() for a in arguments), z3.BitVecSort(width))(*arguments)
 
 
 def arithmetic(name: str, a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
-    """`a` + `b` and so on: add, sub, mul, div, in operand order. Order decides only which of two NaNs a sum or product
-    becomes, so a number that is known, and is none, comes second."""
+    """`a` + `b` for add; likewise sub, mul and div. The order of operands matters in add and mul only if both are NaN,
+    so a known operand that is a number is put second."""
     if name in ("add", "mul") and z3.is_bv_value(a) and z3.is_false(z3.simplify(is_nan(a))):
         a, b = b, a
     return function(name, a.size(), a, b)
 
 
 def from_integer(value: z3.BitVecRef, width: int) -> z3.BitVecRef:
-    """A whole number as a real: the same one whether 32 or 64 bits hold it."""
+    """An integer as a real. The result is the same for 32 and 64 bits."""
     return function("from_int", width, z3.SignExt(64 - value.size(), value))
 
 
 def product(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
-    """A product of whole numbers: with a constant as it is, else a function like those of reals, but for the order."""
+    """A product of integers: exact if one is constant, otherwise an unknown function that ignores the order."""
     a, b = sorted((z3.simplify(a), z3.simplify(b)), key=z3.AstRef.sexpr)
     if z3.is_bv_value(a) or z3.is_bv_value(b):
         return a * b
@@ -36,7 +36,7 @@ def product(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
 
 
 def magnitude(x: z3.BitVecRef) -> z3.BitVecRef:
-    """ABS: the sign bit cleared."""
+    """ABS clears the sign bit."""
     return x & z3.BitVecVal((1 << x.size() - 1) - 1, x.size())
 
 
@@ -49,18 +49,18 @@ def unordered(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BoolRef:
 
 
 def equal(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BoolRef:
-    """IEEE's a = b: zeros of both signs are equal, NaN is not."""
+    """a = b by IEEE 754: +0 equals -0, and NaN equals nothing."""
     return z3.And(z3.Not(unordered(a, b)), z3.Or(a == b, magnitude(a | b) == 0))
 
 
 def less(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BoolRef:
-    """IEEE's a < b. Of two negative numbers the one with the larger bits is the smaller."""
+    """a < b by IEEE 754. For negative numbers, larger bits mean a smaller number."""
     below = z3.If(a < 0, z3.If(b < 0, z3.UGT(a, b), magnitude(a | b) != 0), z3.And(b >= 0, z3.ULT(a, b)))
     return z3.And(z3.Not(unordered(a, b)), below)
 
 
 def follows(claim: z3.BoolRef, *facts: z3.BoolRef) -> bool:
-    """Whether Z3 proves a lemma."""
+    """True if Z3 proves a lemma."""
     solver = z3.Solver()
     solver.set("rlimit", EFFORT)
     solver.add(*facts, z3.Not(claim))
@@ -68,7 +68,7 @@ def follows(claim: z3.BoolRef, *facts: z3.BoolRef) -> bool:
 
 
 def comparisons_are_ieee(width: int) -> bool:
-    """Z3's own theory of IEEE 754 says the same of every two bit patterns."""
+    """True if these comparisons agree with Z3's theory of IEEE 754 for all bit patterns."""
     a, b = z3.BitVecs("a b", width)
     x, y = (z3.fpBVToFP(bits, {32: z3.Float32(), 64: z3.Float64()}[width]) for bits in (a, b))
     return follows(z3.And(less(a, b) == z3.fpLT(x, y), equal(a, b) == z3.fpEQ(x, y), is_nan(a) == z3.fpIsNaN(x)))

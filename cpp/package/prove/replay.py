@@ -1,4 +1,4 @@
-"""Looks for a call that a kernel of one's own answers otherwise than the 1989 code: contct.py runs both."""
+"""Searches a call that a plug-in kernel and the 1989 code answer differently. contct.py runs both."""
 
 import random
 import struct
@@ -7,13 +7,13 @@ from typing import Iterator
 from .reals import INFINITY
 from .specification import CONSTANTS
 
-MOST_PAIRS = 3_000_000  # of a call that is tried
+MOST_PAIRS = 3_000_000  # largest number of pairs in a call
 WIDTH = 64  # of REAL in plugin.h
 ONE, HALF = 1023 << 52, 1022 << 52  # the bits of 1 and 0.5
 
 
 def search(path: str, constants: set[int]) -> str:
-    """The first call found that the kernel in a file answers otherwise, and how; empty if none is found."""
+    """Describe the first call that the kernel in a file and FORTRAN answer differently; empty if none is found."""
     for call in _calls(constants):
         for (name, ours), (_, listing) in zip(_answers("plugin:" + path, call), _answers("fortran", call)):
             if ours != listing:
@@ -24,7 +24,7 @@ def search(path: str, constants: set[int]) -> str:
 
 
 def _answers(kernel: str, call: dict) -> list[tuple[str, str]]:
-    """SMIN, SS and ISEP after a call, each with its name. Every NaN is the same."""
+    """SMIN, SS and ISEP after a call, each with its name. All NaNs are equal."""
     import contct
 
     answer = contct.call(kernel, *call.values())
@@ -35,17 +35,17 @@ def _answers(kernel: str, call: dict) -> list[tuple[str, str]]:
 
 def _call(dd: list[int], dtest: list[int], cc: list[int], id: list[int], isep: list[int], isurf: list[int],
           indof: int = 1, ndofpn: int = 1) -> dict:  # fmt: skip
-    """The arguments of a call, of which reals are given by their bits."""
+    """The arguments of a call. Reals are given as bits."""
     dd, dtest, cc = ([struct.unpack("<d", v.to_bytes(8, "little"))[0] for v in values] for values in (dd, dtest, cc))
     return {"dd": dd, "dtest": dtest, "cc": cc, "id": id, "isep": isep, "isurf": isurf, "indof": indof, "ndofpn": ndofpn}
 
 
 def _calls(constants: set[int]) -> Iterator[dict]:
-    """Calls with the constants that a kernel uses, as values, statuses and numbers of pairs; then random ones."""
+    """Calls with the constants in a kernel's code as values, statuses and numbers of pairs, and random calls."""
     draw, sign = random.Random(1989), 1 << WIDTH - 1
     known = {*constants, *CONSTANTS[WIDTH].values(), 0, 1, INFINITY[WIDTH], INFINITY[WIDTH] + 1}
     near = {(c + d) % sign for c in known if c < 1 << WIDTH for d in (-1, 0, 1)}
-    pool = sorted(near | {v | sign for v in near})  # bit patterns that decide something, with their neighbours
+    pool = sorted(near | {v | sign for v in near})  # bit patterns of thresholds and constants, with their neighbours
     small = sorted(c - (1 << 32 if c >> 31 else 0) for c in constants if c < 1 << 32)
     for c in pool:
         for dd, dtest, cc in ((0, ONE, c), (c, ONE, 0), (0, c, ONE), (0, c, HALF), (0, c, c), (c, c, 0), (0, c, 0)):
@@ -59,7 +59,7 @@ def _calls(constants: set[int]) -> Iterator[dict]:
                   for _ in range(n)] for n in (3 * ndofpn, 3 * ndofpn, nc)]  # fmt: skip
         signs = [[draw.choice((1, -1, 1, -1, 2, 0, 7)) for _ in range(nc)] for _ in range(2)]
         yield _call(*reals, [draw.randint(1, 3) for _ in range(nc)], *signs, draw.randint(1, ndofpn), ndofpn)
-    numbers = {n // size for size in (1, 4, 8) for n in small if n % size == 0}  # of a pair, or its offset
+    numbers = {n // size for size in (1, 4, 8) for n in small if n % size == 0}
     for nc in sorted(n + 3 for n in numbers if 5 < n <= MOST_PAIRS):
         cc = [HALF + (k % 7 << 40) for k in range(nc)]
         yield _call([0], [ONE], cc, [1] * nc, [1 - k % 2 * 2 for k in range(nc)], [1] * nc)

@@ -1,5 +1,5 @@
-"""Calls of gfortran's run-time library: WRITEs become events. That the library changes nothing but its parameter block
-is trusted, and so are the formats' digits."""
+"""Calls of gfortran's run-time library: WRITEs become events. Two facts are trusted: the library changes only its
+parameter block, and it writes the right digits."""
 
 import re
 
@@ -8,7 +8,7 @@ import z3
 from .specification import FORMATS
 from .state import KEPT, REGISTERS, State
 
-BLOCK = 0x218  # bytes of st_parameter_dt, of which these are read:
+BLOCK = 0x218  # size of st_parameter_dt; the offsets of its fields that are read:
 FLAGS, UNIT, FORMAT, FORMAT_LENGTH = 0, 4, 0x50, 0x58
 HAS_FORMAT = 0x1000
 BEGIN, INTEGER, REAL, DONE = (
@@ -31,14 +31,14 @@ def call(machine, s: State, name: str) -> None:
         s.events.append(_written(machine, s, 32 if name == INTEGER else machine.spec.width))
     for (region, at), value in list(s.cells.items()):
         if region == "STACK" and (at < top or block - value.size() // 8 < at < block + BLOCK):
-            del s.cells[region, at]  # the block, and everything below the return address, may have changed
+            del s.cells[region, at]  # the call may change the block and everything below the return address
         elif region in CHANGED:
             s.cells[region, at] = machine.fresh(value.size())
     s.flags = dict
 
 
 def _label(machine, s: State, block: int) -> int:
-    """The label of the FORMAT of a WRITE(26, label)."""
+    """The label of the FORMAT in WRITE(26, label)."""
     numbers = [s.read("STACK", block + at, size) for at, size in ((FLAGS, 4), (UNIT, 4), (FORMAT_LENGTH, 8))]
     if not all(n is not None and z3.is_bv_value(n) for n in numbers):
         raise machine.undecided(s, "a WRITE whose parameters are not constants")
@@ -47,7 +47,7 @@ def _label(machine, s: State, block: int) -> int:
     text, writable = machine.image.bytes_at(offset, length) if region == "IMAGE" else (b"", True)
     if (flags, unit, writable) != (HAS_FORMAT, 26, False):
         raise machine.undecided(s, f"a WRITE to unit {unit} with flags {flags:#x}, not WRITE(26, label)")
-    pieces = re.split(r"('[^']*')", text.decode("latin-1"))  # blanks count in quotes only
+    pieces = re.split(r"('[^']*')", text.decode("latin-1"))  # blanks matter only inside quotes
     format_ = "".join(piece if piece.startswith("'") else piece.replace(" ", "") for piece in pieces)
     labels = [label for label, known in FORMATS.items() if known == format_]
     if not labels:

@@ -1,4 +1,4 @@
-"""What CONTCT does with one pair, in the order of the listing. The numbers are lines of fortran/contct.f."""
+"""CONTCT for one pair, in the order of the listing. Numbers in comments are lines of fortran/contct.f."""
 
 from typing import NamedTuple
 
@@ -25,8 +25,8 @@ PRECONDITIONS = {
 
 
 class Position(NamedTuple):
-    """How far the listing has come: in which loop (1: DO 10, 2: DO 30, 0: it has returned), at which pair (from 0), with
-    which SMIN, and how many pairs it has toggled."""
+    """A position of the listing: the loop (1: DO 10, 2: DO 30, 0: returned), the pair (from 0), SMIN, and the number of
+    toggled pairs."""
 
     loop: int
     i: z3.BitVecRef
@@ -35,7 +35,7 @@ class Position(NamedTuple):
 
 
 class Toggle(NamedTuple):
-    """What DO 30 does with a pair: whether it toggles it, whether by a make, and what the WRITEs then write."""
+    """DO 30 for one pair: whether the pair is toggled, whether it makes contact, and the numbers of the WRITEs."""
 
     happens: z3.BoolRef
     makes: z3.BoolRef
@@ -46,7 +46,7 @@ class Toggle(NamedTuple):
 
 
 class Specification:
-    """The listing in one precision, `width` bits, over the arrays of any call."""
+    """The listing with REAL of `width` bits, for the arrays of any call."""
 
     def __init__(self, width: int, left_out: str = ""):
         self.width, self.left_out = width, left_out
@@ -59,11 +59,11 @@ class Specification:
         self.widths = dict.fromkeys(("DD", "DTEST", "CC", "SS"), width) | dict.fromkeys(("ID", "ISEP", "ISURF"), 32)
 
     def element(self, array: str, i: z3.BitVecRef) -> z3.BitVecRef:
-        """The element of pair `i`, from 0. SS is as DO 10 leaves it, ISEP as it was on entry."""
+        """The element of pair `i`, from 0. SS is that after DO 10, ISEP that on entry."""
         return z3.Function(array, z3.BitVecSort(64), z3.BitVecSort(self.widths[array]))(self.index(array, i))
 
     def index(self, array: str, i: z3.BitVecRef) -> z3.BitVecRef:
-        """Where the element of pair `i` stands: NDOF in DD and DTEST, from 0 and in 64 bits."""
+        """The index of pair `i`'s element, from 0, in 64 bits: NDOF - 1 in DD and DTEST."""
         return z3.simplify(z3.SignExt(32, self.ndof(i)) - 1 if array in ("DD", "DTEST") else i)
 
     def length(self, array: str) -> z3.BitVecRef:
@@ -88,7 +88,7 @@ class Specification:
         return z3.If(z3.And(less(self.zero, s), less(s, smin)), s, smin)  # 40
 
     def toggle(self, at: Position) -> Toggle:
-        """What DO 30 does with pair I."""
+        """DO 30 for the pair at this position."""
         diff = arithmetic("div", magnitude(arithmetic("sub", self.element("SS", at.i), at.smin)), at.smin)  # 51
         makes = self.element("ISEP", at.i) == 1  # 54
         node, isurf = self.element("ID", at.i), self.element("ISURF", at.i)  # 53, 61
@@ -99,12 +99,12 @@ class Specification:
         return z3.If(t.happens, toggled, self.element("ISEP", t.i))
 
     def of_call(self) -> list[z3.BoolRef]:
-        """What the preconditions say of every call."""
+        """The preconditions for a call."""
         stated = [] if self.left_out == "pairs" else [self.nc >= 0, self.nc < 0x7FFFFFFF]
         return stated + [z3.ULT(self.dofs, 1 << 31)]  # no more than an INTEGER can number
 
     def of_pair(self, i: z3.BitVecRef) -> list[z3.BoolRef]:
-        """What the preconditions say of pair `i`, if there is one."""
+        """The preconditions for pair `i`, if the pair exists."""
         wide = lambda x: z3.SignExt(32, x)
         node, isep, isurf = (self.element(array, i) for array in ("ID", "ISEP", "ISURF"))
         before, ndof = product(node - 1, self.ndofpn), wide(self.ndof(i))
@@ -119,12 +119,12 @@ class Specification:
         return [z3.Implies(z3.ULT(i, self.pairs), fact) for fact in facts]
 
     def of_position(self, at: Position) -> list[z3.BoolRef]:
-        """What holds wherever a loop begins a pair: see is_kept."""
+        """The invariant when a loop begins a pair. See is_kept."""
         within = z3.And(less(self.zero, at.smin), z3.Not(less(self.one, at.smin)))
         events = z3.And(z3.ULE(z3.ZeroExt(32, at.toggled), at.i), z3.ULE(at.i, self.pairs))
         return [within, events, at.smin != self.one if at.loop == 2 else at.toggled == 0]
 
     def is_kept(self) -> bool:
-        """SMIN stays positive and at most 1, whatever DO 10 finds."""
+        """True if DO 10 keeps SMIN positive and at most 1 for any SS."""
         after = self.here._replace(smin=self.smaller(z3.BitVec("s", self.width), self.here.smin))
         return follows(self.of_position(after)[0], self.of_position(self.here)[0])

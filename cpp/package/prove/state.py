@@ -1,4 +1,4 @@
-"""The state of a symbolic execution. Registers and memory are alike: regions of bytes, of which no two overlap."""
+"""The state of a symbolic execution. Registers and memory are regions of bytes, which do not overlap."""
 
 import copy
 from typing import Callable
@@ -6,17 +6,17 @@ from typing import Callable
 import z3
 
 GENERAL = ["rax", "rbx", "rcx", "rdx", "rsi", "rdi", "rbp", "rsp"] + [f"r{k}" for k in range(8, 16)]
-KEPT = ["rbx", "rbp", "r12", "r13", "r14", "r15"]  # by a callee, in the ABI of System V
-REGISTERS = {f"xmm{k}": (f"xmm{k}", 0, 16) for k in range(16)}  # a name's register, its lowest byte there, its size
+KEPT = ["rbx", "rbp", "r12", "r13", "r14", "r15"]  # registers that a callee must preserve by the System V ABI
+REGISTERS = {f"xmm{k}": (f"xmm{k}", 0, 16) for k in range(16)}  # name: (full register, first byte, size)
 for _full in GENERAL:
-    _old = _full[1:]  # such as ax and si; of r8 to r15 the number
+    _old = _full[1:]  # such as ax and si; for r8 to r15 the number
     _parts = [f"r{_old}d", f"r{_old}w", f"r{_old}b"] if _old.isdigit() else [f"e{_old}", _old, _old.rstrip("x") + "l"]
     REGISTERS |= {name: (_full, 0, size) for name, size in zip([_full, *_parts], (8, 4, 2, 1))}
     REGISTERS |= {_old[0] + "h": (_full, 1, 1)} if _old.endswith("x") else {}
 
 
 def bits(value: z3.BitVecRef, low: int, width: int) -> z3.BitVecRef:
-    """Some of a value's bits."""
+    """`width` bits of a value from bit `low` up."""
     return z3.simplify(z3.Extract(low + width - 1, low, value))
 
 
@@ -26,15 +26,15 @@ class State:
     def __init__(self, pc: int, cells: dict[tuple[str, int], z3.BitVecRef] | None = None):
         self.pc = pc
         self.steps = 0
-        self.cells = cells or {}  # what was stored, by its region and first byte
-        self.flags: Callable[[], dict[str, z3.BoolRef]] = dict  # what they say of each condition, where it is known
-        self.elements: dict[tuple[str, int], z3.BitVecRef] = {}  # what this path wrote, by array and pair
-        self.pairs: set[int] = set()  # whose elements of SS were read or written, counted from the path's first
-        self.events: list[z3.BitVecRef] = []  # what was written to unit 26
-        self.path: list[z3.BoolRef] = []  # what the branches that were taken say
+        self.cells = cells or {}  # stored values, by region and first byte
+        self.flags: Callable[[], dict[str, z3.BoolRef]] = dict  # the known conditions
+        self.elements: dict[tuple[str, int], z3.BitVecRef] = {}  # written values, by array and pair
+        self.pairs: set[int] = set()  # pairs with a read or written element of SS, from the path's first pair
+        self.events: list[z3.BitVecRef] = []  # labels and numbers written to unit 26
+        self.path: list[z3.BoolRef] = []  # conditions of the taken branches
 
     def branch(self, pc: int, *claims: z3.BoolRef) -> "State":
-        """A copy that goes on elsewhere, because `claims` hold."""
+        """A copy that continues at `pc`, where `claims` hold."""
         other = copy.copy(self)
         other.pc = pc
         for name in ("cells", "elements", "pairs", "events", "path"):
@@ -43,7 +43,7 @@ class State:
         return other
 
     def write(self, region: str, at: int, value: z3.BitVecRef) -> None:
-        """Store a value. Of what it meets, the other bytes stay."""
+        """Store a value. The other bytes of values that it overlaps do not change."""
         end = at + value.size() // 8
         for (place, start), old in list(self.cells.items()):
             above = start + old.size() // 8 - end
@@ -56,9 +56,9 @@ class State:
         self.cells[region, at] = z3.simplify(value)
 
     def read(self, region: str, at: int, size: int) -> z3.BitVecRef | None:
-        """What stands in `size` bytes, or nothing where one of them is unknown."""
+        """The value of `size` bytes; None if any byte is unknown."""
         for (place, start), value in self.cells.items():
-            held = start + value.size() // 8 - at  # bytes from `at` on
+            held = start + value.size() // 8 - at  # number of bytes from `at`
             if place == region and start <= at and held > 0:
                 low = bits(value, 8 * (at - start), 8 * min(size, held))
                 rest = self.read(region, at + held, size - held) if held < size else None
@@ -69,6 +69,6 @@ class State:
         return self.read(*REGISTERS[name])
 
     def set_register(self, name: str, value: z3.BitVecRef) -> None:
-        """The upper half of a 64-bit register is cleared by a write of 32 bits, and stays with 8 or 16."""
+        """Write a register. A write of 32 bits clears the upper half of a 64-bit register; shorter writes do not."""
         full, at, size = REGISTERS[name]
         self.write(full, at, z3.ZeroExt(32, value) if size == 4 else value)

@@ -1,4 +1,4 @@
-"""What the instructions of x86-64 do to a state. A mnemonic that is not in ACTIONS leaves a proof undecided."""
+"""The effects of x86-64 instructions on a state. A mnemonic that is not in ACTIONS makes a proof undecided."""
 
 from typing import Callable
 
@@ -39,7 +39,7 @@ class Operands:
         return z3.simplify(total + self.s.register(name(m.index)) * m.scale if m.index else total)
 
     def get(self, k: int, width: int = 0) -> z3.BitVecRef:
-        """Operand `k`: its lowest `width` bits, or all of them."""
+        """The lowest `width` bits of operand `k`, or all bits."""
         op, width = self.list[k], width or self.width(k)
         if op.type == names.X86_OP_IMM:
             return z3.BitVecVal(op.imm, width)
@@ -48,15 +48,15 @@ class Operands:
         return bits(self.s.register(self.ins.reg_name(op.reg)), 0, width)
 
     def both(self) -> tuple[z3.BitVecRef, z3.BitVecRef]:
-        """The two operands, as wide as the first."""
+        """Both operands, with the width of the first."""
         return self.get(0), self.get(1, self.width(0))
 
     def set(self, k: int, value: z3.BitVecRef) -> None:
-        """Write operand `k`, of a vector register the lowest bits."""
+        """Write operand `k`; in a vector register, only the lowest bits."""
         name, real = "" if self.is_memory(k) else self.ins.reg_name(self.list[k].reg), self.machine.spec.width
         if not name:
             self.machine.store(self.s, self.address(k), z3.simplify(value))
-        elif name.startswith("xmm") and value.size() == 128:  # a real, and what is above it
+        elif name.startswith("xmm") and value.size() == 128:  # a real and the bits above it
             self.s.write(name, 0, bits(value, 0, real))
             self.s.write(name, real // 8, bits(value, real, 128 - real))
         else:
@@ -86,12 +86,12 @@ def _compare_reals(o: Operands, a: z3.BitVecRef, b: z3.BitVecRef) -> None:
 
 
 def _logic(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
-    """The flags are those of result - 0."""
+    """Set the flags of result - 0."""
     return _compare(o, result, z3.BitVecVal(0, result.size()))
 
 
 def _sum(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
-    """Of the flags of a sum or shift, those that tell of the result."""
+    """Set only the flags of a sum or shift that depend on the result."""
     o.s.flags = lambda: {"e": result == 0, "s": result < 0}
     return result
 
@@ -112,7 +112,7 @@ def _shift(o: Operands, work: Callable) -> None:
 
 
 def _move_real(o: Operands, width: int) -> None:
-    """Between vector registers the upper bits stay; a load clears them."""
+    """Move a real. A move between vector registers keeps the upper bits; a load clears them."""
     value = o.get(1, width)
     o.set(0, z3.ZeroExt(128 - width, value) if o.is_vector(0) and o.is_memory(1) else value)
 
@@ -181,7 +181,7 @@ _ORDERS = {
 }  # fmt: skip
 _NEGATED = {"eq": "neq", "lt": "nlt", "le": "nle", "unord": "ord"}
 _ON_REALS = {name: lambda a, b, name=name: reals.arithmetic(name, a, b) for name in ("add", "sub", "mul", "div")} | {
-    "min": lambda a, b: z3.If(reals.less(a, b), a, b),  # the second where they are equal or one is NaN
+    "min": lambda a, b: z3.If(reals.less(a, b), a, b),  # the second operand if both are equal or one is NaN
     "max": lambda a, b: z3.If(reals.less(b, a), a, b),
 }
 for _name, _order in _ORDERS.items():
