@@ -1,4 +1,4 @@
-// A page of the course: its scenes come to life when they are looked at. Until then, and without a script, they are pictures.
+// A page of the course. A picture becomes a scene when it is scrolled into view. Without a script it stays a picture.
 "use strict";
 
 function sceneAt(holder) {

@@ -1,7 +1,7 @@
-/* long double as x86-64 has it: every sum, product, quotient and root rounded to 64 significant bits.
- * WebAssembly's long double has 113, by functions of a library. With these in their place the rooms find the
- * bits that the program finds. Only the rooms get them (CMakeLists.txt): the C library reads and prints
- * numbers by its own. */
+/* long double as on x86-64: sums, products, quotients and roots are rounded to 64 significant bits.
+ * WebAssembly's long double has 113 bits. These functions replace its library functions, so that results
+ * equal those of the program to the bit. Only the rooms use them (CMakeLists.txt); the C library keeps its
+ * own functions. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -10,7 +10,7 @@ __extension__ typedef unsigned __int128 wide;
 #if __LDBL_MANT_DIG__ == 113
 typedef long double quad;
 #else
-__extension__ typedef __float128 quad; /* where these functions are tested */
+__extension__ typedef __float128 quad; /* for the tests of these functions */
 #endif
 
 quad __wrap___addtf3(quad a, quad b);
@@ -21,14 +21,14 @@ quad __wrap_sqrtl(quad a);
 
 enum { bias = 16383, most = 0x7fff, fraction_bits = 112 };
 
-/* (-1)^sign m 2^exponent. The first bit of m is 1, or m is 0. */
+/* (-1)^sign m 2^exponent. The highest bit of m is 1, or m is 0. */
 struct number {
   int sign, exponent;
   uint64_t m;
 };
 
-/* m 2^exponent, m > 0, to 64 bits; ties go to the even number. `more`: a part of m's last bit follows, and m
- * has 66 bits or more. */
+/* Rounds m 2^exponent, m > 0, to 64 bits; ties go to even. `more`: the exact number is larger than m by less
+ * than its last bit, and m has at least 66 bits. */
 static struct number rounded(int sign, wide m, int exponent, int more) {
   const uint64_t top = (uint64_t)(m >> 64);
   const int shift = top != 0 ? __builtin_clzll(top) : 64 + __builtin_clzll((uint64_t)m);
@@ -42,7 +42,8 @@ static struct number rounded(int sign, wide m, int exponent, int more) {
   return n;
 }
 
-/* False for NaN and infinity. A literal of more bits is rounded, as x86-64's compiler does. */
+/* Returns false for NaN and infinity. Rounds a literal with more than 64 bits, as a compiler for x86-64 does.
+ */
 static int read(quad x, struct number* n) {
   wide bits;
   memcpy(&bits, &x, sizeof bits);
@@ -56,8 +57,8 @@ static int read(quad x, struct number* n) {
   return exponent < most;
 }
 
-/* What is below the smallest normal number, 2^-16382, becomes 0: no sum or product of a few doubles gets
- * there. */
+/* Numbers below the smallest normal number, 2^-16382, become 0. No sum or product of a few doubles is so
+ * small. */
 static quad written(struct number n) {
   const int exponent = n.exponent + 63 + bias;
   wide bits = (wide)n.sign << 127;
@@ -70,7 +71,7 @@ static quad written(struct number n) {
   return x;
 }
 
-/* What counts of a number beside one that is not finite, or divided by 0. */
+/* The sign and the kind of a number (0, 1, infinity, NaN), for operations with infinity or NaN or by 0. */
 static double plain(quad x) {
   struct number n;
   if (!read(x, &n)) return (double)x;

@@ -1,4 +1,4 @@
-// Replacements in a page for other processes, for libraries loaded at run time, and for files.
+// Replacements in a page for child processes, for libraries that are loaded at run time, and for files.
 #include <cmath>
 #include <stdexcept>
 
@@ -8,7 +8,7 @@
 extern "C" {
 void ilaver_(int* major, int* minor, int* patch);
 
-/// LAPACK's block size for dpbtrf, by the number of subdiagonals, as in its own ilaenv.
+/// The block size for dpbtrf by the number of subdiagonals, as in LAPACK's ilaenv.
 int ilaenv_(const int* /*what*/, const char* /*name*/, const char* /*options*/, const int* /*n*/,
             const int* subdiagonals, const int* /*n3*/, const int* /*n4*/, int /*name_length*/,
             int /*options_length*/) {
@@ -19,17 +19,18 @@ int disnan_(const double* x) {
   return std::isnan(*x) ? 1 : 0;
 }
 
-/// The nearest whole number, of f2c's library.
+/// The nearest integer; a function of f2c's library.
 int i_dnnt(const double* x) {
   return static_cast<int>(std::lround(*x));
 }
 
-/// No routine of LAPACK is called with arguments that it refuses.
+/// LAPACK calls this only for invalid arguments, which do not occur.
 void xerbla_(const char* /*name*/, const int* /*argument*/, int /*length*/) {
   __builtin_trap();
 }
 
-/// Only a matrix's rigid-body motions need eigenvalues, and a problem in a page names no file of a matrix.
+/// Only the rigid-body motions of a matrix need eigenvalues, and a problem in a page cannot name a matrix
+/// file.
 void dsyev_(const char* /*jobz*/, const char* /*uplo*/, const int* /*n*/, double* /*a*/, const int* /*lda*/,
             double* /*w*/, double* /*work*/, const int* /*lwork*/, int* /*info*/, std::size_t /*jobz_length*/,
             std::size_t /*uplo_length*/) {

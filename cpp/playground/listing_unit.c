@@ -1,11 +1,10 @@
-/* What f2c's translation of the listing needs besides itself: its calls, and unit 26. The listing's WRITE
- * statements use the descriptors X, I, E and text, which are all that is written here; numbers come out as
- * gfortran has them. */
+/* The calls of f2c's translation of the listing, and its unit 26. Only the descriptors of the listing's WRITE
+ * statements are supported: X, I, E and text. Numbers are written as gfortran writes them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* clang-format off: behind the others, since it makes a macro of abs */
+/* clang-format off: f2c.h must be the last header, because it defines a macro abs */
 #include <f2c.h>
 /* clang-format on */
 
@@ -30,7 +29,7 @@ void contct_call_r4(const float* dd, const float* dtest, const float* cc, float*
   contc4_((float*)dd, (float*)dtest, (float*)cc, ss, smin, (int*)id, isep, (int*)isurf, &nc);
 }
 
-/* Unit 26: a file, or nothing. */
+/* Unit 26: a file, or NULL. */
 static FILE* unit = NULL;
 
 int contct_log_open(const char* path, int length) {
@@ -56,7 +55,7 @@ void contct_log_close(void) {
   unit = NULL;
 }
 
-/* One WRITE statement: its format, and how far it has come. */
+/* The current WRITE statement: the rest of its format, and its line so far. */
 static struct {
   const char* at;
   char line[256];
@@ -73,7 +72,7 @@ static void put_right(const char* digits, size_t width) {
     put(length > width ? '*' : i < width - length ? ' ' : digits[i - (width - length)]);
 }
 
-/* Text, which f2c quotes by \002, and blanks, up to the next descriptor of a number or the end. */
+/* Copies text, which f2c quotes by \002, and blanks, up to the next descriptor of a number or the end. */
 static void copy_text(void) {
   while (*now.at != 0 && *now.at != 'i' && *now.at != 'e') {
     if (*now.at == '\002') {
@@ -89,7 +88,7 @@ static void copy_text(void) {
   }
 }
 
-/* Ew.d of SMIN, which is positive: 0.dddE+ee, from digits that C rounds. */
+/* Writes SMIN, which is positive, in the format Ew.d: 0.dddE+ee. C rounds its digits. */
 static void put_e(double x, size_t width, int digits) {
   char c[64], out[64];
   snprintf(c, sizeof c, "%.*e", digits - 1, x); /* d.dde+ee */

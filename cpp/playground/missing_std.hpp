@@ -1,6 +1,6 @@
-// What the C++ library of Debian's Emscripten, libc++ 13, lacks of C++20 and our code uses: algorithms over
-// whole ranges with projections, which range-v3 has, and numbers read and written without a locale. Included
-// in front of every source of the playground, and of nothing else.
+// The parts of C++20 that the rooms use and that libc++ 13 of Debian's Emscripten lacks: algorithms on ranges
+// with projections, from range-v3, and conversions of numbers without a locale. Every source of the
+// playground includes this file first.
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -33,7 +33,7 @@ To bit_cast(const From& from) noexcept {
 template <class Real, enable_if_t<is_floating_point_v<Real>, int> = 0>
 from_chars_result from_chars(const char* first, const char* last, Real& value,
                              chars_format format = chars_format::general) {
-  if (format == chars_format::hex) {  // C's own reader wants a prefix, and an end
+  if (format == chars_format::hex) {  // strtod needs a prefix 0x and a final zero
     const bool negative = first != last && *first == '-';
     const std::string text = std::string(negative ? "-0x" : "0x").append(first + (negative ? 1 : 0), last);
     const bool begins =
@@ -48,7 +48,7 @@ from_chars_result from_chars(const char* first, const char* last, Real& value,
   return {r.ptr, r.ec};
 }
 
-/// The fewest digits that give the number back, as the library of the other builds has them.
+/// Writes the fewest digits that give the number back, as std::to_chars of other builds does.
 inline to_chars_result to_chars(char* first, char* last, double value, chars_format /*scientific*/) {
   const string text = isfinite(value) ? fmt::format("{:e}", value) : fmt::format("{}", value);
   for (int digits = 0; digits <= 17; ++digits) {
@@ -61,7 +61,7 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
   return {last, errc::value_too_large};
 }
 
-/// The same without a format, for people.
+/// Writes a number without a format.
 inline to_chars_result to_chars(char* first, char* last, double value) {
   const string text = fmt::format("{}", value);
   if (last - first < static_cast<ptrdiff_t>(text.size())) return {last, errc::value_too_large};
@@ -93,7 +93,7 @@ using ::ranges::stable_sort;
 using ::ranges::transform;
 using ::ranges::upper_bound;
 
-/// range-v3's version needs a predicate that can also compare elements of the same range.
+/// range-v3's function would need a predicate that can also compare elements of the same range.
 template <class A, class B, class Predicate = std::equal_to<>>
 bool equal(A&& a, B&& b, Predicate predicate = {}) {
   return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), predicate);

@@ -1,6 +1,8 @@
-"""Makes the pages in which the compiled program runs: the playground, contct.html, and the course, a page for each of its Markdown files, whose
-pictures are scenes that can be dragged. Page 12 has a judge of kernels.
-usage: python3 pages.py ROOT MODULE OUT    (MODULE: contct.js as Emscripten writes it; OUT: the folder of contct.html; the course is beside it)"""
+"""Makes the pages in which the compiled program runs: the playground, contct.html, and one page for each Markdown file
+of the course. In the course, pictures become scenes that can be dragged, and page 12 gets the judge of kernels.
+
+usage: python3 pages.py ROOT MODULE OUT
+MODULE is Emscripten's contct.js; OUT is the folder of contct.html. The course is written to a folder next to OUT."""
 import json
 import pathlib
 import re
@@ -20,7 +22,7 @@ def read(path):
 
 
 def together(*names):
-    """Files of this folder, or of the report."""
+    """The text of files of this folder or of the report's folder."""
     return "".join(read(here / n if (here / n).exists() else report / n) for n in names)
 
 
@@ -30,7 +32,7 @@ def between(text, begin, end):
 
 
 def write_whole(path, text):
-    """A page appears whole or not at all."""
+    """Write a page, which is never visible in part."""
     part = path.with_name(path.name + ".part")
     part.write_text(text, encoding="utf-8")
     part.replace(path)
@@ -41,19 +43,20 @@ def filled(template, parts):
 
 
 def scenes():
-    """scenes.json, with the texts of the problems that it names."""
+    """The scenes of scenes.json, with the texts of their problems."""
     all_scenes = json.loads(read(course / "scenes/scenes.json"))
     return {name: {**s, "text": read(root / s["problem"])} for name, s in all_scenes.items()}
 
 
 def beside():
-    """By line of the listing the C++ that does the same, from the parallel edition."""
+    """The C++ code for each line of the listing, from the parallel edition."""
     parts = tomllib.loads(read(root / "reference/parallel-edition.toml"))["part"]
     return {line: "\n".join(textwrap.dedent(b["text"]).strip() for b in part["cpp"] if b["file"].endswith("contct.hpp")) for part in parts for line in part["listing"]}
 
 
 def judged():
-    """What the judge of page 12 has: the golden calls with their answers, and the hints. JSON has no NaN and no infinity: they are texts."""
+    """The data of the judge on page 12: the golden calls with their answers, and the hints. NaN and infinity are texts,
+    because JSON has no such numbers."""
     real = lambda x: x if abs(x) < float("inf") else str(x)
     calls = [{"name": c["name"], "note": c["note"], "indof": c["indof"], "ndofpn": c["ndofpn"], "ndof": c["ndof"],
               "dofs": [[n, real(d), real(d_star)] for n, d, d_star in c["dofs"]], "pairs": [[*p[:3], real(p[3])] for p in c["pairs"]],
@@ -73,7 +76,7 @@ def module_text():
 
 def write_playground():
     folder = root / "reference/problems"
-    # A page has no other files: problems that name some stay out.
+    # Problems that name other files are omitted, because a page has no files.
     problems = {str(p.relative_to(folder))[:-5]: read(p) for p in sorted(folder.rglob("*.toml")) if not p.with_suffix(".mtx").exists()}
     sections = filled(between(read(report / "report.html"), "<main>", "</main>"),
                       {"edition": between(read(root / "reference/parallel-edition.html"), "</h1>", "</body>")})
@@ -83,7 +86,7 @@ def write_playground():
 
 
 def page_of(markdown_file, converter):
-    """A page of the course. A picture whose title is "scene: NAME" is where the scene of that name stands."""
+    """A page of the course. The scene NAME replaces a picture with the title "scene: NAME"."""
     converter.reset()
     body = converter.convert(read(markdown_file))
     known = scenes()

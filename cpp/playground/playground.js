@@ -1,18 +1,19 @@
-// The playground: a problem's text on the left, and the report of its run on the right, which result.js, picture.js and
-// report.js draw. Every number comes from the compiled program; this script reads no problem file and computes no contact.
+// The playground: the text of a problem on the left, and on the right the report of its run, drawn by result.js,
+// picture.js and report.js. The compiled program computes every number; this script neither parses problems nor
+// computes contact.
 "use strict";
 
 const given = JSON.parse(byId("given").textContent);
-const patient = 40000; // dofs times steps beyond which a run waits for the button
+const patient = 40000; // dofs times steps; a larger run waits for the button
 const editor = byId("text");
-let textsBefore = null; // what undo goes back to
+let textsBefore = null; // the TextHistory for undo
 
 let model = null;   // contct_check's answer for the last accepted text
-let chosen = 0;     // pair that is explained, from 0
-let dragging = null; // { to, x, y } while something is dragged
-let busy = false;   // while a result is drawn for the first time
-let later = 0;      // of work that is not done in every frame
-let milliseconds = 0; // from a text to its picture
+let chosen = 0;     // the pair to explain, from 0
+let dragging = null; // { to, x, y } during a drag
+let busy = false;   // true while a result is drawn for the first time
+let later = 0;      // timer of the work that waits for a pause
+let milliseconds = 0; // time from a text to its picture
 
 // ---- the program ----
 
@@ -23,7 +24,7 @@ const askPath = (name, options) => ask(name, editor.value, { kernels: kernelsAsk
 
 const numberOf = (key) => model && model.numbers.find((n) => n.key === key);
 
-/** Put other numbers in the place of some: { key: value }. What follows within a drag is one change. */
+/** Replaces numbers of the text: { key: value }. All changes of one drag are one change for undo. */
 function change(values) {
   const text = withNumbers(editor.value, model.numbers, values);
   if (text === editor.value) return;
@@ -35,7 +36,7 @@ function change(values) {
 
 // ---- recomputing ----
 
-/** Mark a number that is dragged, or what is wrong, behind the text. */
+/** Marks a part of the text: the number that is dragged, or an error. */
 function mark(from, to, kind) {
   const text = editor.value;
   const marked = element("mark", { class: kind }, text.slice(from, to) || " ");
@@ -52,7 +53,7 @@ function withdrawVerdict(why) {
   byId("verdict").replaceChildren(element("li", { class: "note" }, `No verdict: ${why}. The picture is that of the last text that ran.`));
 }
 
-/** What the program says against the text; a click goes to the place. */
+/** Shows the program's error message about the text. A click on it moves to the place of the error. */
 function complain(error) {
   withdrawVerdict("the text is no problem that runs");
   const button = element("button", { type: "button", class: "bad" }, error.message);
@@ -72,7 +73,7 @@ function tell(messages) {
   byId("message").replaceChildren(...messages.slice(0, 6).map((words) => element("p", { class: "quiet" }, words)));
 }
 
-/** Everything from the text, but for what can wait for a pause. The path is shown at this state. */
+/** Runs the text and shows the path at `state`. Slow parts wait for a pause; see afterPause. */
 function recompute({ asked = false, state = current } = {}) {
   const began = performance.now();
   clearTimeout(later);
@@ -101,7 +102,7 @@ function waitForButton() {
   byId("message").replaceChildren(button);
 }
 
-/** The listing's story, and what the page of --html has more, take longer than a frame. */
+/** The parts that take longer than a frame: the explanation by the listing, and the additional parts of the report. */
 function afterPause() {
   if (dragging) return;
   explainState(frames[current]);
@@ -109,7 +110,7 @@ function afterPause() {
   if (answer.error) return;
   const [drawn, seen] = [frames.length, where(frames[current])];
   read(JSON.parse(new DOMParser().parseFromString(answer.page, "text/html").getElementById("data").textContent));
-  if (frames.length !== drawn) { // of a plate it has more states
+  if (frames.length !== drawn) { // the full result of a plate has more states
     busy = true;
     load(result, frames.findIndex((f) => where(f) === seen));
     busy = false;
@@ -119,7 +120,8 @@ function afterPause() {
 
 // ---- items that can be dragged ----
 
-/** Something that can be dragged, or moved by the arrow keys. `begin` gives what takes pixels from where the drag began. */
+/** An item that can be dragged, or moved by the arrow keys. `begin` returns a function of the pixels since the drag
+    began. */
 function handle(attributes, words, begin) {
   const made = svg("rect", { class: "handle", tabindex: "0", role: "slider", "aria-label": words, rx: 4, fill: "none", ...attributes }, svg("title", {}, words));
   made.addEventListener("pointerdown", (event) => {
@@ -139,7 +141,7 @@ function handle(attributes, words, begin) {
   return made;
 }
 
-let pending = null; // the last movement, until the next frame
+let pending = null; // the last movement, which the next frame handles
 addEventListener("pointermove", (event) => {
   if (!dragging) return;
   if (pending === null) requestAnimationFrame(() => {
@@ -155,7 +157,7 @@ for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => {
   load(result, current);
 });
 
-/** Of a beam all; of a plate the faces. */
+/** Adds all handles of a beam; for a plate, only those of faces. */
 function addHandles(f) {
   const root = byId("picture").firstChild;
   addUniformHandle(root, Math.max(1, f.step));
@@ -179,7 +181,7 @@ function addFaceHandle(root, p, i) {
   root.append(made);
 }
 
-/** Point loads of a step by the keys of their numbers: node or x, and w. */
+/** The point loads of a step, with the keys of their numbers: node or x, and w. */
 function pointLoadsOf(step) {
   const found = new Map();
   for (const n of model.numbers) {
@@ -234,7 +236,7 @@ function choose(i) {
   show(current);
 }
 
-/** What each line of the listing did with the chosen pair, and with the increment. */
+/** Shows the effect of each line of the listing on the chosen pair and on the increment. */
 function explainState(f) {
   for (const line of listingLines) line.classList.remove("ran");
   const story = byId("story");
@@ -258,7 +260,7 @@ function explainState(f) {
 const encoded = (text) => btoa(String.fromCharCode(...new TextEncoder().encode(text))).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 const decoded = (text) => new TextDecoder().decode(Uint8Array.from(atob(text.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0)));
 
-/** The problem of the page's address: "#problem=NAME", "#text=BASE64", with "&kernels=corrected" behind it. */
+/** The problem in the page's address: "#problem=NAME" or "#text=BASE64"; "&kernels=corrected" may follow. */
 function problemOfLink() {
   const asked = new URLSearchParams(location.hash.slice(1));
   if (asked.has("kernels")) byId("kernels").value = asked.get("kernels");
@@ -301,7 +303,7 @@ function listenToText() {
   addEventListener("hashchange", () => { openOwn(); const text = problemOfLink(); if (text !== editor.value) take(text); });
 }
 
-// ---- the lesson, and the way to a problem of one's own ----
+// ---- the lesson, and the user's own problem ----
 
 function startLesson() {
   new ContactScene(byId("three-stops"), { listing: given.listing, ...given.scenes["three-stops"] });

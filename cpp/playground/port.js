@@ -1,5 +1,6 @@
-// The judge of page 12: a kernel in JavaScript, typed into a box, answers the golden calls. The first one that it fails is drawn, and its wrong
-// answers are looked up among those of known faults, as reference/course/port/hint.py does.
+// The judge of page 12: a kernel in JavaScript, typed into a box, answers the golden calls. The judge draws the first
+// call with a wrong answer, and searches the answers among those of known faults, as reference/course/port/hint.py
+// does.
 "use strict";
 
 const emptyKernel = `// dd, dtest, cc, ss, id, isep, isurf: arrays that begin with 0. Nodes and dofs are numbered from 1.
@@ -8,10 +9,10 @@ function contct(dd, dtest, cc, ss, id, isep, isurf, nc, indof, ndofpn) {
 
 }
 `;
-const unset = -7; // what SS holds before a call
+const unset = -7; // the value of SS before a call
 const patience = 3000; // ms
 
-/** In the worker: the answers of a source to calls. Before each one its number is told. */
+/** In the worker: the answers of a kernel's source to calls. `tell` receives the number of each call before it. */
 function answerAll(source, calls, tell) {
   const kernel = new Function(`${source}\nreturn contct;`)();
   return calls.map((c, number) => {
@@ -32,7 +33,7 @@ function answerAll(source, calls, tell) {
   });
 }
 
-/** The answers of a source, or why there are none. A worker that does not end is stopped. */
+/** The answers of a kernel's source, or an error. A worker that exceeds `patience` is stopped. */
 function answersOf(source, calls) {
   const code = `onmessage = (e) => { try { postMessage({ answers: (${answerAll})(e.data.source, e.data.calls, (number) => postMessage({ number })) }); }
     catch (error) { postMessage({ error: String(error) }); } };`;
@@ -72,7 +73,7 @@ function digestOf(answers) {
   return hex(h);
 }
 
-/** The first value that differs, in the order in which the listing computes them; null where all bits are equal. */
+/** The first value that differs, in the order of the listing; null if all bits are equal. */
 function firstDifference(answer, right) {
   if (answer.error) return { quantity: "no answer", pair: 0, bits: "" };
   const at = (quantity, i, value, expected) => ({ quantity, pair: i + 1, value, right: expected, bits: quantity === "ISEP" ? String(value) : hex(...bitsOf(value)) });
@@ -83,7 +84,7 @@ function firstDifference(answer, right) {
   return k < 0 ? null : at("ISEP", k, answer.isep[k], right.isep[k]);
 }
 
-/** What hints.toml says of these answers. */
+/** The hints of hints.toml for these answers. */
 function hintOf(digest, first, quantity, right) {
   const known = Object.values(given.hints);
   const same = known.filter((h) => h.digest === digest);
@@ -98,7 +99,7 @@ function hintOf(digest, first, quantity, right) {
 
 class KernelJudge {
   constructor(holder) {
-    // JSON has no NaN and no infinity.
+    // NaN and infinity are texts in JSON.
     const real = (x) => (typeof x === "string" ? Number(x.replace("inf", "Infinity")) : x);
     this.calls = given.golden.map((c) => ({ ...c, dofs: c.dofs.map((d) => d.map(real)), pairs: c.pairs.map((p) => p.map(real)), smin: real(c.smin), ss: c.ss.map(real) }));
     this.source = element("textarea", { spellcheck: "false", rows: "16", "aria-label": "A kernel in JavaScript" });
@@ -133,7 +134,8 @@ class KernelJudge {
 
   say(...sentences) { this.words.replaceChildren(...sentences.map((s) => element("p", {}, s))); }
 
-  /** The pairs of a call by their s between 0 and 1: the right ones above the line, theirs below, near ones stacked; pairs that are toggled are gold. */
+  /** Draws the pairs of a call along a line by their s from 0 to 1: the right s above the line, the kernel's s below.
+      Near pairs are stacked; toggled pairs are gold. */
   draw(call, answer) {
     const [width, height, middle, left, right] = [widthOf(this.picture), 260, 120, 84, 40];
     const S = (s) => left + s * (width - left - right);

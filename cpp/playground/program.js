@@ -1,10 +1,10 @@
-// The compiled program, as the functions of serve.h, and the numbers of a problem's text. The playground and the pages of the course
-// ask it; no script here reads a problem file or computes contact.
+// The functions of serve.h in the compiled program, and the numbers in a problem's text. The playground and the course
+// use them; no script here parses problems or computes contact.
 "use strict";
 
-let program = null; // the compiled program, once it is loaded
+let program = null; // the compiled program; null until it is loaded
 
-/** The answer of a function of serve.h to texts, as text. */
+/** Calls a function of serve.h with texts, and returns its answer, a text. */
 function answerOf(name, ...texts) {
   const places = texts.map((text) => {
     const room = program.lengthBytesUTF8(text) + 1;
@@ -22,14 +22,14 @@ function answerOf(name, ...texts) {
 
 const ask = (name, text, options) => JSON.parse(answerOf(name, text, JSON.stringify({ file: "problem.toml", ...options })));
 
-/** A number as it is written when it is dragged: 4 digits, a whole number where the key takes one. */
+/** The text of a dragged number: 4 digits, or an integer if the key needs one. */
 function written(x, place) {
   if (place.whole && /(^|\.)(node|nodes|elements|nx|ny)(\[|$)/.test(place.key)) return String(Math.round(x));
   const text = String(Number(x.toPrecision(4)));
   return /[.e]/.test(text) ? text : `${text}.0`;
 }
 
-/** Where a number stands in a text, as [from, to]. Columns count code points. */
+/** The place of a number in a text, as [from, to]. Columns count code points. */
 function spanOf(text, place) {
   const lines = text.split("\n");
   let from = 0;
@@ -38,7 +38,7 @@ function spanOf(text, place) {
   return [from, from + place.length];
 }
 
-/** A text with other numbers in the place of some: { key: value }. `numbers` are what contct_check says of it. */
+/** Replaces numbers of a text: { key: value }. `numbers` are those that contct_check returns for the text. */
 function withNumbers(text, numbers, values) {
   const edits = Object.entries(values).map(([key, value]) => ({ place: numbers.find((n) => n.key === key), value })).filter((e) => e.place);
   edits.sort((a, b) => b.place.line - a.place.line || b.place.column - a.place.column);
@@ -49,11 +49,11 @@ function withNumbers(text, numbers, values) {
   return text;
 }
 
-/** Texts that can be taken back: what was dragged or typed, one after the other. */
+/** The texts for undo and redo, in order. */
 class TextHistory {
   constructor(first) { this.texts = [first]; this.at = 0; }
   get text() { return this.texts[this.at]; }
-  /** Movements of one drag are one text: `follows` replaces the last. */
+  /** Adds a text. If `follows`, it replaces the last text, so that a drag is one change. */
   add(text, follows = false) {
     if (text === this.text) return;
     this.texts.length = this.at + (follows ? 0 : 1);
@@ -64,9 +64,9 @@ class TextHistory {
   redo() { this.at = Math.min(this.texts.length - 1, this.at + 1); return this.text; }
 }
 
-let takeBack = null; // the target of keys if no element has the focus, as after a drag
+let takeBack = null; // receives the keys for undo if no element has the focus, as after a drag
 
-/** The keys that take back and bring back, for what is in `holder`. `act` gets the name of the history's function. */
+/** Listens to the keys for undo and redo in `holder`. `act` receives the name of the TextHistory's function. */
 function listenForUndo(holder, act) {
   const take = (event) => {
     if (!undoes(event) && !redoes(event)) return;
@@ -78,9 +78,8 @@ function listenForUndo(holder, act) {
 }
 addEventListener("keydown", (event) => { if (document.activeElement === document.body && takeBack) takeBack(event); });
 
-/** A finger's drag goes on when the handle under it is drawn anew: without this the browser scrolls then. */
+/** Lets a touch drag continue when its handle is drawn again. Otherwise the browser would scroll. */
 const keepTouch = (handle) => handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
 
-/** Does this key press take back, or bring back? */
 const undoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === "z" && !event.shiftKey;
 const redoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && (event.key.toLowerCase() === "y" || (event.key.toLowerCase() === "z" && event.shiftKey));

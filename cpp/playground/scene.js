@@ -1,10 +1,11 @@
-// A scene: a beam over stops and one load, both to be dragged, and the algorithm of 1989 at work on it. It opens unloaded. A step shows
-// d*, what all the remaining load would do, with the share s at which each pair would meet its face; the next one goes to the smallest.
-// Every number is the program's; between two states of a path the beam moves in proportion, as it does in the paper.
+// A scene: a beam over stops and one load, which can be dragged, and the algorithm of 1989. The beam is unloaded at
+// first. One step shows d*, the response to all the remaining load, and the share s at which each pair would meet its
+// face. The next step applies the smallest s. The program computes every number; between two states the beam moves
+// linearly, as in the paper.
 "use strict";
 
 const stillAsked = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
-const scenes = [];  // of the page, in its order
+const scenes = [];  // all scenes of the page, in order
 
 /** The shape of a beam: [x, w] along its elements, cubic between nodes. */
 function shapeOf(nodes, u, parts = 6) {
@@ -17,8 +18,8 @@ function shapeOf(nodes, u, parts = 6) {
 }
 
 class ContactScene {
-  /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size. `beside`: other code that does
-      the same, by lines of the listing. */
+  /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size.
+      `beside`: equivalent code for each line of the listing. */
   constructor(holder, { text, load = "step[1].point[1]", most = 1, kernels = ["fortran", "cpp"], listing = "", beside = null, question = "" }) {
     Object.assign(this, { holder, load, most, kernels, beside, question });
     this.history = new TextHistory(text);
@@ -58,7 +59,7 @@ class ContactScene {
 
   // ---- the program's answers ----
 
-  /** The path under the load of the text, and why each increment went as it did. */
+  /** Computes the path under the load of the text, and the explanation of each increment. */
   solve() {
     const text = this.history.text;
     this.numbers = ask("check", text, { places: true }).result.numbers;
@@ -82,7 +83,7 @@ class ContactScene {
     return [begun, ...behind];
   }
 
-  /** What the whole remaining load would do: d* is the way to the next state over its share. */
+  /** The beam under the whole remaining load. d* is the displacement to the next state, divided by its share. */
   ghostOf(k) {
     const [now, next] = [this.frames[k], this.frames[k + 1]];
     return next && next.s > 0 ? now.u.map((w, i) => w + (next.u[i] - w) / next.s) : null;
@@ -100,7 +101,7 @@ class ContactScene {
 
   get last() { return this.frames.length - 1; }
 
-  /** "end": the beam under the whole load. "path": a state within it. */
+  /** Shows the beam under the whole load ("end"), or state `k` of the path ("path"). */
   show(what, k = this.last) {
     this.moving = null;
     Object.assign(this, { shown: what, k, overlay: what === "path" && k < this.last, at: -1, through: null });
@@ -117,7 +118,7 @@ class ContactScene {
     this.glide(from, to, () => this.show("path", this.k + 1));
   }
 
-  /** Goes on with the next line of the listing that runs, in the order in which it runs. */
+  /** Moves to the next line of the listing in the order of execution. */
   stepInto() {
     if (this.moving) return;
     if (this.shown === "end" || !this.overlay) return this.start();
@@ -136,7 +137,7 @@ class ContactScene {
     return [...first, ...winner, ...told.pairs.flatMap((p) => of(p, (line) => line > 48))];
   }
 
-  /** What happens without s_min: all the remaining load at once, through every stop. */
+  /** Shows the path without s_min: all the remaining load is applied at once, and the beam passes through the stops. */
   ignore() {
     if (this.moving) return;
     if (this.shown === "end" || !this.overlay) this.start();
@@ -171,7 +172,7 @@ class ContactScene {
 
   // ---- dragging ----
 
-  /** Another load; while it is dragged all movements are one change. */
+  /** Changes the load. If `follows`, the change is part of the same drag. */
   change(values, follows = false) {
     this.history.add(withNumbers(this.history.text, this.numbers, values), follows);
     this.solve();
@@ -183,7 +184,7 @@ class ContactScene {
     this.show("end");
   }
 
-  /** The load at this node, of this size. */
+  /** Sets the load's node and size. */
   push(node, force, follows) {
     const size = Math.max(-this.most, Math.min(0, force));
     const place = this.number("node") ? { [`${this.load}.node`]: node + 1 } : { [`${this.load}.x`]: this.nodes[node] };
@@ -229,8 +230,8 @@ class ContactScene {
 
   // ---- the picture ----
 
-  /** How deep the picture is: the beam under the largest load without stops has room. It is the same for all loads, so that the beam
-      moves as the finger does. */
+  /** Sets the height of the picture by the beam under the largest load without stops. The height is the same for all
+      loads, so that the beam moves with the finger. */
   frameOnce() {
     if (this.deep) return;
     const largest = ask("run", withNumbers(this.history.text, this.numbers, { [`${this.load}.w`]: -this.most }), { kernels: this.kernels, states: true }).result;
@@ -271,7 +272,7 @@ class ContactScene {
     }
   }
 
-  /** A stop gives way as its spring does: in contact its top is where the beam is. */
+  /** Draws a stop. In contact, its top is at the beam, because its spring is compressed. */
   drawStop(root, p, w, closed) {
     const { X, Y, times } = this.page;
     const [x, y, foot] = [X(this.nodes[p.at]), Y(closed ? w : p.face), Y(p.face) - p.side * 26];
@@ -289,7 +290,7 @@ class ContactScene {
     root.append(arrow(x, y + length, 0, -length, "force"), label(x + 8, y + length, rough(force), { class: "value halo" }));
   }
 
-  /** d* as a ghost beam, and from each pair a ray to where it would go, cut at its face. */
+  /** Draws the beam at the end of d*, and from each pair a line to its place there, with a mark at its face. */
   drawGhost(root, u) {
     const ghost = this.ghostOf(this.k);
     const { X, Y } = this.page;
@@ -307,7 +308,7 @@ class ContactScene {
 
   chosen() { return this.at < 0 ? null : this.linesOf(this.k)[this.at].pair; }
 
-  /** All s on one line from 0 to 1; the leftmost is s_min. */
+  /** Draws all s on a line from 0 to 1. The leftmost is s_min. */
   drawShares(root) {
     const { left, width, right, height } = this.page;
     const [y, told] = [height - 34, this.told[this.k]];
@@ -373,7 +374,7 @@ class ContactScene {
       : "Without s_min nothing is different here: no stop is in the way.";
   }
 
-  /** The line of the listing that is next, with the values known by then. */
+  /** Shows the next line of the listing, with the values that are known before it. */
   showLine() {
     const lines = this.overlay ? this.linesOf(this.k) : [];
     const now = lines[this.at];

@@ -1,9 +1,9 @@
-// The rule of 1989 beside the corrected one, on one problem: the beam at the end of each step by either rule,
-// drawn larger the smaller it is, so that a permanent deflection is visible. Every number is the program's.
+// The 1989 rule and the corrected rule on one problem: the beam at the end of each step by each rule. The larger
+// deflection fills the picture, so that a small permanent deflection is visible. The program computes every number.
 "use strict";
 
 class TwoRules {
-  /** `names`: what each step does, in words. `kernels`: those of the rule of 1989. */
+  /** `names`: a description of each step. `kernels`: kernels of the 1989 rule. */
   constructor(holder, { text, names, kernels = ["fortran", "cpp"] }) {
     const endsBy = (kernels) => {
       const answer = ask("run", text, { kernels, states: true });

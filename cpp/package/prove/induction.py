@@ -31,7 +31,7 @@ class Head:
 
 
 class Arrival(NamedTuple):
-    """The end of a path, and its begin: the head (0: the function's entry), the position, and the known facts."""
+    """The end of a path, and its beginning: the head (0: the function's entry), the position, and the known facts."""
 
     s: State
     origin: int
