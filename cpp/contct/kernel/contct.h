@@ -1,10 +1,10 @@
-/* The 1989 code, for C and C++: fortran/contct_c.f90 seen from outside.
+/* The 1989 code for C and C++, by the functions of fortran/contct_c.f90.
  *
- * COMMON /DOF/ and unit 26 belong to the whole process, so calls of anything declared here must be
- * serialised by the caller. (In C++, contct/kernel/fortran.hpp does it with a lock.)
+ * COMMON /DOF/ and unit 26 belong to the whole process, so the caller must serialise all calls of these
+ * functions. (In C++, contct/kernel/fortran.hpp does this with a lock.)
  *
- * Deflections, d* and faces are lengths in one unit, positive up. Which unit is the caller's choice, but the
- * listing takes a gap below 1e-10 of it for closed. */
+ * Deflections, d* and faces are lengths, positive up, in one unit, which the caller chooses. The listing
+ * treats a gap below 1e-10 of this unit as zero. */
 #ifndef CONTCT_KERNEL_CONTCT_H
 #define CONTCT_KERNEL_CONTCT_H
 
@@ -12,33 +12,34 @@
 extern "C" {
 #endif
 
-/* One call of CONTCT: how much of the remaining load can be applied before a pair makes or breaks contact,
- * and which pairs do so there. The arguments are those of contct_kernel (contct/kernel/plugin.h), but for the
- * length of dd and dtest. No argument may be null unless nc is 0 (smin never). Answers are defined, and equal
- * to those of C++, where nc < 2^31 - 1 and neither isep[i] * isurf[i] nor (id[i] - 1) * ndofpn + indof leaves
- * 32 bits on the way. */
+/* One call of CONTCT computes the share of the remaining load up to the next event, and the pairs that make
+ * or break contact there. The arguments are those of contct_kernel (contct/kernel/plugin.h) without ndof.
+ * smin must not be null; other pointers may be null only if nc is 0. The answer is defined, and equal to that
+ * of C++, if nc < 2^31 - 1 and the computation of isep[i] * isurf[i] and of (id[i] - 1) * ndofpn + indof fits
+ * in 32 bits. */
 
-/* As printed: REAL is 4 bytes. */
+/* The listing as printed, with 4-byte REAL. */
 void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,
                     const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
 
-/* REAL, its literals and its DATA are 8 bytes. */
+/* The listing with 8-byte REAL, also in its literals and DATA. */
 void contct_call_r8(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
                     const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
 
-/* The listing says on unit 26 what happened. The text goes to the null device until contct_log_open. */
+/* The listing reports events on unit 26. Until contct_log_open is called, the text goes to the null device.
+ */
 
-/* Connect unit 26 to the existing file `path`, a name of `length` characters without a final zero, from the
- * file's beginning. Returns 0, or the error number of the Fortran run-time library. */
+/* Connects unit 26 to the existing file `path`, at its beginning. `path` has `length` characters and needs no
+ * final zero. Returns 0, or the error number of the Fortran run-time library. */
 int contct_log_open(const char* path, int length);
 
-/* What the listing has written so far stands in the file when this returns. */
+/* Writes all text of the listing so far to the file. */
 void contct_log_flush(void);
 
-/* The next line is written at the beginning of the file. */
+/* Moves to the beginning of the file, where the next line is written. */
 void contct_log_rewind(void);
 
-/* Take unit 26 away from its file; it leads to the null device again. */
+/* Disconnects unit 26 from its file. The text goes to the null device again. */
 void contct_log_close(void);
 
 #ifdef __cplusplus
