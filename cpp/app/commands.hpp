@@ -17,13 +17,13 @@ namespace contct {
 
 // One structure for each command. A string is a file's name unless stated otherwise; empty if not requested.
 
-/// The options of every comparing command.
+/// The options of every command that compares or verifies.
 struct report_options {
   bool quiet = false;
   std::string junit, markdown;
 };
 
-/// The options of every command with a problem.
+/// The options of every command that reads a problem.
 struct problem_options {
   std::string file = {};
   bool allow_outside = false;  ///< the problem may name files that are not below its own folder
@@ -37,9 +37,9 @@ struct run_options : problem_options {
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
-  bool detail = false;    ///< all numbers on the terminal
+  bool detail = false;    ///< prints all numbers on the terminal
   bool envelope = false;  ///< the result has an envelope
-  bool refine = false;    ///< also solves with half the element size
+  bool refine = false;    ///< solves a second time with half the element size
   std::string watched;    ///< the node in the tables: its number, label or x; empty: the node that moves most
   int max_increments = 0;  ///< limit of increments in a step; 0: the default limit
 };

@@ -40,7 +40,7 @@ std::string identity(const std::string& kernel) {
 }  // namespace
 
 std::string rung_of(const nearness& n, const tally& compared) {
-  constexpr std::uint64_t few_ulps = 64;  // as for fuzz
+  constexpr std::uint64_t few_ulps = 64;  // the limit of `contct fuzz`
   if (compared.mismatches == 0) return "bits";
   if (!n.same_events) return "none";
   return n.most_ulps <= few_ulps ? "ulps" : "events";

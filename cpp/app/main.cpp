@@ -102,8 +102,7 @@ exit_status status_of_program(int argc, char** argv) {
     const exit_status status = std::visit([](const auto& options) { return run_command(options); }, *asked);
     flush_standard_output();
     return status;
-  } catch (
-      const reader_gone&) {  // in "contct run .. | head": ends as filters do, after its files are written
+  } catch (const reader_gone&) {  // "contct run .. | head" ends as filters do, after writing its files
     leave_job();
     (void)std::signal(SIGPIPE, SIG_DFL);
     (void)std::raise(SIGPIPE);

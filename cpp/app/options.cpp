@@ -17,7 +17,7 @@ constexpr std::int64_t most_random_cases = 1'000'000'000'000;
 /// An example command line, which --help shows and the tests run unchanged.
 struct example {
   std::string_view line;  ///< "contct run beam.toml"
-  std::string_view text;  ///< its purpose
+  std::string_view text;  ///< the purpose of this command line
 };
 
 constexpr example all_examples[] = {

@@ -113,7 +113,7 @@ std::string junit_xml(const check_report& r) {
 }
 
 std::string markdown(const check_report& r) {
-  constexpr std::string_view words[] = {"passed", "**failed**", "skipped"};  // as in `outcome`
+  constexpr std::string_view words[] = {"passed", "**failed**", "skipped"};  // in the order of `outcome`
   const std::int64_t failed = r.count(outcome::failed);
   std::string text = fmt::format("## {}: {}\n\n{} passed, {} failed, {} skipped\n\n", r.command,
                                  failed == 0 ? "passed" : "failed", r.count(outcome::passed), failed,

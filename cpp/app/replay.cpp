@@ -25,7 +25,7 @@ std::string verdict_of(const replay_report& r, const floating_point& fp) {
 struct replayed {
   kernel_report report = {"replay", "", "", 0, {}, {}, {}};
   nearness near;
-  std::map<std::string, fault_finder> faults;  // by kernel
+  std::map<std::string, fault_finder> faults;  // one for each kernel name
 
   void add(const std::string& file, const std::string& text, const replay_report& r,
            const std::string& details) {
@@ -90,7 +90,7 @@ exit_status run_command(const replay_options& options) {
   const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();
-  constexpr paint paints[] = {paint::good, paint::bad, paint::quiet};  // as in `outcome`
+  constexpr paint paints[] = {paint::good, paint::bad, paint::quiet};  // in the order of `outcome`
   replayed all;
   check_report report{"contct replay", common_facts(), {}, 0.0};
   for (const std::string& file : options.traces) {

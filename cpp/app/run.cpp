@@ -115,8 +115,7 @@ struct run_setup {
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string date = utc_now();
   terminal screen = look_at_terminal();
-  bool prints =
-      !options.report.quiet && !takes_standard_output(outputs);  // prints heading, table and verdicts
+  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // heading, table, verdicts
   problem what = {};
   linear_structure structure = {};
 };

@@ -798,7 +798,7 @@ def judge(function: Callable[[Inputs], tuple[Any, float, Any]], *, calls: int = 
 
         try:
             _write(function(inputs()), ss, smin, isep, nc)
-        except BaseException as error:  # no exception may pass through the library
+        except BaseException as error:  # the library cannot pass exceptions on
             words = repr(inputs())
             error.add_note(f"in a call of {_count(nc, 'pair')}: {words if len(words) <= 500 else words[:496] + ' ...'}")
             raised.append(error)

@@ -10,7 +10,7 @@ __extension__ typedef unsigned __int128 wide;
 #if __LDBL_MANT_DIG__ == 113
 typedef long double quad;
 #else
-__extension__ typedef __float128 quad; /* for the tests of these functions */
+__extension__ typedef __float128 quad; /* used by the tests of these functions */
 #endif
 
 quad __wrap___addtf3(quad a, quad b);

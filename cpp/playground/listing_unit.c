@@ -81,9 +81,9 @@ static void copy_text(void) {
     } else if (*now.at >= '0' && *now.at <= '9') {
       char* behind = NULL;
       for (long blanks = strtol(now.at, &behind, 10); blanks > 0; --blanks) put(' ');
-      now.at = behind + 1; /* behind x */
+      now.at = behind + 1; /* skips x */
     } else {
-      ++now.at; /* a bracket or a comma */
+      ++now.at; /* skips a bracket or a comma */
     }
   }
 }
@@ -111,7 +111,7 @@ integer do_fio(ftnint* count, char* value, ftnlen bytes) {
   const size_t width = (size_t)strtol(now.at + 1, &end, 10);
   const int digits = *end == '.' ? (int)strtol(end + 1, &end, 10) : 0;
   now.at = end;
-  (void)count; /* a single number each time */
+  (void)count; /* always 1 */
   if (kind == 'i') {
     char text[16];
     snprintf(text, sizeof text, "%d", *(const integer*)value);

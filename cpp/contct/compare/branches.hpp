@@ -116,9 +116,9 @@ template <class Real>
 /// The outcome of an IF in a call, and its margin.
 struct decision {
   branch what;
-  int pair;  ///< from 0; -1 for IF (SMIN.EQ.1.)
+  int pair;  ///< number of the pair, from 0; -1 for IF (SMIN.EQ.1.)
   bool outcome;
-  std::uint64_t ulps;  ///< margin_between the compared numbers; 0: exactly on the threshold
+  std::uint64_t ulps;  ///< the margin, see margin_between; 0: exactly on the threshold
 };
 
 /// Marks the margin of IF (ISEP(I).EQ.1), which compares integers.

@@ -180,7 +180,7 @@ struct replay_report {
   branch_counts branches;
   nearness near;
   std::optional<mismatch_report> first;
-  fault_finder faults;  ///< from the answers to this trace and to earlier ones
+  fault_finder faults;  ///< contains the answers to this trace and to earlier ones
 };
 
 /// True if the kernel has the precision and the rule of the trace.
@@ -194,7 +194,7 @@ struct replay_report {
 
 /// Repeats the remaining calls of `calls` with `k` and compares the answers to the bit. Text is compared if
 /// both have it, by meaning if either kernel is f2c. `progress` receives the number of finished calls.
-/// `before` knows the kernel's answers to earlier traces. Throws input_error if the trace is malformed.
+/// `before` contains the kernel's answers to earlier traces. Throws input_error if the trace is malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr,
                                    fault_finder before = {});

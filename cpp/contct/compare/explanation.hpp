@@ -15,7 +15,7 @@ namespace contct {
 /// A statement of fortran/contct.f that an explanation cites.
 struct listing_line {
   int number;                  ///< from 1
-  std::string_view statement;  ///< without label and indentation
+  std::string_view statement;  ///< the text without label and indentation
 };
 
 namespace listing {
@@ -92,17 +92,17 @@ inline constexpr std::array all = {arguments,
 /// Why a pair was toggled.
 enum class why_toggled {
   not_toggled,
-  winner,       ///< its s is SMIN
-  same_moment,  ///< up to rounding, it is at its face at SMIN, like the winner
-  too_early,    ///< its s is within EPSMUL of SMIN, but at SMIN it is not yet at its face
-  by_mark,      ///< it has no event, but its mark, s = 1, is within EPSMUL of SMIN
+  winner,       ///< the pair's s is SMIN
+  same_moment,  ///< at SMIN the pair is at its face, up to rounding, like the winner
+  too_early,    ///< s is within EPSMUL of SMIN, but at SMIN the pair is not yet at its face
+  by_mark,      ///< the pair has no event, but the mark s = 1 is within EPSMUL of SMIN
 };
 
 /// The outcome of one IF for one pair.
 struct taken_branch {
   bool reached = false;
   bool outcome = false;
-  std::uint64_t ulps = 0;  ///< as in `decision`
+  std::uint64_t ulps = 0;  ///< see decision::ulps
 };
 
 /// One pair in one call. Numbers of a 4-byte call are converted to double.
@@ -137,9 +137,9 @@ struct explained_call {
   double smin = 1.0;
   std::vector<explained_pair> pairs;
   int winner = -1;                    ///< pair from 0; -1: no event
-  int next = -1;                      ///< the candidate with the next smallest s; -1: none
+  int next = -1;                      ///< the candidate with the next smallest s; -1: no other candidate
   std::uint64_t ulps_ahead = 0;       ///< distance of the s of `winner` and of `next`
-  std::optional<decision> narrowest;  ///< of the whole call
+  std::optional<decision> narrowest;  ///< the decision of the call with the smallest margin
 };
 
 /// The largest distance from a face that rounding can explain, as a share of the largest deflection.

@@ -29,10 +29,10 @@ listing_line line_of(std::size_t suspect) {
 }
 
 constexpr std::int64_t most_calls = 1000;
-constexpr std::int64_t most_pairs = 500'000;  // of all used calls, which limits the time
-constexpr double number_bits = 64.0;          // for a number that follows no rule
-constexpr double always_bits = 30.0;          // for each exception from a fault that must always occur
-constexpr double unexplained_bits = 200.0;    // for a differing value that the line does not explain
+constexpr std::int64_t most_pairs = 500'000;  // a limit for the used calls together, to bound the time
+constexpr double number_bits = 64.0;          // cost of a number that follows no rule
+constexpr double always_bits = 30.0;          // cost of each exception from a fault that must always occur
+constexpr double unexplained_bits = 200.0;    // cost of each differing value that the line does not explain
 
 /// log2 of the number of ways to choose `k` of `n`.
 double choice_bits(std::int64_t n, std::int64_t k) {
@@ -171,7 +171,7 @@ std::size_t writer_of(const text_line& right, const text_line& got, int last_nod
   std::string other_form;
   right.split(expected, form);
   got.split(found, other_form);
-  constexpr double rounding = 6e-4;  // of four digits
+  constexpr double rounding = 6e-4;  // relative rounding of four digits
   const auto same = [](double a, double b) {
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
   };

@@ -20,7 +20,7 @@ struct compiled_listing {
   const char* kernel = "";  ///< name of the kernel
   const char* compiler = "";
   const char* flags = "";
-  bool text_by_meaning = false;  ///< its run-time library may write .25 for 0.25
+  bool text_by_meaning = false;  ///< the run-time library may write .25 for 0.25
   call_r8* call = nullptr;
   struct {
     log_open* open = nullptr;

@@ -70,8 +70,8 @@ class kernel {
   virtual std::string take_text() = 0;
 };
 
-/// The names of all built-in kernels: "fortran", "fortran-r4", "cpp", "cpp-r4" and "corrected"; "flang" and
-/// "f2c" where built.
+/// The names of all built-in kernels: "fortran", "fortran-r4", "cpp", "cpp-r4", "corrected", and "flang" and
+/// "f2c" if they are built.
 [[nodiscard]] std::vector<std::string> kernel_names();
 
 }  // namespace contct

@@ -16,20 +16,20 @@ struct foreign_number {
 };
 
 struct foreign_case {
-  std::string name;  ///< of the problem file, without its ending
+  std::string name;  ///< the problem file's name without its ending
   std::vector<foreign_number> numbers = {};
   std::vector<expected_number> not_given = {};
   std::size_t failed = 0;
   double largest_error = 0.0;
 };
 
-/// A file of format "contct-answers-1": reference/benchmarks.md.
+/// A judged file of the format "contct-answers-1", which reference/benchmarks.md describes.
 struct foreign_results {
   std::string program, version;
   double tolerance = 0.0;
   std::vector<foreign_case> cases = {};
-  std::vector<std::string> not_given = {};  ///< names of problems
-  std::size_t judged = 0, failed = 0;       ///< numbers
+  std::vector<std::string> not_given = {};  ///< names of problems without results
+  std::size_t judged = 0, failed = 0;       ///< counts of numbers
 };
 
 /// Reads and judges the file at `path`. Counts and states must be equal; other errors must be within the

@@ -28,7 +28,7 @@ using still_differs = std::function<bool(const call_sequence&)>;
 
 /// A mismatch with the calls that show it.
 struct found_case {
-  mismatch_report what;  ///< of the last call
+  mismatch_report what;  ///< the mismatch in the last call
   call_sequence calls;
   std::vector<call_outputs> leader;  ///< the leader's answers [calls]
 };
@@ -59,8 +59,8 @@ struct fuzz_request {
 /// The levels of equality, highest first.
 enum class equality_level {
   bits,         ///< every answer equal to the bit, text included
-  ulps,         ///< the same events, numbers within a few ULP
-  events,       ///< the same pairs toggled in every call
+  ulps,         ///< equal events in every call, numbers within a few ULP
+  events,       ///< equal events in every call
   certificate,  ///< different events, but the kernel's own paths are certified wherever the leader's are
   none,
 };
@@ -84,7 +84,7 @@ struct event_counts {
 struct fuzz_result {
   fuzz_request request;
   std::int64_t calls = 0, problems = 0;  ///< `calls` counts single calls and those of all paths
-  event_counts events;                   ///< of the leader
+  event_counts events;                   ///< the leader's events
   branch_counts branches;
   std::vector<fuzz_follower> followers;
   double seconds = 0.0;

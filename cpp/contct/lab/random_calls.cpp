@@ -150,7 +150,7 @@ class drawn_call {
       }
       case 5:  // SMIN.EQ.1.
         return place_gap(dof, i, nudged(response));
-      case 6:  // away
+      case 6:  // a pair that moves away from its face
         return place_gap(dof, i, -s_ * response);
       default:
         response = from_the_edges();

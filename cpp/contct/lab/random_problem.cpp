@@ -36,7 +36,7 @@ class drawing {
   [[nodiscard]] int node_count() const { return nodes(problem_.geometry); }
   [[nodiscard]] bool is_plate() const { return std::holds_alternative<plate>(problem_.geometry.kind); }
 
-  /// The node at the mirror image about the middle in x.
+  /// The mirror image of a node about the middle in x.
   [[nodiscard]] int mirror_of(int node) const {
     if (const auto* p = std::get_if<plate>(&problem_.geometry.kind))
       return p->node_at(p->columns() - 1 - node % p->columns(), node / p->columns());

@@ -19,11 +19,11 @@ inline constexpr int face_layouts = 8;
 /// The range of random problems: beams and plates with pairs at one to all nodes, springs over eight decades,
 /// and one to five load steps with unloading and reversal.
 struct random_problem_kind {
-  double least_unit = 1e-12;  ///< the unit of length, log-uniform between these two
+  double least_unit = 1e-12;  ///< bounds of the unit of length, which is log-uniform
   double most_unit = 1e12;
   double free_share = 0.2;  ///< share of structures held by pairs alone
   double plate_share = 0.25;
-  int most_elements = 24;  ///< of a beam
+  int most_elements = 24;  ///< elements of a beam
   int most_lines = 6;      ///< elements along a side of a plate
 };
 
@@ -47,7 +47,7 @@ enum class verdict {
 
 struct problem_result {
   verdict came_to = verdict::no_end;
-  std::vector<certificate> certificates = {};  ///< of the steps that reached their load
+  std::vector<certificate> certificates = {};  ///< one for each step that reached its load
 };
 
 /// Follows the path of `p` with the kernel `leader`. The reference solution is the fallback if the kernel's

@@ -16,8 +16,8 @@
 
 namespace contct {
 
-/// One number of reference/verification.toml, whose head explains the fields. Nodes, elements and
-/// pairs count from 1, as in the file; 0 if the quantity does not need them.
+/// One number of reference/verification.toml; the beginning of this file explains the fields. Nodes, elements
+/// and pairs count from 1; they are 0 if the quantity does not need them.
 struct expected_number {
   int step = 0;
   std::string quantity;
@@ -25,7 +25,7 @@ struct expected_number {
   int place = 0;  ///< end (1: left) or corner of the element
   std::string dof, change, along;
   double from = 0.0;
-  double value = 0.0;  ///< of a state: -1 in contact, +1 separated
+  double value = 0.0;  ///< the expected value; for a state -1 in contact, +1 separated
   std::string kind, because, source;
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
   std::optional<double> faithful;  ///< the value under the 1989 rule, if it differs
@@ -47,11 +47,11 @@ enum class kind_of_number { deflection, slope, force, moment, other };
 
 /// One problem file and its numbers.
 struct verification_case {
-  std::string file;  ///< as written, relative to reference/problems
+  std::string file;  ///< name relative to reference/problems
   std::vector<expected_number> checks;
 };
 
-/// Read the table. Throws input_error.
+/// Reads the table. Throws input_error.
 [[nodiscard]] std::vector<verification_case> read_verification(const std::string& path);
 
 /// Describes a number: "w, node 3"; "pair 2 makes", for the share of the step at which pair 2 makes; "moment,
@@ -74,7 +74,7 @@ class measurement {
  private:
   const problem& problem_;
   const run_recorder& path_;
-  std::vector<step_results> read_;  // at the ends of the steps
+  std::vector<step_results> read_;  // results at the ends of the steps
 };
 
 /// True if `measured` differs from `value` by at most `tolerance`: relative, or absolute if `value` is 0.
@@ -87,8 +87,8 @@ class measurement {
 
 struct verified_number {
   expected_number expected;
-  double computed = 0.0;      ///< by FORTRAN, leading C++
-  double corrected = 0.0;     ///< by the corrected kernel
+  double computed = 0.0;      ///< FORTRAN's value, with C++ in lockstep
+  double corrected = 0.0;     ///< the corrected kernel's value
   bool certified = false;     ///< the final state of its step on FORTRAN's path is certified
   bool passed = false;        ///< see verify_case
   std::string apart;          ///< see exact_disagreement
@@ -104,9 +104,9 @@ struct verified_number {
 struct verified_case {
   std::string file, title;
   std::vector<verified_number> numbers;
-  std::vector<std::optional<certificate>> certificates;  ///< of the steps, on FORTRAN's path
-  std::int64_t calls = 0, mismatches = 0;                ///< of the lockstep
-  std::string failure;                                   ///< of the whole case; empty if it passed
+  std::vector<std::optional<certificate>> certificates;  ///< certificates of the steps on FORTRAN's path
+  std::int64_t calls = 0, mismatches = 0;                ///< calls in lockstep, and differing values
+  std::string failure;                                   ///< a failure of the whole case, or empty
 };
 
 /// Runs a problem twice: with FORTRAN leading C++ in lockstep, and with the corrected kernel. The corrected

@@ -28,15 +28,15 @@ class path_record final : public observer {
   }
 
   std::vector<timed_event> events;
-  std::vector<std::vector<double>> displacement;  ///< at the end of each step [steps][dofs]
+  std::vector<std::vector<double>> displacement;  ///< D at the end of each step [steps][dofs]
   path_end end;                                   ///< set by the caller
 };
 
 /// The difference of a kernel's own path from the leader's. s is not compared: as a small difference of
 /// nearby event loads, it loses digits even if the shares do not.
 struct free_run_difference {
-  bool same_end = true;          ///< both ended in the same way, in the same step
-  bool same_events = true;       ///< the same pairs made and broke in the same order
+  bool same_end = true;          ///< equal status and step at the ends of the paths
+  bool same_events = true;       ///< equal makes and breaks in equal order
   std::string first_difference;  ///< words for the first difference of ends or events; empty if they agree
   double fraction = 0.0;         ///< largest difference of the share of the step at an event
   double displacement = 0.0;     ///< largest difference of D, relative to the path's largest

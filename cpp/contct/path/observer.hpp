@@ -14,7 +14,7 @@ struct increment {
   int number;                      ///< within the step, from 1
   double s;                        ///< s_min
   double fraction;                 ///< share of the step's load applied so far
-  std::span<const event> events;   ///< in order of pairs
+  std::span<const event> events;   ///< sorted by pair
   bool snaps = false;              ///< this is a rigid-body motion to the next face, at constant load
   std::span<const double> d = {};  ///< D at each pair after the increment [pairs]
   std::span<const int> isep = {};  ///< ISEP after the events [pairs]
@@ -35,10 +35,10 @@ struct step_state {
   double fraction;                       ///< share of the step's load applied
   std::span<const double> displacement;  ///< D at every dof [dofs]
   std::span<const int> isep;             ///< status of each pair [pairs]
-  double rcond;                          ///< of the equilibrated stiffness; 0 if it has no factor
-  bool from_fallback = false;            ///< replaces the path's own state, which is missing or not proved
-  bool from_reference = false;           ///< from the reference solution
-  bool from_exact_path = false;          ///< from the exact path
+  double rcond;                  ///< reciprocal condition of the equilibrated stiffness; 0 without a factor
+  bool from_fallback = false;    ///< replaces the path's own state, which is missing or not proved
+  bool from_reference = false;   ///< from the reference solution
+  bool from_exact_path = false;  ///< from the exact path
   const end_numbers* numbers = nullptr;  ///< may be null
 };
 
@@ -46,7 +46,7 @@ struct step_state {
 class observer {
  public:
   virtual ~observer() = default;
-  virtual void called(const answered_call& /*c*/) {}  // by the leading kernel
+  virtual void called(const answered_call& /*c*/) {}  // after a call of the leading kernel
   virtual void incremented(const increment& /*i*/) {}
   virtual void step_ended(const step_state& /*s*/) {}
 };

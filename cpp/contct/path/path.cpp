@@ -42,13 +42,13 @@ class path {
     for (int number = 1; number <= increments_allowed_; ++number) {
       const response w_star = policy_->respond();  // K w* = R*, with the springs of the pairs now in contact
       if (w_star == response::none) return set_free();
-      const std::optional<double> s_min = policy_->decide();  // the kernel gives it and toggles statuses
+      const std::optional<double> s_min = policy_->decide();  // the kernel returns s_min and toggles statuses
       if (!s_min) return set_free();
       const bool moved = now_.advance(*s_min);                               // D <- D + s_min d*
       if (w_star == response::elastic) now_.residual.share *= 1.0 - *s_min;  // R* <- (1 - s_min) R*
       now_.tell_increment(number, *s_min, w_star == response::rigid);
       if (!policy_->goes_on()) return ended(path_status::mechanism, now_.opened());
-      now_.switch_springs();  // of the pairs that the kernel toggled
+      now_.switch_springs();  // those of the pairs that the kernel toggled
       if (*s_min == 1.0) return ended(path_status::solved);
       if (now_.cycles.repeats(moved, now_.status, now_.events))
         return ended(path_status::cycle, now_.cycles.restless_pairs());

@@ -17,17 +17,17 @@ namespace contct {
 
 enum class path_status {
   solved,           ///< every step's load is applied
-  mechanism,        ///< nothing holds the structure any more, and its load has certainly no equilibrium
-  cycle,            ///< the same pairs toggle for ever without progress
+  mechanism,        ///< nothing holds the structure, and its load certainly has no equilibrium
+  cycle,            ///< toggles repeat for ever without progress
   iteration_limit,  ///< a step took more increments than allowed
   not_factored,     ///< the structure is held, but ill-conditioned or out of range in double precision
-  path_ended,       ///< nothing holds the structure any more, but its load may have an equilibrium
+  path_ended,       ///< nothing holds the structure, but its load may have an equilibrium
 };
 
 struct path_end {
   path_status status = path_status::solved;
   int step = 0;                 ///< the step in which the path ended, from 1
-  double fraction = 1.0;        ///< share of that step's load reached
+  double fraction = 1.0;        ///< share of this step's load that was reached
   std::vector<int> pairs = {};  ///< from 0; mechanism, path_ended: pairs whose separation was the cause;
                                 ///< cycle, iteration_limit: pairs whose events repeat
   engine_counts work = {};
@@ -97,7 +97,7 @@ class load_history {
 struct full_load_state {
   std::vector<double> displacement;         ///< [dofs]
   std::vector<int> isep;                    ///< [pairs]
-  std::optional<end_numbers> numbers = {};  ///< only of a refined state
+  std::optional<end_numbers> numbers = {};  ///< present if the state was refined
   bool from_reference = false, from_exact_path = false;
 };
 

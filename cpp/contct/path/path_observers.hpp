@@ -28,7 +28,7 @@ class lockstep_on_path final : public observer, public lockstep {
 /// A pair that was toggled away from its face.
 struct early_toggle {
   int step;         ///< from 1
-  int number;       ///< of the increment, from 1
+  int number;       ///< number of the increment, from 1
   event what;       ///< pair from 0
   double distance;  ///< from the face at the toggle
   double share;     ///< `distance` as a share of the largest deflection at any pair so far
@@ -104,7 +104,7 @@ class explained_path final : public observer {
 
  private:
   int real_bytes_;
-  lockstep compared_;  // with the second kernel, if there is one
+  lockstep compared_;  // compares the second kernel with the leader
   increments_wanted wanted_;
   sink to_;
   std::int64_t explained_ = 0;

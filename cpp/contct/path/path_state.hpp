@@ -188,7 +188,7 @@ struct path_state {
     call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
-        const bool has_own_row = structure.pairs[i].other >= 0;  // in a matrix, with one dof per node
+        const bool has_own_row = structure.pairs[i].other >= 0;  // only in a matrix, where a node is a dof
         const std::size_t row = has_own_row ? id[i] - std::size_t{1} : at_dof[i];
         dd_[row] = d[i];
         dtest_[row] = d_test[i];
@@ -310,8 +310,7 @@ struct path_state {
 
  private:
   const load_history* loads_ = nullptr;
-  std::vector<double> moved_before_,
-      moved_;  // of faces at the step's start and end; empty if none move [dofs]
+  std::vector<double> moved_before_, moved_;  // movements of faces at the start and end of the step [dofs]
   std::span<observer* const> observers_;
   std::int64_t calls_ = 0;
   bool as_listed_;

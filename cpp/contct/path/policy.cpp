@@ -198,7 +198,7 @@ class corrected_policy final : public path_policy {
   [[nodiscard]] std::span<const double> d_test() {
     if (kept_in_contact_.empty()) return now_.d_star;
     d_test_ = now_.d_star;
-    for (const int pair : kept_in_contact_)  // and for other pairs at the same dofs
+    for (const int pair : kept_in_contact_)  // other pairs at the same dofs get 0 too
       for (std::size_t i = 0; i < d_test_.size(); ++i)
         if (now_.at_dof[i] == now_.at_dof[pair] &&
             now_.structure.pairs[i].other == now_.structure.pairs[pair].other)

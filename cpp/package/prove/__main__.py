@@ -41,7 +41,7 @@ class Kernel(NamedTuple):
     """A function that answers calls of CONTCT."""
 
     symbol: str
-    width: int  # of REAL, in bits
+    width: int  # bits of REAL
     interface: Callable[[Machine], interfaces.Interface]
     words: str
 

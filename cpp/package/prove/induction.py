@@ -129,7 +129,7 @@ class Proof:
             return False  # this path began with removed assumptions
         self.machine.begin(a.at, a.facts)
         to = self._advance(a).to
-        when = lambda term: z3.simplify(z3.substitute(term, *zip(self.spec.here[1:], to[1:])))  # at that position
+        when = lambda term: z3.simplify(z3.substitute(term, *zip(self.spec.here[1:], to[1:])))  # the term at position `to`
         kept = [fact for fact in head.facts if self.machine.holds(a.s, when(fact))]
         refuted = [options for slot, options in head.guesses.items() if options and not self._holds(a, slot, when(options[0]))]
         changed = len(kept) < len(head.facts) or bool(refuted)

@@ -8,7 +8,7 @@ from .reals import INFINITY
 from .specification import CONSTANTS
 
 MOST_PAIRS = 3_000_000  # largest number of pairs in a call
-WIDTH = 64  # of REAL in plugin.h
+WIDTH = 64  # bits of REAL in plugin.h
 ONE, HALF = 1023 << 52, 1022 << 52  # the bits of 1 and 0.5
 
 

@@ -101,7 +101,7 @@ class Specification:
     def of_call(self) -> list[z3.BoolRef]:
         """The preconditions for a call."""
         stated = [] if self.left_out == "pairs" else [self.nc >= 0, self.nc < 0x7FFFFFFF]
-        return stated + [z3.ULT(self.dofs, 1 << 31)]  # no more than an INTEGER can number
+        return stated + [z3.ULT(self.dofs, 1 << 31)]  # an INTEGER can number no more dofs
 
     def of_pair(self, i: z3.BitVecRef) -> list[z3.BoolRef]:
         """The preconditions for pair `i`, if the pair exists."""
