@@ -63,8 +63,7 @@ std::string load_words(const load& l) {
   return words.empty() ? "no load" : joined(words, ", ");
 }
 
-/// The first and the last of rising coordinates, and those at which the spacing changes: "node 1 at 0, node 5
-/// at 2".
+/// The ends of rising coordinates, and the places where their spacing changes: "node 1 at 0, node 5 at 2".
 std::string coordinate_words(std::span<const double> x, std::string_view what) {
   const double rounding = 1e-9 * (x.back() - x.front());
   std::vector<std::string> words;

@@ -118,12 +118,10 @@ using command_options =
 [[nodiscard]] command_options parse_contct(int argc, const char* const* argv,
                                            const std::vector<std::string>& engines);
 
-/// Parses the command line of `contct-replay` into printed_text or replay_options. Throws as parse_contct
-/// does.
+/// Parses the command line of `contct-replay` into printed_text or replay_options. Throws likewise.
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
 
-// Each function runs one command and returns its exit status. All throw a std::exception whose what() is a
-// message for the user.
+// Each function runs a command and returns its exit status. Exceptions have a message for the user in what().
 exit_status run_command(const run_options& options);
 exit_status run_command(const check_options& options);
 exit_status run_command(const explain_options& options);

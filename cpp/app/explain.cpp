@@ -1,5 +1,4 @@
-// contct explain: the branches that the listing takes in each increment of a run, for each pair, with
-// reasons.
+// contct explain: explains, for each pair, the branches of the listing in each increment of a run.
 #include "contct/write/explain.hpp"
 
 #include <algorithm>

@@ -14,8 +14,7 @@
 namespace contct {
 namespace {
 
-/// An XML attribute after a blank. A line end becomes a character reference, because XML would read it as a
-/// blank.
+/// An XML attribute after a blank. Line ends become character references, since XML reads them as blanks.
 std::string attribute(std::string_view name, std::string_view value) {
   constexpr escape line_end[] = {{'\n', "&#10;"}};
   return fmt::format(" {}=\"{}\"", name, escaped(markup_text(value), line_end));

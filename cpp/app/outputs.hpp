@@ -19,8 +19,7 @@
 
 namespace contct {
 
-/// Opens closed standard streams. Otherwise an output file could get their descriptor and receive printed
-/// text.
+/// Opens closed standard streams, whose descriptors output files would get otherwise.
 void hold_standard_streams();
 
 /// The new handler of both programs. Ends the process with a message and exit status 2, without destructors,
@@ -78,9 +77,8 @@ struct check_report {
 /// The facts in every report: the program's version, the listing's checksum, and the floating-point probe.
 [[nodiscard]] std::vector<std::string> common_facts();
 
-/// The time now, as "2026-11-22 13:16 UTC". SOURCE_DATE_EPOCH in the environment, in seconds since 1970,
-/// replaces it, so that the same input gives the same file. Throws std::invalid_argument if this variable is
-/// invalid.
+/// The time now, as "2026-11-22 13:16 UTC", or that of SOURCE_DATE_EPOCH in the environment, in seconds since
+/// 1970, which makes files reproducible. Throws std::invalid_argument if this variable is invalid.
 [[nodiscard]] std::string utc_now();
 
 /// An output file; the path is empty if the file is not requested.

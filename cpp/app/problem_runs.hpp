@@ -23,8 +23,7 @@ void refuse_engine_option(const std::string& name);
 [[nodiscard]] problem read_with_warnings(const problem_options& options,
                                          const std::vector<output_option>& outputs);
 
-/// Observes a path and shows its current step and increment. Before other text is printed, `line` must be
-/// erased.
+/// Observes a path and shows its step and increment. Erase `line` before other text is printed.
 class path_progress final : public observer {
  public:
   path_progress(std::size_t steps, bool quiet);

@@ -143,8 +143,7 @@ run_request request_of(const run_setup& setup) {
   return r;
 }
 
-/// A run at the terminal. Files are opened before solving, so that a file that cannot be written is reported
-/// at once.
+/// A run at the terminal. Opens files before solving, so that errors of files are reported at once.
 struct shown_run {
   const run_setup& setup;
   contct::run run{setup.what, setup.structure, request_of(setup)};
@@ -190,8 +189,7 @@ void go(shown_run& o) {
   if (!rows.legend.empty()) print_verdict(o, paint::quiet, rows.legend);
 }
 
-/// Prints the result of the comparison. Without strict floating point, a mismatch is attributed to the
-/// environment.
+/// Prints the result of the comparison. A mismatch without strict floating point is the environment's fault.
 void report_lockstep(shown_run& o) {
   const lockstep& compared = *o.run.result.compared_calls();
   const std::string names = joined(o.run.result.beside ? kernels_of_1989 : o.run.wanted.kernels, " and ");

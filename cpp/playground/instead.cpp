@@ -29,8 +29,7 @@ void xerbla_(const char* /*name*/, const int* /*argument*/, int /*length*/) {
   __builtin_trap();
 }
 
-/// Only the rigid-body motions of a matrix need eigenvalues, and a problem in a page cannot name a matrix
-/// file.
+/// Only the rigid-body motions of a matrix need eigenvalues, but a page has no matrix files.
 void dsyev_(const char* /*jobz*/, const char* /*uplo*/, const int* /*n*/, double* /*a*/, const int* /*lda*/,
             double* /*w*/, double* /*work*/, const int* /*lwork*/, int* /*info*/, std::size_t /*jobz_length*/,
             std::size_t /*uplo_length*/) {

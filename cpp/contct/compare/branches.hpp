@@ -48,8 +48,7 @@ inline constexpr std::array<std::string_view, 8> branch_conditions = {
 /// function follows the listing's text and shares no code with a kernel.
 template <class Real, class Visit>
 void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
-  // The listing's DATA in the precision of the call. The constants of kernel/contct.hpp are not used, so that
-  // an error there is found here.
+  // The listing's DATA. The constants of kernel/contct.hpp are not used, so that an error in them is found.
   const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
   const Real epsmul = Real(1) / Real(256);
   const Real zero = 0;
@@ -106,8 +105,7 @@ class branch_counts {
   std::array<std::int64_t, 16> counts_{};  // [2 * branch + outcome]
 };
 
-/// The distance in ULP of two numbers that an IF compares: 0 from -0.0 to +0.0, and the largest std::uint64_t
-/// if one number is NaN.
+/// The distance in ULP of two compared numbers: 0 from -0.0 to +0.0; the largest std::uint64_t for NaN.
 template <class Real>
 [[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
@@ -124,8 +122,7 @@ struct decision {
 /// Marks the margin of IF (ISEP(I).EQ.1), which compares integers.
 inline constexpr std::uint64_t whole_numbers = std::numeric_limits<std::uint64_t>::max() - 1;
 
-/// Replaces `least` by this decision if its margin is smaller. Ignores IF (ISEP(I).EQ.1), which has no
-/// margin.
+/// Replaces `least` by a decision with a smaller margin. Ignores IF (ISEP(I).EQ.1), which has no margin.
 inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t pair, bool outcome,
                           std::uint64_t ulps) {
   if (b == branch::was_separated || (least && least->ulps <= ulps)) return;

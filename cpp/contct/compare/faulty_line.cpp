@@ -58,8 +58,8 @@ void explain_if(suspect& s, double left) {
   explain_one(s, 0.0);
 }
 
-/// The rule that wrong numbers may follow: they repeat their value or their ratio to the correct number, or
-/// only the ratio.
+/// The rule of wrong numbers: they repeat their value or their ratio to the correct number, or only the
+/// ratio.
 enum class rule { any, ratio };
 
 /// The number of bits that describe a wrong number; few if the number follows a rule.
@@ -113,8 +113,7 @@ pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std:
   return p;
 }
 
-/// The change of each pair that a kernel's text reports; nothing for a pair beyond 999, which I3 cannot
-/// print.
+/// The change of each pair that a kernel's text reports. I3 cannot print pairs beyond 999.
 std::vector<std::optional<change>> told_by(const std::string& text, std::size_t pairs) {
   std::vector<std::optional<change>> told(pairs);
   change what = change::make;
@@ -158,8 +157,7 @@ struct text_line {
   std::string words;
 };
 
-/// The suspect that explains the line `got` in place of `right`: a FORMAT if only the form of numbers
-/// differs.
+/// The suspect that explains a line of text: a FORMAT if only the form of numbers differs.
 std::size_t writer_of(const text_line& right, const text_line& got, int last_node) {
   const int format = right.format();
   if (format == 40 || format == 50)
@@ -490,8 +488,7 @@ std::optional<faulty_line> fault_finder::found() const {
     const suspect& s = suspects_[name];
     if (s.explained == 0) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
-    // DIFF determines where IF (DIFF.LT.EPSMUL) is wrong, and ISEP where IF (ISEP(I).EQ.1) is: no list is
-    // needed.
+    // DIFF and ISEP determine where these two IFs are wrong, so that no executions need be listed.
     if (name == at(l::if_within))
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (name != at(l::if_separated))

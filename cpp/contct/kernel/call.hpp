@@ -95,8 +95,7 @@ struct call_outputs {
   std::vector<int> isep;   ///< [pairs]
   std::string text;        ///< unit-26 text; empty if the kernel has none
 
-  /// Returns a call with the inputs `in` and these outputs. SMIN and SS are not_an_answer, and ISEP is
-  /// in.isep.
+  /// A call with the inputs `in` and these outputs: SMIN and SS are not_an_answer, ISEP is in.isep.
   call<double> prepare(const call_inputs<double>& in) {
     ss.assign(in.pairs(), not_an_answer);
     isep = in.isep;

@@ -30,8 +30,7 @@ struct outside_limits {
 
 using kernel_procedure = decltype(contct_kernel);
 
-/// Throws std::invalid_argument if a function kernel may not have this name, for example because a kernel of
-/// this name exists.
+/// Throws std::invalid_argument if a function kernel may not have this name, such as that of another kernel.
 void refuse_name_of_function(const std::string& name);
 
 /// Calls `procedure` with copies of all arrays between guard bytes. If it changed an input or a guard byte,

@@ -5,9 +5,8 @@
 
 #include "contct/kernel/contct.hpp"
 
-// On x86 a call uses the widest vectors of the processor. Each lane is a separate IEEE operation, so the
-// results are the same to the bit for all widths. Sanitizers are not ready when the loader chooses the
-// function.
+// On x86 a call uses the widest vectors of the processor. Lanes are separate IEEE operations, so all widths
+// give equal bits. Sanitizers are not ready when the loader chooses the function.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define CONTCT_WIDEST_VECTORS [[gnu::target_clones("avx512f", "avx2", "default")]]

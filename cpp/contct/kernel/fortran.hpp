@@ -32,8 +32,7 @@ struct compiled_listing {
 extern compiled_listing gfortran;
 extern compiled_listing flang, f2c;  // defined if CMake found these compilers
 
-/// The lock for all use of COMMON /DOF/ and unit 26. Other code that is compiled from the listing must hold
-/// it too.
+/// The lock for COMMON /DOF/ and unit 26. Other code that is compiled from the listing must hold it too.
 [[nodiscard]] std::mutex& process_wide();
 
 /// One call of the listing: built as printed for float, with 8-byte REAL for double. A lock serialises calls,
@@ -45,9 +44,8 @@ void contct(call<double>& c, const compiled_listing& by = gfortran);
 /// In a child process: connects gfortran's unit 26 to the null device, instead of the parent's file.
 void forget_unit_26();
 
-/// Collects the listing's text on unit 26 in a file, as long as this object lives. A second object for the
-/// same run-time library throws std::logic_error. The file is unlinked at once, so that it vanishes with the
-/// process.
+/// Collects the listing's text on unit 26 in a file. A second object for the same run-time library throws
+/// std::logic_error. The file is unlinked at once, so that it vanishes with the process.
 class unit_26 {
  public:
   explicit unit_26(compiled_listing& of = gfortran);

@@ -1,5 +1,4 @@
-// A kernel answers calls of CONTCT. The built-in kernels are the compiled listing, C++ CONTCT, and the
-// corrected rule.
+// A kernel answers calls of CONTCT. The listing, C++ CONTCT and the corrected rule are built-in kernels.
 #pragma once
 
 #include <array>
@@ -42,8 +41,7 @@ struct kernel_facts {
   bool text_by_meaning = false;  ///< the text may have .25 for 0.25, which counts as equal
 };
 
-/// The facts of an external kernel: the 1989 rule, 8-byte REAL, and no text. `what` is its description in
-/// messages.
+/// The facts of an external kernel: the 1989 rule, 8-byte REAL, no text. `what` describes it in messages.
 [[nodiscard]] inline kernel_facts facts_of_outside(std::string name, std::string what) {
   return {std::move(name), 8, contact_rule::listing, std::move(what), "", "", false};
 }
@@ -55,9 +53,8 @@ class kernel_failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A kernel is a pure function of one call: its answer does not depend on earlier calls. Arguments are
-/// doubles. A single-precision kernel rounds dd, dtest and cc to float, and converts ss and smin exactly to
-/// double.
+/// A pure function of one call: its answer does not depend on earlier calls. Arguments are doubles. A 4-byte
+/// kernel rounds dd, dtest and cc to float, and converts ss and smin exactly to double.
 class kernel {
  public:
   virtual ~kernel() = default;

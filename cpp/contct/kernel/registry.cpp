@@ -71,8 +71,7 @@ class cpp_kernel final : public built_in {
   std::vector<event> events_;
 };
 
-/// The 1989 code as one compiler builds it. Uses unit 26 of this compiler's library as long as this object
-/// lives.
+/// The 1989 code as one compiler builds it. Each object occupies unit 26 of the compiler's library.
 class fortran_kernel final : public built_in {
  public:
   fortran_kernel(const kernel_facts& facts, fortran::compiled_listing& by)

@@ -37,8 +37,8 @@ struct recorded_call {
   call_inputs<double> in;
   call_outputs out;
 
-  /// The call for comparisons. Without text in the trace, its kernel has none: every call of a kernel with
-  /// text writes some.
+  /// The call for comparisons. An empty text means that the kernel has none: kernels with text always write
+  /// some.
   [[nodiscard]] answered_call answered() {
     return {{in.dd, in.dtest, in.cc, out.ss, out.smin, in.id, out.isep, in.isurf, in.dof},
             in.isep,

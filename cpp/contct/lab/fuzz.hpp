@@ -14,16 +14,14 @@
 
 namespace contct {
 
-/// Calls in order; the answers to the last call differ. A kernel that keeps data between calls may need
-/// several.
+/// Calls whose last answers differ. Several are needed if the kernel keeps data between calls.
 using call_sequence = std::vector<call_inputs<double>>;
 
 /// True if new kernels answer the whole sequence and still differ in the last call in the same way.
 using still_differs = std::function<bool(const call_sequence&)>;
 
-/// Shrinks `calls` as long as they differ: first to fewer calls, then to fewer pairs, to nodes from 1 with
-/// one dof each, and to rounder numbers. The result differs if `calls` do. Tests at most `most_tries`
-/// sequences.
+/// Shrinks `calls` as long as they differ: to fewer calls, fewer pairs, nodes from 1 with one dof each, and
+/// rounder numbers. The result differs if `calls` do. Tests at most `most_tries` sequences.
 [[nodiscard]] call_sequence shrink(call_sequence calls, const still_differs& differs, int most_tries = 4000);
 
 /// A mismatch with the calls that show it.
@@ -37,8 +35,7 @@ struct found_case {
 using fresh_kernel = std::function<std::unique_ptr<kernel>()>;
 
 /// Puts `calls` to the leader and to a fresh follower. Returns the mismatch in the last call if it is in
-/// `field`
-/// ("": any field).
+/// `field`, or in any field if `field` is "".
 [[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make,
                                                   const call_sequence& calls, const std::string& field);
 

@@ -115,8 +115,8 @@ class drawing {
                        [node](const support& s) { return s.fixed && s.node == node && s.dof == 0; });
   }
 
-  /// Draws one to five steps: each has a new load, no load, the reversed last load, or the last load times a
-  /// factor.
+  /// Draws one to five steps, with a new load, no load, the reversed last load, or a multiple of the last
+  /// load.
   void draw_steps() {
     const int steps = random_.whole(1, 5);
     for (int step = 0; step < steps; ++step) {

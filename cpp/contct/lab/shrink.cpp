@@ -18,8 +18,7 @@ double rounded(double x, int digits) {
   return std::strtod(text, nullptr);
 }
 
-/// Numbers rounder than `x`, the roundest first. Shrinking ends because each number is rounder than the next
-/// one and than `x`.
+/// Numbers rounder than `x`, the roundest first. Shrinking ends because all of them are rounder than `x`.
 std::vector<double> rounder_than(double x) {
   std::vector<double> all;
   const auto is_rounder = [&all, x](double y) {  // also adds `y` unless `all` contains it
@@ -86,8 +85,7 @@ class shrinker {
     return accept(std::move(candidate));
   }
 
-  /// Tries the last call alone, then the last 2, 4, ... calls. Then tries to remove each call before the
-  /// last.
+  /// Tries the last call alone, then the last 2, 4, ... calls; then removes each earlier call, if possible.
   void fewer_calls() {
     const int all = static_cast<int>(calls_.size());
     for (int kept = 1; kept < all; kept *= 2) {
@@ -127,8 +125,7 @@ class shrinker {
     }
   }
 
-  /// Tries D = 0, d* = 1 and the c with the same scale factor. Changing one of these alone would change the
-  /// factor.
+  /// Tries D = 0, d* = 1 and c = s. One of these changes alone would change the scale factor s.
   void plainer_pair(std::size_t c, std::size_t i) {
     const call_inputs<double>& in = calls_[c];
     const std::size_t dof = in.dof_of_pair(i);

@@ -45,8 +45,7 @@ explained_path::explained_path(const kernel_facts& leader, std::span<const std::
 void explained_path::called(const answered_call& c) {
   if (number_++ == 0) ++steps_;
   compared_.put(c);
-  // Unrequested calls are explained too, because they update the largest deflection, to which rounding is
-  // relative.
+  // Unrequested calls are explained too: they update the largest deflection, to which rounding is relative.
   call_ = explain(c, real_bytes_, largest_);
 }
 

@@ -1,5 +1,4 @@
-// Observers of a path: lockstep with other kernels, early toggles, the trace, and the explanation of
-// increments.
+// Observers of a path: lockstep with other kernels, early toggles, the trace, and explanations.
 #pragma once
 
 #include <functional>

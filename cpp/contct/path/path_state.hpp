@@ -241,14 +241,12 @@ struct path_state {
     return moved_[dof] - share_left * (moved_[dof] - before);
   }
 
-  /// Converts displacements relative to the faces, `v` [dofs], to absolute ones under the load applied so
-  /// far.
+  /// Makes displacements `v` [dofs], which are relative to the faces, absolute under the load applied so far.
   void to_displacement(std::span<double> v) const {
     for (std::size_t dof = 0; dof < v.size(); ++dof) v[dof] += moved(dof, residual.share);
   }
 
-  /// Sets D and ISEP to the state at the end of the step: displacements `u` [dofs] and statuses `isep`
-  /// [pairs].
+  /// Sets D and ISEP to those at the end of the step: displacements `u` [dofs], statuses `isep` [pairs].
   void put_at(std::span<const double> u, std::span<const int> isep) {
     for (std::size_t i = 0; i < pairs(); ++i) d[i] = structure.seen_by_pair(i, u) - moved(at_dof[i], 0.0);
     status.assign(isep.begin(), isep.end());
@@ -289,8 +287,7 @@ struct path_state {
     return forces;
   }
 
-  /// Moves the structure by `s_min` times a rigid-body motion, and puts pairs that made contact at their
-  /// faces.
+  /// Moves the structure by `s_min` times a rigid-body motion, and puts new pairs in contact at their faces.
   void move_shape(double s_min, std::span<const double> motion) {
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
     for (const event& e : events)

@@ -88,13 +88,11 @@ class holding_springs {
   stiffness_engine& engine_;
 };
 
-/// The policy of the corrected rule, for decisions that need more than one call
-/// (reference/corrected-rule.md).
+/// The policy of the corrected rule (reference/corrected-rule.md), for decisions that need several calls.
 ///
 /// A rigid-body motion that the load drives continues to the next face at constant load. Springs without
 /// force stop the other rigid-body motions. A pair that toggles twice in succession without progress stays in
-/// contact until the load advances. After many answers without progress, the pair with the least index
-/// toggles.
+/// contact until the load advances. After many answers without progress, the pair of least index toggles.
 class corrected_policy final : public path_policy {
  public:
   using path_policy::path_policy;

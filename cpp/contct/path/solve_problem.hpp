@@ -65,8 +65,7 @@ inline path_end follow(const problem& p, const linear_structure& s, std::string_
 }
 
 /// The force or moment on the structure by each support of `p` [supports], for displacements `u` [dofs], load
-/// `l` and statuses `isep` [pairs]. The force of a pair on a fixed deflection is not part of the support's
-/// reaction.
+/// `l` and statuses `isep` [pairs]. The force of a pair on a fixed deflection is not part of a reaction.
 [[nodiscard]] inline std::vector<double> reactions(const problem& p, const load& l, std::span<const double> u,
                                                    std::span<const int> isep) {
   std::vector<double> all = reactions(p.geometry, l, p.supports, u);
