@@ -58,8 +58,7 @@ void explain_if(suspect& s, double left) {
   explain_one(s, 0.0);
 }
 
-/// The rule of wrong numbers: they repeat their value or their ratio to the correct number, or only the
-/// ratio.
+/// The rule of wrong numbers: they repeat their value or their ratio to the right number, or only the ratio.
 enum class rule { any, ratio };
 
 /// The number of bits that describe a wrong number; few if the number follows a rule.
@@ -471,7 +470,7 @@ std::optional<faulty_line> fault_finder::found() const {
   constexpr std::string_view compared[] = {"DTEST", "ABS(GAP)", "SSCHK", "DIFF"};
   const std::size_t ifs[] = {at(l::if_no_response), at(l::if_stationary), at(l::if_check_positive),
                              at(l::if_within)};
-  // Faults that go wrong in every execution.
+  // A line with one of these faults is wrong in every execution.
   const std::size_t always[] = {at(l::arguments),          at(l::common),
                                 at(l::gap, wrong_sign),    at(l::do_10),
                                 at(l::do_10, last_pair),   at(l::do_30),

@@ -20,15 +20,14 @@ struct suspect {
   std::int64_t reached = 0, wrong = 0;
   std::int64_t explained = 0;  ///< number of differing values that the fault explains
   double bits = 0.0;
-  double last_value = not_an_answer,
-         last_ratio = not_an_answer;  ///< the last wrong value, and its ratio to the right one
-  double least = 0.0, most = 0.0;     ///< range of the number that the IF compares when it is wrong
+  double last_value = not_an_answer, last_ratio = not_an_answer;  ///< of the last wrong number
+  double least = 0.0, most = 0.0;  ///< range of the number that the IF compares when it is wrong
 };
 
 /// The line with the least cost.
 struct faulty_line {
   listing_line at;
-  std::int64_t explained = 0, differ = 0;  ///< numbers of values
+  std::int64_t explained = 0, differ = 0;  ///< numbers of explained and of differing values
   std::int64_t calls = 0;                  ///< number of calls that differ
   std::string compared;                    ///< if `at` is an IF: "ABS(GAP) was 2e-10 to 9e-10"
 };

@@ -14,7 +14,7 @@ namespace contct {
 namespace {
 
 constexpr std::int64_t calls_between_progress = 2048;
-constexpr std::int64_t most_calls_before = 40;  // kept for kernels that keep data between calls
+constexpr std::int64_t most_calls_before = 40;  // calls before a mismatch, for kernels that keep data
 constexpr std::int64_t problems_certified = 20;
 constexpr std::uint64_t few_ulps = 64;
 
