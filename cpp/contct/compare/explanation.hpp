@@ -120,7 +120,7 @@ struct explained_pair {
   double smin_before = 1.0;  ///< the SMIN that s was compared with, if s is positive
   double diff = 0.0;         ///< DIFF, if the call has an event
   why_toggled why = why_toggled::not_toggled;
-  double distance = 0.0;  ///< from the face at SMIN: |c - (D + SMIN d*)|
+  double distance = 0.0;  ///< distance from the face at SMIN: |c - (D + SMIN d*)|
   std::array<taken_branch, branch_names.size()> taken;
 
   [[nodiscard]] const taken_branch& at(branch b) const { return taken[index_of(b)]; }

@@ -39,8 +39,8 @@ struct event {
 
 /// The branch of the listing's DO 10 loop that set the s of a pair.
 enum class listing_branch {
-  no_response,  ///< d* = 0: s is 1, the mark for "no event"
-  stationary,   ///< the pair is at its face, and the load does not change its status: s is 1, the same mark
+  no_response,       ///< d* = 0: s is 1, the mark for "no event"
+  stationary,        ///< the pair is at its face and keeps its status: s is 1, the mark for "no event"
   stationary_event,  ///< the pair is at its face, and the load changes its status: eq. 12
   moving,            ///< the pair advances or recedes: eq. 4
 };

@@ -1,4 +1,4 @@
-// The only compiled C++ kernels, one for each precision.
+// Compiles the C++ kernels, one function for each precision, for the whole program.
 #include "contct/kernel/contct.hpp"
 
 namespace contct {

@@ -22,8 +22,8 @@ namespace {
 /// position. Pairs in contact have no threshold, because a missed break locks in a force.
 constexpr double quiet_share = 1e-10;
 
-/// Reduces `start` and number(i), for i below `n`, by `take`: the largest or smallest number. The eight
-/// chains are independent for speed.
+/// The largest or smallest of `start` and number(i), i below `n`, as `take` selects. Eight independent chains
+/// are faster than one.
 template <class Number, class Take>
 [[gnu::always_inline]] inline double folded(std::size_t n, double start, Number number, Take take) {
   std::array<double, 8> chains{};
@@ -36,9 +36,9 @@ template <class Number, class Take>
   return start;
 }
 
-/// Rules 1 and 2: sets s of each pair, or 1 if no event is ahead. `dof(i)` is the dof of pair i, from 0. All
-/// pairs are divided in a separate loop, which the compiler vectorises: an unneeded division costs less than
-/// a mispredicted branch.
+/// Rules 1 and 2: sets s of each pair, or 1 if no event is ahead. `dof(i)` is the dof of pair i, from 0. A
+/// separate loop divides for every pair, because the compiler vectorises it, and an unneeded division costs
+/// less than a mispredicted branch.
 template <class Dof>
 [[gnu::always_inline]] inline void find_scale_factors(call<double>& c, Dof dof) {
   const std::size_t nc = c.cc.size();

@@ -15,7 +15,7 @@ namespace contct {
 /// The rule by which a kernel decides about contact.
 enum class contact_rule {
   listing,   ///< the 1989 rule
-  corrected  ///< reference/corrected-rule.md
+  corrected  ///< the corrected rule: reference/corrected-rule.md
 };
 
 /// The names of the rules in traces and JSON.

@@ -73,7 +73,7 @@ class trace_reader {
   /// `text` must outlive this object. `name` is the file's name in messages.
   trace_reader(std::string_view text, std::string_view name) : lines_(text, name) {}
 
-  /// Reads the header. Must be the first call, and the only one of this function.
+  /// Reads the header. Call it once, before any other function.
   [[nodiscard]] trace_header read_header();
 
   /// Reads the next call with its answer; returns false at the end of the text. The numbers of calls must

@@ -68,7 +68,7 @@ struct fuzz_follower {
   tally compared;
   nearness near;
   equality_level highest = equality_level::bits;
-  std::optional<faulty_line> at_fault;        ///< from all answers
+  std::optional<faulty_line> at_fault;        ///< the line at fault, by all answers
   std::vector<std::string> mismatch_reports;  ///< lines about the first mismatch
 };
 

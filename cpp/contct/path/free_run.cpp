@@ -27,8 +27,8 @@ void compare_events(const path_record& leader, const path_record& other, free_ru
   }
 }
 
-/// The largest difference of deflections, or of all slopes, at the end of any step. It is relative to the
-/// largest deflection, or slope in any direction, of the whole path.
+/// The largest difference of deflections (or slopes) at the end of any step, relative to the largest
+/// deflection (or slope) of the whole path.
 double relative_difference(const path_record& leader, const path_record& other, bool of_slopes,
                            std::size_t stride) {
   double difference = 0.0;

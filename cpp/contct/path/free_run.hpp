@@ -1,4 +1,4 @@
-// Tier 2 compares kernels in free run by events, shares of the step, and D.
+// Compares kernels in free run by events, shares of the step, and D.
 #pragma once
 
 #include <string>
@@ -52,7 +52,8 @@ struct free_run_difference {
 
 /// Compares two recorded paths of one problem. A difference of deflections, the first of a node's
 /// `dofs_per_node` dofs, is relative to the largest deflection of the whole path, and a difference of
-/// rotations to the largest rotation. A single step may be unloaded, with only rounding as displacements.
+/// rotations to the largest rotation. A single step may be unloaded, so that all its displacements are
+/// rounding.
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 

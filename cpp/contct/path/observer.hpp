@@ -37,9 +37,9 @@ struct step_state {
   std::span<const int> isep;             ///< status of each pair [pairs]
   double rcond;                  ///< reciprocal condition of the equilibrated stiffness; 0 without a factor
   bool from_fallback = false;    ///< replaces the path's own state, which is missing or not proved
-  bool from_reference = false;   ///< from the reference solution
-  bool from_exact_path = false;  ///< from the exact path
-  const end_numbers* numbers = nullptr;  ///< may be null
+  bool from_reference = false;   ///< the state is that of the reference solution
+  bool from_exact_path = false;  ///< the state is that of the exact path
+  const end_numbers* numbers = nullptr;  ///< null if the state has no such numbers
 };
 
 /// Observes a path without changing it.

@@ -82,7 +82,7 @@ class load_history {
   [[nodiscard]] std::vector<double> moved_before(int step, std::size_t dofs) const {
     return moved(from_zero(step) ? 0 : step - 1, dofs);
   }
-  /// Unknown in step 0, or if only rounded loads are given.
+  /// The work of a step's load; unknown in step 0, or if only rounded loads are given.
   [[nodiscard]] rigid_work work(int step) const { return work_ && step > 0 ? work_(step) : rigid_work(); }
   [[nodiscard]] bool from_zero(int step) const { return step == 1 || (from_zero_ && from_zero_(step)); }
 

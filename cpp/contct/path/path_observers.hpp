@@ -29,7 +29,7 @@ struct early_toggle {
   int step;         ///< from 1
   int number;       ///< number of the increment, from 1
   event what;       ///< pair from 0
-  double distance;  ///< from the face at the toggle
+  double distance;  ///< distance from the face at the toggle
   double share;     ///< `distance` as a share of the largest deflection at any pair so far
 };
 

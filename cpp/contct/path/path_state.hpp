@@ -287,7 +287,7 @@ struct path_state {
     return forces;
   }
 
-  /// Moves the structure by `s_min` times a rigid-body motion, and puts new pairs in contact at their faces.
+  /// Moves the structure by `s_min` times a motion, and puts pairs that made contact at their faces.
   void move_shape(double s_min, std::span<const double> motion) {
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
     for (const event& e : events)
