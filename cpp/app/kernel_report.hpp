@@ -40,7 +40,7 @@ void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 /// answers. `answers` must be those to the golden set in 8-byte REAL, in the order of the set.
 [[nodiscard]] std::vector<std::string_view> known_faults(const fault_finder& answers);
 
-/// The highest level of equality over all replays: "bits", "ulps", "events" or "none".
+/// The highest level of equality that holds in all replays: "bits", "ulps", "events" or "none".
 [[nodiscard]] std::string rung_of(const nearness& n, const tally& compared);
 
 }  // namespace contct

@@ -14,7 +14,8 @@
 namespace contct {
 namespace {
 
-/// An XML attribute after a blank. Line ends become character references, since XML reads them as blanks.
+/// An XML attribute with a blank before it. Line ends become character references, since XML reads them as
+/// blanks.
 std::string attribute(std::string_view name, std::string_view value) {
   constexpr escape line_end[] = {{'\n', "&#10;"}};
   return fmt::format(" {}=\"{}\"", name, escaped(markup_text(value), line_end));

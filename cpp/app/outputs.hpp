@@ -52,16 +52,16 @@ constexpr outcome passed_if(bool good) {
 }
 
 struct check_result {
-  std::string name;  ///< "pb07.trace: cpp"
+  std::string name;  ///< for example "pb07.trace: cpp"
   outcome what = outcome::passed;
-  std::string summary;  ///< one line: "8 calls, 64 values, 0 mismatches"
+  std::string summary;  ///< one line, for example "8 calls, 64 values, 0 mismatches"
   std::string details;  ///< lines about a failure
 };
 
 /// The checks of one command.
 struct check_report {
-  std::string command;             ///< "contct replay"
-  std::vector<std::string> facts;  ///< "floating point: strict", ...
+  std::string command;             ///< for example "contct replay"
+  std::vector<std::string> facts;  ///< for example "floating point: strict"
   std::vector<check_result> results;
   double seconds = 0.0;
 
@@ -83,7 +83,7 @@ struct check_report {
 
 /// An output file; the path is empty if the file is not requested.
 struct output_option {
-  const char* name;  ///< "--json"
+  const char* name;  ///< for example "--json"
   std::string path;
   bool opens_later = false;  ///< output_files does not open it
 };

@@ -21,8 +21,8 @@ namespace {
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// The requested folder; otherwise reference/ as installed with the program, whose place is relative to the
-/// program; otherwise reference/ in the source tree of the build.
+/// The requested folder; otherwise the installed reference/, which is found relative to the program;
+/// otherwise reference/ in the source tree of the build.
 fs::path find_reference(const std::string& asked) {
   if (!asked.empty()) return asked;
   const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
@@ -113,7 +113,7 @@ std::string words_of(const expected_number& e, double x) {
 /// A row has step, quantity, expected and computed value, relative difference, tolerance and verdict.
 constexpr std::string_view row = "{:>4} {:<20} {:>13} {:>13} {:>5} {:>5} {}\n";
 
-/// Like quantity_words, with "events" for "toggles", which is the word of --json.
+/// Like quantity_words, with "events" in place of "toggles", the word of --json.
 std::string quantity_head(const expected_number& e) {
   std::string words = quantity_words(e);
   return words == "toggles" ? "events" : words;
