@@ -214,7 +214,9 @@ int run(options o) {
 int main(int argc, char** argv) {
   options o;
   CLI::App program("The engines side by side on problems by formula.", "contct_bench");
-  program.add_option("--problem", o.problems, "Problems: rail-S, mat-N, grid-N; without it, the usual ones")
+  program
+      .add_option("--problem", o.problems,
+                  "Problems: rail-S, mat-N, grid-N or files; without it, the usual ones")
       ->delimiter(',');
   program.add_option("--engine", o.engines, "Engines; refactor is what the others are measured by")
       ->delimiter(',')

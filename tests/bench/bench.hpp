@@ -33,6 +33,7 @@ struct cpu_clock {
 /// The problem file of "rail-50", "mat-100", "grid-50": the family and its size. Throws std::invalid_argument
 /// for others.
 [[nodiscard]] std::string text_of(const std::string& name);
+/// The same problem, or that of a file whose name ends in ".toml".
 [[nodiscard]] contct::problem make_problem(const std::string& name);
 
 /// The problems of the benchmark, smallest first.

@@ -93,6 +93,8 @@ std::string text_of(const std::string& name) {
 }
 
 contct::problem make_problem(const std::string& name) {
+  if (name.ends_with(".toml")) return contct::read_problem(name);
+
   return contct::parse_problem(text_of(name), name);
 }
 

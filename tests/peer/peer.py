@@ -9,14 +9,11 @@ from pathlib import Path
 CONTCT, CCX, REFERENCE, FOLDER = sys.argv[1], sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4])
 LEAST_CHECKS = 22
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(REFERENCE / "benchmarks"))
+sys.path[:0] = [str(REFERENCE / "benchmarks"), str(Path(__file__).parent)]
 import calculix  # noqa: E402
+from block import Block  # noqa: E402
 from make import problem_of  # noqa: E402
 
-# The range of a spring's table, in problem lengths: Newton's first steps may go far, and outside it the force
-# is constant. A second point is near the answer, since the far end, rounded to a field's digits, would
-# misplace a stiff spring's face.
-FAR_AWAY, NEAR = 1e6, 4
 checks = failures = 0
 
 
@@ -41,11 +38,6 @@ def run_both(problem):
     return result
 
 
-def field(x):
-    """CalculiX cuts a field after 20 characters; this has 19 at most."""
-    return f"{float(x):.12e}"
-
-
 def run_ccx(job, deck):
     for old in (".dat", ".sti", ".dof"):  # not those from before
         Path(FOLDER, job + old).unlink(missing_ok=True)
@@ -59,63 +51,6 @@ def values_at_end(job, quantity, name, first, count):
     """Values along x, y, z of nodes `first`, `first` + 1 and so on at the end of the step, which lasts from time 0 to 1."""
     at = calculix.values_at_end(Path(FOLDER, f"{job}.dat").read_text(), quantity, name)
     return [at[node] for node in range(first, first + count)]
-
-
-class Block:
-    """A block of C3D8I bricks, clamped at x = 0, over springs with gaps: (node, face, stiffness). A step for each load at a node, along z."""
-
-    YOUNGS = 1e4
-    # In a deck of peer_deck displacements and forces are so many times the problem's: CalculiX's NLGEOM must not notice that anything
-    # turns, and CalculiX treats forces far below 0.01 as zero.
-    SCALE, FORCE_SCALE = 1e-8, 1e6
-
-    def __init__(self, name, bricks, size, supports, loaded, loads):
-        self.name, self.bricks, self.size, self.loads = name, bricks, size, loads
-        self.supports = [(self.at(*place), face, stiffness) for place, face, stiffness in supports]
-        self.loaded = self.at(*loaded)
-        self.places = [(i, j, k) for i in range(bricks[0] + 1) for j in range(bricks[1] + 1) for k in range(bricks[2] + 1)]
-
-    def at(self, i, j, k):
-        return (i * (self.bricks[1] + 1) + j) * (self.bricks[2] + 1) + k + 1
-
-    def where(self, node):
-        return [length * i / n for length, i, n in zip(self.size, self.places[node - 1], self.bricks)]
-
-    def mesh(self, modulus):
-        lines = ["*NODE,NSET=ALL", *(f"{n},{','.join(map(field, self.where(n)))}" for n in range(1, len(self.places) + 1))]
-        lines.append("*ELEMENT,TYPE=C3D8I,ELSET=BLOCK")
-        cells = [place for place in self.places if all(i < n for i, n in zip(place, self.bricks))]
-        for element, (i, j, k) in enumerate(cells, 1):
-            corners = [self.at(i + di, j + dj, k + up) for up in (0, 1) for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1))]
-            lines.append(",".join(map(str, [element, *corners])))
-        lines.append(f"*MATERIAL,NAME=M\n*ELASTIC\n{field(modulus)},0.3\n*DENSITY\n1.\n*SOLID SECTION,ELSET=BLOCK,MATERIAL=M\n*BOUNDARY")
-        lines += [f"{self.at(*place)},1,3" for place in self.places if place[0] == 0]
-        return "\n".join(lines) + "\n", len(cells)
-
-    def matrix_deck(self):
-        """CalculiX writes the stiffness matrix under the name of the job."""
-        return self.mesh(self.YOUNGS)[0] + "*STEP\n*FREQUENCY,SOLVER=MATRIXSTORAGE\n1\n*END STEP\n"
-
-    def peer_deck(self, load):
-        """CalculiX's own nonlinear run under one step's load. The springs' grounds are the nodes after the block's."""
-        text, element = self.mesh(self.YOUNGS * self.FORCE_SCALE / self.SCALE)
-        for ground, (node, face, stiffness) in enumerate(self.supports, len(self.places) + 1):
-            x, y, z = self.where(node)
-            element += 1
-            text += f"*NODE,NSET=GROUND\n{ground},{field(x)},{field(y)},{field(z - self.size[2] / 10)}\n" \
-                    f"*ELEMENT,TYPE=SPRINGA,ELSET=S{ground}\n{element},{node},{ground}\n*SPRING,ELSET=S{ground},NONLINEAR\n"
-            for end in (-FAR_AWAY, -NEAR):
-                text += f"{field(stiffness * end * self.FORCE_SCALE)},{field((face + end) * self.SCALE)}\n"
-            text += f"0.,{field(face * self.SCALE)}\n0.,{field((face + FAR_AWAY) * self.SCALE)}\n"
-        text += f"*BOUNDARY\nGROUND,1,3\n*STEP,NLGEOM\n*STATIC\n1.,1.\n*CLOAD\n{self.loaded},3,{field(load * self.FORCE_SCALE)}\n"
-        return text + "*NODE PRINT,NSET=ALL\nU\n*NODE PRINT,NSET=GROUND\nRF\n*END STEP\n"
-
-    def problem(self):
-        """The problem file that reads that matrix."""
-        text = f'title = "{self.name}"\n\n[calculix]\njob = "{self.name}"\n'
-        for node, face, stiffness in self.supports:
-            text += f'\n[[contact]]\ndof = "{node}.3"\nsurface = "below"\nface = {face}\nstiffness = {stiffness}\n'
-        return text + "".join(f'\n[[step]]\npoint = [ {{ dof = "{self.loaded}.3", value = {load} }} ]\n' for load in self.loads)
 
 
 def check_example():

@@ -29,4 +29,5 @@ fi
 # One thread: its sums, and so its last digits, depend on how many there are.
 export OMP_NUM_THREADS=1
 build=$(cd "$build" && pwd)
+python3 tests/bench/solid.py 1 "$work" && "$build/contct" run "$work/solid-1.toml" --quiet --strict || exit 1
 python3 tests/peer/peer.py "$build/contct" "$(command -v ccx)" "$PWD/reference" "$work"
