@@ -26,7 +26,7 @@ std::string refusal(const scratch_folder& dir, const std::string& file, const pr
 
 }  // namespace
 
-TEST_CASE("a bad problem file gives exit status 2, one message with its place, and no output files") {
+TEST_CASE("a bad problem file gives exit status 2, one message with line and column, and no output files") {
   const scratch_folder dir;
   dir.write("bad.toml", with("stiffness", "stifness"));
   CHECK_THAT(refusal(dir, "bad.toml"), StartsWith("contct: bad.toml:11:1: contact[1].stifness: found an"));
@@ -41,7 +41,7 @@ TEST_CASE("a missing file, a directory and an empty name are refused") {
   CHECK_THAT(refusal(dir, ""), Contains("cannot be read"));
 }
 
-TEST_CASE("standard input is named in the message") {
+TEST_CASE("the message about a bad problem from standard input names standard input as its file") {
   const scratch_folder dir;
   CHECK_THAT(refusal(dir, "-", {"[beam]\nEI = 0\n", {}, false}), StartsWith("contct: standard input:"));
 }
@@ -56,7 +56,7 @@ TEST_CASE("an output file that cannot be written is refused before anything is s
   CHECK(dir.files() == std::vector<std::string>{"good.toml"});
 }
 
-TEST_CASE("wrong usage gives exit status 2, and the list of what is allowed") {
+TEST_CASE("wrong usage gives exit status 2, and a message with the allowed names") {
   const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const auto refused = [&](const std::vector<std::string>& arguments, const char* words) {

@@ -41,8 +41,7 @@ double decay(double modulus, double EI) {
 
 }  // namespace
 
-TEST_CASE(
-    "contct new without a kind lists the kinds, which are the files of the cookbook, with exit status 2") {
+TEST_CASE("contct new without a kind lists all kinds of the cookbook and has exit status 2") {
   const finished f = contct_program(".", {"new"});
   CHECK(f.exit == 2);
   int kinds = 0;
@@ -55,7 +54,7 @@ TEST_CASE(
   CHECK(kinds == 9);
 }
 
-TEST_CASE("contct new writes the files that a problem names beside it, and overwrites none of them") {
+TEST_CASE("contct new also writes the files that the problem names, and overwrites none") {
   const scratch_folder dir;
   std::filesystem::create_directory(dir.path() / "own");
   const finished f = contct_program(dir.path(), {"new", "matrix", "own/grillage.toml"});
@@ -69,7 +68,8 @@ TEST_CASE("contct new writes the files that a problem names beside it, and overw
 }
 
 TEST_CASE(
-    "crane: the column's reaction follows from moments about the left bearing once the bracket separates") {
+    "cookbook, crane: the column's reaction follows from moments about the left bearing once the bracket "
+    "separates") {
   const json step = solved("crane")["steps"][0];
   CHECK(step["name"] == "SLS left");
   CHECK(step["pairs"][0]["state"] == "separated");
@@ -78,21 +78,22 @@ TEST_CASE(
         Approx((weight * 12 * 6 + 75.0 * 2 + 75.0 * 4) / 6).epsilon(1e-9));
 }
 
-TEST_CASE("slab: the settlement under the axle is that of an infinite beam, added to that of the weight") {
+TEST_CASE(
+    "cookbook, slab: the settlement under the axle is that of an infinite beam plus that of the weight") {
   const json step = solved("slab")["steps"][13];
   CHECK(step["name"] == "axle at 6");
   const double w = 6.25 / 4e4 + 100 * decay(4e4, 4.3e4) / (2 * 4e4);
   CHECK(step["w"][24].get<double>() == Approx(-w).epsilon(1e-3));
 }
 
-TEST_CASE("base-plate: the grout's force is the sum of the column's force and the bolts'") {
+TEST_CASE("cookbook, base plate: the grout's force is the sum of the column's force and the bolts' forces") {
   const json step = solved("base-plate")["steps"][1];
   const double of_bolts = force_of(step, "above");
   CHECK(of_bolts > 50.0);
   CHECK(force_of(step, "below") == Approx(80.0 + of_bolts).epsilon(1e-9));
 }
 
-TEST_CASE("racks: the last rack has the reaction of a propped cantilever whose clamp rises") {
+TEST_CASE("cookbook, racks: the last rack has the reaction of a propped cantilever whose clamp rises") {
   const json steps = solved("racks")["steps"];
   for (const auto& [step, rise] : {std::pair(1, 0.015), std::pair(2, 0.015 + 0.010)}) {
     CHECK(steps[step]["pairs"][0]["state"] == "separated");
@@ -101,19 +102,23 @@ TEST_CASE("racks: the last rack has the reaction of a propped cantilever whose c
   }
 }
 
-TEST_CASE("rail: the settlement under the wheel is that of an infinite beam, except for separated sleepers") {
+TEST_CASE(
+    "cookbook, rail: the settlement under the wheel is that of an infinite beam, except for separated "
+    "sleepers") {
   const json step = solved("rail")["steps"][1];
   const double w = (0.6 + 112.5 * decay(5e4, 6380.0) / 2) / 5e4;
   CHECK(step["w"][24].get<double>() == Approx(-w).epsilon(0.01));
 }
 
-TEST_CASE("bed: the pressed edge settles like a rigid footing loaded outside its kern") {
+TEST_CASE("cookbook, bed: the pressed edge settles like a rigid footing loaded outside its kern") {
   const json step = solved("bed")["steps"][1];
   const double e = 240.0 / 300.0;
   CHECK(step["w"][30].get<double>() == Approx(-2 * 300.0 / (3 * (1.5 - e)) / 5e4).epsilon(0.01));
 }
 
-TEST_CASE("matrix: a girder of the grillage bends like a simple beam if both girders are loaded equally") {
+TEST_CASE(
+    "cookbook, matrix: a girder of the grillage bends like a simple beam if both girders are loaded "
+    "equally") {
   const json step = solved("matrix")["steps"][0];
   CHECK(step["w"][6].get<double>() == Approx(-40.0 * 512 / (48 * 2.1e8 * 8.36e-5)).epsilon(1e-9));
 }

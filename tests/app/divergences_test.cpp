@@ -66,7 +66,7 @@ const json& pair_of(const json& result, std::size_t step, std::size_t pair) {
 
 }  // namespace
 
-TEST_CASE("way 1: a near tie is toggled early, and the offset survives unloading") {
+TEST_CASE("divergence 1: at a near tie a pair is toggled too early, and the error remains after unloading") {
   const std::string text = section("1. ");
   const json wrong = run("near-tie.toml", "fortran", uncertified);
   const json truth = run("near-tie.toml", "corrected", right);
@@ -79,7 +79,8 @@ TEST_CASE("way 1: a near tie is toggled early, and the offset survives unloading
   says(text, "3 %", 100 * w(wrong, 2, 3) / -w(truth, 1, 3));
 }
 
-TEST_CASE("way 2: in a small unit of length a separated pair comes into contact before anything has moved") {
+TEST_CASE(
+    "divergence 2: in a small unit of length, a separated pair makes contact before anything has moved") {
   const std::string text = section("2. ");
   const json wrong = run("small-unit.toml", "fortran", uncertified);
   const json truth = run("small-unit.toml", "corrected", right);
@@ -91,8 +92,7 @@ TEST_CASE("way 2: in a small unit of length a separated pair comes into contact 
 }
 
 TEST_CASE(
-    "way 2: a pair pressed by less than EPSGAP separates, and keeps its force, as soon as the load "
-    "decreases") {
+    "divergence 2: a pair pressed by less than EPSGAP separates with its force when the load decreases") {
   const std::string text = section("2. ");
   const json wrong = run("stiff-stop.toml", "fortran", uncertified);
   const json truth = run("stiff-stop.toml", "corrected", right);
@@ -103,7 +103,7 @@ TEST_CASE(
   says(text, "4.5e-11", -0.004 - w(truth, 1, 3));
 }
 
-TEST_CASE("way 3: a pressed contact counts as only touching in single precision") {
+TEST_CASE("divergence 3: in single precision, a pressed pair counts as only touching its face") {
   const std::string text = section("3. ");
   const json wrong = run("single-precision.toml", "fortran-r4", uncertified);
   const json in_8_bytes = run("single-precision.toml", "fortran", right);
@@ -116,7 +116,8 @@ TEST_CASE("way 3: a pressed contact counts as only touching in single precision"
   says(text, "4.5e-8", -4.0 - w(truth, 1, 3));
 }
 
-TEST_CASE("way 4: an event exactly at full load is left to the next step, so that only the status is late") {
+TEST_CASE(
+    "divergence 4: an event exactly at full load happens in the next step, so only the status is late") {
   const std::string text = section("4. ");
   for (const char* kernel : {"fortran", "corrected"}) {
     const json result = run("event-at-full-load.toml", kernel, right);
@@ -128,7 +129,7 @@ TEST_CASE("way 4: an event exactly at full load is left to the next step, so tha
   }
 }
 
-TEST_CASE("way 6: an event near full load toggles another pair too") {
+TEST_CASE("divergence 6: an event near full load also toggles another pair") {
   const std::string text = section("6. ");
   const json wrong = run("mark-toggled.toml", "fortran", uncertified);
   const json truth = run("mark-toggled.toml", "corrected", right);
@@ -140,7 +141,7 @@ TEST_CASE("way 6: an event near full load toggles another pair too") {
   CHECK(w(wrong, 1, 3) == Approx(w(truth, 1, 3)).epsilon(1e-9));
 }
 
-TEST_CASE("way 7: locked-in forces turn a beam that should lie flat into a mechanism") {
+TEST_CASE("divergence 7: locked-in forces turn a beam that should lie flat into a mechanism") {
   const std::string text = section("7. ");
   const json wrong = run("locked-in-forces.toml", "fortran", path_ended);
   const json truth = run("locked-in-forces.toml", "corrected", right);
@@ -151,7 +152,7 @@ TEST_CASE("way 7: locked-in forces turn a beam that should lie flat into a mecha
   for (std::size_t node = 1; node <= 13; ++node) CHECK(std::abs(w(truth, 3, node)) < 1e-9);
 }
 
-TEST_CASE("way 8: the 1989 rule makes no progress, although an equilibrium exists") {
+TEST_CASE("divergence 8: the 1989 rule makes no progress, although an equilibrium exists") {
   const std::string text = section("8. ");
   const json wrong = run("standstill.toml", "fortran", path_ended);
   const json truth = run("standstill.toml", "corrected", right);
@@ -162,7 +163,7 @@ TEST_CASE("way 8: the 1989 rule makes no progress, although an equilibrium exist
   says(text, "1.5", pair_of(truth, 1, 1)["force"]);
 }
 
-TEST_CASE("the page names every problem file of the divergences, and every file that it names exists") {
+TEST_CASE("DIVERGENCES.md names every problem file of reference/problems/divergences, and no missing file") {
   const std::string page = file_text("DIVERGENCES.md");
   const std::string folder = "problems/divergences/";
   std::set<std::string> named;

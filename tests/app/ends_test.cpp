@@ -54,7 +54,7 @@ nlohmann::json result_in(const scratch_folder& dir) {
 
 }  // namespace
 
-TEST_CASE("a beam that balances on its one pair makes contact once, in the table too") {
+TEST_CASE("a beam that balances on its one pair makes contact only once, in the result and in the table") {
   const scratch_folder dir;
   const finished f = run_of(over_one_pair(2), {"--kernels", "corrected", "--json", "out.json"}, dir);
   CHECK(f.exit == 0);
@@ -66,7 +66,7 @@ TEST_CASE("a beam that balances on its one pair makes contact once, in the table
 }
 
 TEST_CASE(
-    "a path of the 1989 rule without remaining supports is not called a mechanism if the load has an "
+    "a path of the 1989 rule that loses all supports is not called a mechanism if the load has an "
     "equilibrium") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--kernels", "fortran,cpp", "--json", "out.json"}, dir);
@@ -82,7 +82,7 @@ TEST_CASE(
   CHECK_THAT(exact.out + exact.err, !Contains("no equilibrium"));
 }
 
-TEST_CASE("a path of the 1989 rule that is lost does not change the answer: exit status 0") {
+TEST_CASE("if only the path of the 1989 rule is lost, the answer is unchanged and the exit status is 0") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--strict", "--json", "out.json"}, dir);
   CHECK(f.exit == 0);
@@ -92,7 +92,7 @@ TEST_CASE("a path of the 1989 rule that is lost does not change the answer: exit
   CHECK(result_in(dir)["rule_1989"]["status"] == "path-ended");
 }
 
-TEST_CASE("a matrix with a spring softer than rounding is not said to have no equilibrium") {
+TEST_CASE("no command denies an equilibrium of a matrix with a spring softer than rounding") {
   const scratch_folder dir;
   write_soft_matrix(dir);
   int solved = 0;
@@ -108,7 +108,7 @@ TEST_CASE("a matrix with a spring softer than rounding is not said to have no eq
   CHECK(solved == 2);
 }
 
-TEST_CASE("the contact force of a stiff stop is the same number in the result and in the table") {
+TEST_CASE("the result and the table of pairs have the same contact force for a stiff stop") {
   const scratch_folder dir;
   const finished f =
       run_of(stiff_stop, {"--kernels", "corrected", "--json", "out.json", "--csv", "out.csv"}, dir);
@@ -122,7 +122,7 @@ TEST_CASE("the contact force of a stiff stop is the same number in the result an
   CHECK(std::strtod(last.c_str() + at, nullptr) == force);
 }
 
-TEST_CASE("the digits of the corrected rule are those of the numbers in a run's result") {
+TEST_CASE("contct exact measures the corrected kernel's digits from the same numbers as a run's result has") {
   const scratch_folder dir;
   dir.write(
       "p.toml",
@@ -136,7 +136,9 @@ TEST_CASE("the digits of the corrected rule are those of the numbers in a run's 
   CHECK(kernel["force_digits"].get<double>() > 15.0);
 }
 
-TEST_CASE("combinations without an equilibrium are named, later ones are solved, and the exit status is 4") {
+TEST_CASE(
+    "combinations without an equilibrium are named, later combinations are solved, and the exit status is "
+    "4") {
   const scratch_folder dir;
   dir.write("p.toml",
             "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[contact]]\nx = [0, 2]\nsurface = \"below\"\nface = 0\n"

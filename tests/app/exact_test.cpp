@@ -26,7 +26,7 @@ finished exactly(const std::string& problem, const std::vector<std::string>& mor
 
 }  // namespace
 
-TEST_CASE("the tie of the three gap supports is printed as the fraction that it is") {
+TEST_CASE("contct exact prints the tie of PB7's outer gap supports as the fraction 3/38") {
   const finished f =
       contct_program(root, {"exact", three_gaps, "--kernels", "fortran,cpp,fortran-r4,corrected"});
   CHECK(f.exit == 0);
@@ -37,7 +37,7 @@ TEST_CASE("the tie of the three gap supports is printed as the fraction that it 
     CHECK_THAT(f.out, Contains(kernel));
 }
 
-TEST_CASE("a mechanism gives exit status 4 and its proof") {
+TEST_CASE("contct exact proves a mechanism by its motion and work, with exit status 4") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[step]]\npoint = [ { node = 2, w = -2 } ]\n"
       "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 1\nstiffness = 1\n");
@@ -47,7 +47,7 @@ TEST_CASE("a mechanism gives exit status 4 and its proof") {
   CHECK_THAT(f.err, Contains("p.toml: step 1, at share 0 of its load: no equilibrium"));
 }
 
-TEST_CASE("the 1989 rule is followed if --rule names it") {
+TEST_CASE("contct exact follows the 1989 rule if --rule names it") {
   const std::string close = cantilever +
                             "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1\nstiffness = 3\n"
                             "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1.001\nstiffness = 6\n"
@@ -57,7 +57,7 @@ TEST_CASE("the 1989 rule is followed if --rule names it") {
              Contains("share 1/3, load -3: pair 1 (node 2, below) makes, pair 2 (node 2, below) makes\n"));
 }
 
-TEST_CASE("the option --digits limits the length of a fraction") {
+TEST_CASE("the option --digits limits the digits of a fraction, beyond which a decimal is printed") {
   const std::string third = cantilever + "[[step]]\npoint = [ { node = 2, w = -1 } ]\n";
   CHECK_THAT(exactly(third).out, Contains("largest w -1/3 at node 2"));
   CHECK_THAT(exactly(third, {"--digits", "1"}).out, Contains("largest w -0.3 at node 2"));
@@ -74,14 +74,14 @@ TEST_CASE(
   CHECK_THAT(unknown.err, Contains("nobody"));
 }
 
-TEST_CASE("a structure that is too large for exact arithmetic is refused") {
+TEST_CASE("contct exact refuses a structure with more than 50,000 dofs") {
   const finished large = exactly("[beam]\nlength = 1\nelements = 30000\nEI = 1\n[[step]]\nuniform = 1\n");
   CHECK(large.exit == 2);
   CHECK_THAT(large.err, Contains("found 60002 dofs; allowed: at most 50000"));
 }
 
 TEST_CASE(
-    "a run and the exact path both read the shortest decimal of each double, and warn of other literals") {
+    "contct run and contct exact use the shortest decimal of each double, and warn about longer literals") {
   const scratch_folder dir;
   dir.write(
       "p.toml",
@@ -104,7 +104,7 @@ TEST_CASE(
   CHECK(nlohmann::json::parse(run.out)["steps"][0]["pairs"][0]["force"].get<double>() == Approx(8.75e-6));
 }
 
-TEST_CASE("a matrix that is nearly singular is solved, and one that is barely indefinite refused") {
+TEST_CASE("contct exact solves a nearly singular matrix, and refuses a barely indefinite matrix") {
   const scratch_folder dir;
   const auto with = [&dir](const std::string& corner) {
     dir.write("k.mtx",
@@ -123,7 +123,9 @@ TEST_CASE("a matrix that is nearly singular is solved, and one that is barely in
   CHECK(with("1").exit == 4);  // semidefinite, and the load drives the rigid-body motion
 }
 
-TEST_CASE("kernels are measured with settlements, several steps, two-sided pairs and pairs at fixed dofs") {
+TEST_CASE(
+    "contct exact measures kernels with settlements, several steps, two-sided pairs and pairs at fixed "
+    "dofs") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2, 3]\nEI = 0.333333333333333333333\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = 4\nfix = [\"w\"]\n"

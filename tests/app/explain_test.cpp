@@ -52,7 +52,8 @@ Real ulp_of(Real x) {
 
 }  // namespace
 
-TEST_CASE("an increment is explained pair by pair, with the listing's lines and the paper's equations") {
+TEST_CASE(
+    "contct explain explains an increment pair by pair, with the listing's lines and the paper's equations") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"explain", "pb.toml"});
@@ -85,7 +86,7 @@ TEST_CASE("an increment is explained pair by pair, with the listing's lines and 
   CHECK_THAT(f.out, Contains("fortran and cpp are equal to the bit in the whole run"));
 }
 
-TEST_CASE("a pair between two dofs of a matrix is explained by both their labels") {
+TEST_CASE("contct explain names both dofs of a pair between two dofs of a matrix") {
   const finished f =
       explained({"reference/problems/pb15-two-beams.toml", "--increment", "1.1", "--quiet", "--json", "-"});
   CHECK(f.exit == 0);
@@ -94,7 +95,7 @@ TEST_CASE("a pair between two dofs of a matrix is explained by both their labels
   CHECK(pair["other"] == "right.y");
 }
 
-TEST_CASE("the lines of an explanation fit their terminal, from 40 columns to 160") {
+TEST_CASE("contct explain fits its lines to the terminal, from 40 to 160 columns") {
   for (const char* columns : {"40", "59", "80", "119", "160"}) {
     const finished f = explained({pb7, "--increment", "2.1"}, columns);
     INFO(columns << " columns\n" << f.out);
@@ -105,7 +106,8 @@ TEST_CASE("the lines of an explanation fit their terminal, from 40 columns to 16
 }
 
 TEST_CASE(
-    "step, increment and pair narrow the explanation, and STEP.INCREMENT has the numbers of the table") {
+    "the options --step, --increment and --pair narrow the explanation, and increments are numbered as in "
+    "the table") {
   const auto count = [](const std::string& text, const char* piece) {
     std::size_t n = 0;
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;
@@ -124,8 +126,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a step, increment or pair out of range gives exit status 2 and the allowed values, and no file is "
-    "written") {
+    "contct explain refuses a step, increment or pair out of range with exit status 2, and writes no file") {
   const scratch_folder dir;
   const std::string out = (dir.path() / "out.json").string();
   const auto refused = [&](std::vector<std::string> arguments, const char* words) {
@@ -160,8 +161,7 @@ TEST_CASE(
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
 }
 
-TEST_CASE(
-    "a second kernel that rounds differently is reported with the difference in ULPs, with exit status 1") {
+TEST_CASE("contct explain reports a second kernel that rounds differently in ULPs, with exit status 1") {
   const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
   const finished f =
@@ -175,7 +175,7 @@ TEST_CASE(
   CHECK(all["lockstep"]["mismatches"] > 0);
 }
 
-TEST_CASE("a path that ends in a mechanism is explained up to its end, with exit status 4") {
+TEST_CASE("contct explain explains a path up to the mechanism that ends it, with exit status 4") {
   const scratch_folder dir;
   dir.write("freed.toml",
             "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
@@ -189,7 +189,7 @@ TEST_CASE("a path that ends in a mechanism is explained up to its end, with exit
   CHECK(beyond.exit == 2);
 }
 
-TEST_CASE("a long run is explained while it is followed, so that memory does not grow") {
+TEST_CASE("contct explain writes a long run while it follows the path, so that memory does not grow") {
   const std::string plate = "reference/problems/pp05c-free-plate-on-bed-n16.toml";
   const finished narrow = explained({plate, "--pair", "1", "--quiet", "--json", "/dev/null"});
   const finished all = explained({plate, "--quiet", "--json", "/dev/null"});
@@ -201,8 +201,7 @@ TEST_CASE("a long run is explained while it is followed, so that memory does not
 #endif
 }
 
-TEST_CASE(
-    "an event so near to full load that only rounding is left is reported, and that the driver undoes it") {
+TEST_CASE("contct explain reports an event caused only by rounding near full load, which the driver undoes") {
   // Unloading to zero separates the pairs exactly at the end, or by rounding just before it.
   const scratch_folder dir;
   int undone = 0;
@@ -236,8 +235,7 @@ TEST_CASE(
   CHECK(undone >= 1);
 }
 
-TEST_CASE(
-    "every s of PB1 to PB11 has an error of at most 2 ULP for its call's numbers, in either precision") {
+TEST_CASE("every s of PB1 to PB11 has an error of at most 2 ULP in single and double precision") {
   int compared = 0;
   for (const char* name :
        {"pb01-cantilever-tip-stop", "pb03c-point-load-on-bed-l6-fine", "pb05-cantilever-over-flat-obstacle",
@@ -268,9 +266,7 @@ TEST_CASE(
   CHECK(compared > 10'000);
 }
 
-TEST_CASE(
-    "a call of a trace is explained, and for a kernel that differs both texts and the faulty line are "
-    "shown") {
+TEST_CASE("a call of a trace is explained, and a differing kernel's text and faulty line are shown") {
   const std::string plugin = "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so";
   const finished f =
       explained({"reference/traces/ties.trace", "--increment", "4", "--kernels", "fortran," + plugin});
@@ -282,7 +278,7 @@ TEST_CASE(
   CHECK_THAT(f.err, Contains("at fault: line 52, IF (DIFF.LT.EPSMUL) THEN: explains all"));
 }
 
-TEST_CASE("a trace of the listing itself is explained without a difference, and has neither steps nor JSON") {
+TEST_CASE("contct explain finds no difference in a trace of the listing, and refuses --json for a trace") {
   const finished f = explained({"reference/traces/ties-r4.trace", "--increment", "1", "--pair", "1"});
   CHECK(f.exit == 0);
   CHECK_THAT(f.out, Contains("fortran-r4 answers as the trace, to the bit") && !Contains("Pair 2, node"));

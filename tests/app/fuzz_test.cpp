@@ -25,7 +25,7 @@ nlohmann::json json_of(const scratch_folder& dir, const char* name) {
 
 }  // namespace
 
-TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it compared") {
+TEST_CASE("contct fuzz finds fortran and cpp equal to the bit, and counts what it compared") {
   const scratch_folder dir;
   for (const char* kernels : {"fortran,cpp", "fortran-r4,cpp-r4"}) {
     const finished f =
@@ -48,7 +48,7 @@ TEST_CASE("fortran and cpp are equal to the bit, and the run says how much it co
   }
 }
 
-TEST_CASE("the command that a fuzz run prints repeats the run") {
+TEST_CASE("the command that contct fuzz prints repeats its run") {
   const scratch_folder dir;
   const std::string kernels = "fortran," + variant("less_equal");
   const finished a = fuzz(dir, {"--kernels", kernels, "--calls", "8000", "--seed", "77", "--shard", "2/3"});
@@ -59,7 +59,9 @@ TEST_CASE("the command that a fuzz run prints repeats the run") {
   CHECK(a.exit == 1);
 }
 
-TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and shrunk to two pairs") {
+TEST_CASE(
+    "contct fuzz finds a kernel that compares EPSMUL by .LE., reports a tie and shrinks the call to two "
+    "pairs") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("less_equal"), "--calls", "20000", "--out",
                                 "found", "--json", "f.json"});
@@ -77,7 +79,7 @@ TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and 
   CHECK(contct_program(dir.path(), {"replay", trace, "--kernel", variant("less_equal")}).exit == 1);
 }
 
-TEST_CASE("a plug-in that aborts now and then fails the verdict, but does not end the run") {
+TEST_CASE("a follower plug-in that sometimes aborts fails the fuzz run, but does not end it") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("crashes"), "--calls", "4000", "--problems",
                                 "0", "--json", "f.json"});
@@ -88,14 +90,14 @@ TEST_CASE("a plug-in that aborts now and then fails the verdict, but does not en
   CHECK(json_of(dir, "f.json").at("calls") == 4000);
 }
 
-TEST_CASE("a leading plug-in that aborts ends the run with the exit status of a mismatch") {
+TEST_CASE("a leading plug-in that aborts ends the fuzz run with exit status 1") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", variant("crashes") + ",fortran", "--calls", "4000"});
   CHECK(f.exit == 1);
   CHECK_THAT(f.err, Contains("the leading kernel gave no answer: it was ended by signal 6"));
 }
 
-TEST_CASE("a hunt that finds too little to compare fails") {
+TEST_CASE("contct fuzz has exit status 2 if it compares nothing") {
   const scratch_folder dir;
   CHECK(fuzz(dir, {"--calls", "0"}).exit == 2);
   CHECK(fuzz(dir, {"--kernels", "fortran"}).exit == 2);

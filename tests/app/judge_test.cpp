@@ -29,7 +29,8 @@ finished judged(const scratch_folder& dir, const std::string& force, const std::
 
 }  // namespace
 
-TEST_CASE("another program's numbers are judged by its own tolerance, and counted") {
+TEST_CASE(
+    "contct verify --results judges another program's numbers by the given tolerance, and counts them") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "5");
   INFO(f.out << f.err);
@@ -42,14 +43,17 @@ TEST_CASE("another program's numbers are judged by its own tolerance, and counte
   CHECK(out["problems"][0]["not_given"].size() == 25);
 }
 
-TEST_CASE("a number outside the tolerance is named with the exact value, and the exit status is 1") {
+TEST_CASE(
+    "contct verify --results names a number outside the tolerance with its exact value, with exit status 1") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8614651", "5");
   CHECK(f.exit == 1);
   CHECK_THAT(f.out, Contains("step 2, force, pair 1: found 41.8614651; exactly 1800/43: an error of"));
 }
 
-TEST_CASE("fewer numbers than --least give exit status 2, and the reports are still written") {
+TEST_CASE(
+    "contct verify --results has exit status 2 for fewer numbers than --least, but still writes its "
+    "reports") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "6");
   CHECK(f.exit == 2);
@@ -57,7 +61,7 @@ TEST_CASE("fewer numbers than --least give exit status 2, and the reports are st
   CHECK(nlohmann::json::parse(dir.read("out.json"))["failed"] == 0);
 }
 
-TEST_CASE("the file of results is not replaced by an output") {
+TEST_CASE("contct verify --results does not replace its input file by an output file") {
   const scratch_folder dir;
   dir.write("theirs.json", answers("0"));
   const finished f =

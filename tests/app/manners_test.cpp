@@ -60,7 +60,7 @@ void prepare(const scratch_folder& dir, bool with_problems) {
 
 }  // namespace
 
-TEST_CASE("every command has help with examples, and every example runs as it stands") {
+TEST_CASE("every command has help with examples, and every example runs as it is printed") {
   const words all = commands();
   CHECK(all.size() >= 9);
   std::size_t run = 0;
@@ -91,7 +91,8 @@ TEST_CASE("every command has help with examples, and every example runs as it st
   CHECK(examples_in(help.out).size() == all.size());
 }
 
-TEST_CASE("a new problem runs, has events, and is certified, and its comments name every table") {
+TEST_CASE(
+    "a new problem runs, has events and is certified, and its comments name every table of the format") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_folder dir;
     INFO(shape);
@@ -114,7 +115,7 @@ TEST_CASE("a new problem runs, has events, and is certified, and its comments na
   }
 }
 
-TEST_CASE("the lines that are commented out in a new problem run if they are put in") {
+TEST_CASE("a new problem still runs if its commented-out lines are activated") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_folder dir;
     std::string text = contct_program(dir.path(), {"new", shape, "-"}).out;
@@ -134,7 +135,7 @@ TEST_CASE("the lines that are commented out in a new problem run if they are put
   }
 }
 
-TEST_CASE("a new problem overwrites nothing, not even a link that leads nowhere") {
+TEST_CASE("contct new overwrites no file and no symbolic link, even if the link's target is missing") {
   const scratch_folder dir;
   dir.write("beam.toml", "mine");
   fs::create_symlink("nowhere", dir.path() / "link.toml");

@@ -16,7 +16,8 @@ const std::string spring_problem =
 }  // namespace
 
 TEST_CASE(
-    "the corrected rule is suggested if it may prove more, but not for a matrix that may be indefinite") {
+    "a message suggests the corrected rule if it may prove more, but not for a matrix that may be "
+    "indefinite") {
   const scratch_folder here;
   here.write("p.toml",
              "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"1\"\nsurface = \"below\"\nface = 0\n"
@@ -30,7 +31,7 @@ TEST_CASE(
   CHECK(contct_program(here.path(), {"run", "p.toml", "--strict"}).exit == 0);  // |K| = 1e-6 - 2e-11 now
 }
 
-TEST_CASE("a matrix in sparse storage is solved by every engine, and certified") {
+TEST_CASE("every engine solves and certifies a matrix in sparse storage") {
   const scratch_folder here;
   std::filesystem::copy(root / "reference/structures", here.path());
   std::string text = here.read("frame.toml");
@@ -48,7 +49,8 @@ TEST_CASE("a matrix in sparse storage is solved by every engine, and certified")
   }
 }
 
-TEST_CASE("a structure without coordinates has a page and tables, and a message says that it has no grid") {
+TEST_CASE(
+    "a structure without coordinates has a page and tables, and a message explains why it has no grid") {
   const scratch_folder dir;
   dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
   dir.write("p.toml", spring_problem);
@@ -69,7 +71,7 @@ TEST_CASE("a structure without coordinates has a page and tables, and a message 
   CHECK(dir.files() == before);
 }
 
-TEST_CASE("a pair without coordinates has no cell, and a message says so") {
+TEST_CASE("a warning counts the pairs that have no cell in the grid because their coordinates are unknown") {
   const scratch_folder dir;
   const std::string two = header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
   dir.write("K.mtx", two);

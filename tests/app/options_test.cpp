@@ -46,7 +46,7 @@ std::string refusal(const words& line) {
 
 }  // namespace
 
-TEST_CASE("a bare contct run names no kernels, which is both rules, and writes no file") {
+TEST_CASE("contct run without options names no kernels and no output files") {
   const auto o = parsed<run_options>({"run", "beam.toml"});
   CHECK(o.file == "beam.toml");
   CHECK(o.kernels.empty());
@@ -61,7 +61,7 @@ TEST_CASE("a bare contct run names no kernels, which is both rules, and writes n
   CHECK(o.max_increments == 0);
 }
 
-TEST_CASE("the options of contct run have their effect in any order") {
+TEST_CASE("contct run accepts its options in any order") {
   const auto o = parsed<run_options>(
       {"run",     "--kernels", "cpp,corrected", "--strict", "beam.toml", "--max-increments=7",
        "--csv",   "c",         "--vtu",         "v.vtu",    "--html",    "h",
@@ -77,7 +77,7 @@ TEST_CASE("the options of contct run have their effect in any order") {
   CHECK(o.max_increments == 7);
 }
 
-TEST_CASE("the option --final-only excludes all options that need a path") {
+TEST_CASE("the option --final-only excludes every option that needs a path") {
   CHECK(parsed<run_options>({"run", "f", "--final-only", "--json", "j", "--strict"}).final_only);
   const std::vector<words> of_a_path = {{"--free-run"},   {"--kernels", "cpp"}, {"--engine", "auto"},
                                         {"--trace", "t"}, {"--log", "l"},       {"--html", "h"},
@@ -89,7 +89,7 @@ TEST_CASE("the option --final-only excludes all options that need a path") {
   }
 }
 
-TEST_CASE("a number that is not given differs from a given 0") {
+TEST_CASE("an option without a value differs from the same option with the value 0") {
   CHECK_FALSE(parsed<explain_options>({"explain", "f"}).step.has_value());
   CHECK(parsed<explain_options>({"explain", "f", "--step", "0"}).step == 0);
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");
@@ -97,7 +97,7 @@ TEST_CASE("a number that is not given differs from a given 0") {
   CHECK(parsed<fuzz_options>({"fuzz", "--problems", "0"}).problems == 0);
 }
 
-TEST_CASE("the options --help and --version are texts, not commands") {
+TEST_CASE("the options --help and --version print a text instead of running a command") {
   const auto help = parsed<printed_text>({"--help"}).text;
   for (const char* command :
        {"run", "check", "explain", "exact", "new", "verify", "fuzz", "replay", "kernels"})
@@ -107,7 +107,7 @@ TEST_CASE("the options --help and --version are texts, not commands") {
   CHECK_THAT(parsed<printed_text>({"--version"}).text, StartsWith("contct ") && Contains("listing sha256 "));
 }
 
-TEST_CASE("a meaningless command line is refused with a suggestion") {
+TEST_CASE("a command line without a meaning is refused, with a suggestion if a name is similar") {
   CHECK_THAT(refusal({"rnu"}),
              StartsWith("\"rnu\" is no command of contct (did you mean \"run\"?); the commands "
                         "are: run, check, explain, "));

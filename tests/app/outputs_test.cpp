@@ -39,7 +39,9 @@ const check_report two_of_three{
 
 }  // namespace
 
-TEST_CASE("no output of any command replaces a file that the problem names, under any name or link") {
+TEST_CASE(
+    "no output of any command replaces a file that the problem names, also under another name or through a "
+    "link") {
   const scratch_folder dir;
   fs::copy(root / "reference/structures", dir.path(), fs::copy_options::recursive);
   fs::create_hard_link(dir.path() / "frame.mtx", dir.path() / "hard");
@@ -70,7 +72,7 @@ TEST_CASE("no output of any command replaces a file that the problem names, unde
   CHECK(dir.read("frame.mtx") == before);
 }
 
-TEST_CASE("the table of pairs next to that of --csv does not replace a file that the problem names") {
+TEST_CASE("the table of pairs, which --csv also writes, does not replace a file that the problem names") {
   const scratch_folder dir;
   dir.write("K.pairs.csv", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
   dir.write("p.toml",
@@ -79,7 +81,7 @@ TEST_CASE("the table of pairs next to that of --csv does not replace a file that
   CHECK_THAT(dir.read("K.pairs.csv"), Contains("MatrixMarket"));
 }
 
-TEST_CASE("contct verify replaces neither its table nor a reference problem") {
+TEST_CASE("contct verify replaces neither its table verification.toml nor a reference problem") {
   const scratch_folder dir;
   fs::copy(root / "reference/verification.toml", dir.path());
   fs::copy(root / "reference/problems", dir.path() / "problems", fs::copy_options::recursive);
@@ -91,7 +93,7 @@ TEST_CASE("contct verify replaces neither its table nor a reference problem") {
   }
 }
 
-TEST_CASE("an output with an empty name is refused, by every command") {
+TEST_CASE("every command refuses an output file with an empty name") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   int refused = 0;
@@ -112,7 +114,7 @@ TEST_CASE("an output with an empty name is refused, by every command") {
   CHECK(refused == 20);
 }
 
-TEST_CASE("two results in one file are refused, whatever names the file has") {
+TEST_CASE("two outputs in one file are refused, whatever names the file has") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("out", dir.path() / "link");
@@ -126,7 +128,7 @@ TEST_CASE("two results in one file are refused, whatever names the file has") {
         0);
 }
 
-TEST_CASE("a result in the problem's own file is refused, also through a link, also from standard input") {
+TEST_CASE("an output in the problem's own file is refused, also through a link") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("pb.toml", dir.path() / "link");
@@ -140,7 +142,7 @@ TEST_CASE("a result in the problem's own file is refused, also through a link, a
 }
 
 TEST_CASE(
-    "a result in the file that standard output is redirected to is refused, and the message suggests -") {
+    "an output in the file to which standard output is redirected is refused, and the message suggests -") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   dir.write("out", "");
@@ -149,7 +151,7 @@ TEST_CASE(
       Contains("the file of standard output"));
 }
 
-TEST_CASE("a result goes through a symbolic link to its target") {
+TEST_CASE("an output through a symbolic link is written to the link's target") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("target", dir.path() / "link");
@@ -161,7 +163,8 @@ TEST_CASE("a result goes through a symbolic link to its target") {
 }
 
 TEST_CASE(
-    "a full or closed standard output gives exit status 2 and a message, and the files are still written") {
+    "a full or closed standard output gives exit status 2 and a message, but output files are still "
+    "written") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& arguments : {words{"run", "pb.toml"},
@@ -185,7 +188,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a pipe that cuts off the table does not prevent the page: contct run .. --html page.html | head") {
+TEST_CASE("contct run writes the whole page of --html, even if a pipe to head cuts off the table") {
   const scratch_folder dir;
   std::string text = good_problem;
   for (int i = 0; i < 2000; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
@@ -201,7 +204,7 @@ TEST_CASE("a pipe that cuts off the table does not prevent the page: contct run 
   CHECK(fs::exists(dir.path() / "table.csv"));
 }
 
-TEST_CASE("an answer without numbers gives exit status 2 and no files") {
+TEST_CASE("a run whose stiffness is too ill-conditioned has exit status 2 and writes no files") {
   // PB9, so stiff that the springs vanish in the rounding of the beam's own stiffness.
   const scratch_folder dir;
   dir.write("stiff.toml",
@@ -215,7 +218,7 @@ TEST_CASE("an answer without numbers gives exit status 2 and no files") {
   CHECK(dir.files() == words{"stiff.toml"});
 }
 
-TEST_CASE("kernels that were never called are not reported as equal") {
+TEST_CASE("kernels that were never called are not reported as equal to the bit") {
   const scratch_folder dir;
   dir.write("loose.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\n"
@@ -226,7 +229,7 @@ TEST_CASE("kernels that were never called are not reported as equal") {
   CHECK_THAT(f.out, !Contains("equal to the bit"));
 }
 
-TEST_CASE("a JUnit report counts what failed and was skipped, and escapes what XML forbids") {
+TEST_CASE("a JUnit report counts failed and skipped tests, and escapes the characters that XML forbids") {
   const std::string xml = junit_xml(two_of_three);
   CHECK_THAT(xml, Contains("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\" time=\"0.500\""));
   CHECK_THAT(xml, Contains("name=\"b &lt;&amp;&gt; &quot;c&quot;.trace: mine\""));
@@ -238,7 +241,7 @@ TEST_CASE("a JUnit report counts what failed and was skipped, and escapes what X
              Contains("<testsuite name=\"two&#10;lines\" tests=\"0\""));
 }
 
-TEST_CASE("a Markdown summary begins with the verdict, and no text breaks its table") {
+TEST_CASE("a Markdown summary begins with the verdict, and no text of a test breaks its table") {
   const std::string text = markdown(two_of_three);
   CHECK(text.rfind("## contct replay: failed\n", 0) == 0);
   CHECK_THAT(text, Contains("1 passed, 1 failed, 1 skipped"));

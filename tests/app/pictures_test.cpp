@@ -53,7 +53,7 @@ std::size_t states_in(const nlohmann::json& result) {
 
 }  // namespace
 
-TEST_CASE("a run writes its page, tables and grids, and no other files") {
+TEST_CASE("contct run --html --csv --vtu writes its page, tables and grids, and no other files") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), run_of(all_of_them));
@@ -66,7 +66,7 @@ TEST_CASE("a run writes its page, tables and grids, and no other files") {
 }
 
 TEST_CASE(
-    "the page has the result that --json writes, and also the structure, states within steps and calls") {
+    "the page has the result that --json writes, the structure, the states within steps and the calls") {
   for (const char* file :
        {"pb01-cantilever-tip-stop", "pb07-three-gap-supports", "pp03d-corners-and-settled-stop-n4"}) {
     INFO(file);
@@ -92,8 +92,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "pictures in one file with another result are refused, all files that --csv and --vtu make included") {
+TEST_CASE("an output is refused if it has the name of any file that --html, --csv or --vtu writes") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& two : {words{"--html", "out", "--csv", "out"},
@@ -115,7 +114,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the output - for standard output suppresses all other text") {
+TEST_CASE("if an output is -, only this output is written to standard output") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
@@ -124,7 +123,7 @@ TEST_CASE("the output - for standard output suppresses all other text") {
   CHECK(dir.files() == words{"pb.toml"});  // and no table of pairs
 }
 
-TEST_CASE("the page has the date of the run, or the one that SOURCE_DATE_EPOCH names") {
+TEST_CASE("the page has the date of the run, or the date in SOURCE_DATE_EPOCH") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   process_options o;

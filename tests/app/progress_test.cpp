@@ -46,7 +46,7 @@ class plate_directory : public scratch_folder {
 
 }  // namespace
 
-TEST_CASE("every long command shows its progress on a terminal, and erases it in the end") {
+TEST_CASE("every long command shows its progress on a terminal, and erases it at the end") {
   const plate_directory dir;
   for (const long_work& w : long_works()) {
     INFO(w.name);
@@ -59,7 +59,7 @@ TEST_CASE("every long command shows its progress on a terminal, and erases it in
   }
 }
 
-TEST_CASE("no progress is shown with --quiet, nor on a standard error that is not a terminal") {
+TEST_CASE("no command shows progress with --quiet, or if standard error is not a terminal") {
   const plate_directory dir;
   for (const long_work& w : long_works()) {
     INFO(w.name);
@@ -75,7 +75,7 @@ TEST_CASE("no progress is shown with --quiet, nor on a standard error that is no
   CHECK(contct_program(dir.path(), {"run", "plate.toml"}, at_once).err.empty());
 }
 
-TEST_CASE("if table and progress share a terminal, every row of the table begins on a clean line") {
+TEST_CASE("if table and progress share a terminal, every row of the table begins on an empty line") {
   const plate_directory dir;
   const std::vector<std::string> run = {"run", "plate.toml", "--kernels", "corrected"};
   const finished plain = contct_program(dir.path(), run);
@@ -94,7 +94,7 @@ TEST_CASE("if table and progress share a terminal, every row of the table begins
   CHECK(screen == plain.out);
 }
 
-TEST_CASE("a waiting time that is not a number of seconds is refused") {
+TEST_CASE("a CONTCT_PROGRESS_AFTER that is not a number of seconds is refused") {
   const plate_directory dir;
   for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {
     const finished f = at_terminal(dir, {"run", "plate.toml"}, wrong);

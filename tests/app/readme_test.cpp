@@ -31,7 +31,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 
 }  // namespace
 
-TEST_CASE("the run in the README equals the program's output") {
+TEST_CASE("the run shown in README.md equals the program's output") {
   const std::string problem = "reference/problems/pb07-three-gap-supports.toml";
   const std::string shown = between(readme(), "$ build/release/contct run " + problem + "\n", "```");
   const finished f = contct_program(root, {"run", problem});
@@ -39,7 +39,7 @@ TEST_CASE("the run in the README equals the program's output") {
   CHECK(shown == f.out);
 }
 
-TEST_CASE("the README's beam can be run") {
+TEST_CASE("the beam in README.md can be run, and has an event") {
   const std::string text = readme();
   int problems = 0;
   for (std::size_t at = text.find("```toml\n"); at != std::string::npos;
@@ -55,7 +55,7 @@ TEST_CASE("the README's beam can be run") {
   CHECK(problems == 1);
 }
 
-TEST_CASE("the README cites the program under the name and version that it reports") {
+TEST_CASE("README.md cites the program with the name, version and checksum that --version prints") {
   const std::string cited = between(readme(), "@software{contct,", "```");
   const finished f = contct_program(root, {"--version"});
   const std::string version = between(f.out, "contct ", "\n");
@@ -65,7 +65,7 @@ TEST_CASE("the README cites the program under the name and version that it repor
   CHECK_THAT(cited, Catch::Matchers::Contains("Listing SHA-256 " + checksum + "}"));
 }
 
-TEST_CASE("the trace in the format's page is valid, and FORTRAN and C++ give its answers") {
+TEST_CASE("the trace in trace-format.md is valid, and FORTRAN and C++ give its answers") {
   process_options shown;
   shown.input = between(page("reference/trace-format.md"), "```trace\n", "```");
   const finished f = contct_program(root, {"replay", "--kernel", "fortran,cpp", "-"}, shown);

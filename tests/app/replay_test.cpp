@@ -27,7 +27,7 @@ std::string recorded(const scratch_folder& dir, const char* problem) {
 
 }  // namespace
 
-TEST_CASE("a recorded path replays equal to the bit, by FORTRAN and by its twin") {
+TEST_CASE("FORTRAN and C++ replay a recorded path equal to the bit") {
   const scratch_folder dir;
   const std::string trace = recorded(dir, "pb07-three-gap-supports.toml");
   CHECK_THAT(trace, Contains("\nlapack LAPACK ") && Contains("\nfloating-point strict\n"));
@@ -41,7 +41,7 @@ TEST_CASE("a recorded path replays equal to the bit, by FORTRAN and by its twin"
   CHECK_THAT(piped.out, Contains("standard input: fortran: equal"));
 }
 
-TEST_CASE("a trace of one precision is not replayed by a kernel of another") {
+TEST_CASE("a kernel of another precision does not replay a trace") {
   const scratch_folder dir;
   recorded(dir, "pb01-cantilever-tip-stop.toml");
   const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "cpp-r4"});
@@ -51,7 +51,7 @@ TEST_CASE("a trace of one precision is not replayed by a kernel of another") {
 }
 
 TEST_CASE(
-    "a trace whose answer differs gives exit status 1, the branch margin, and a failure in the reports") {
+    "a trace with a changed answer gives exit status 1, the branch margin, and a failure in the reports") {
   const scratch_folder dir;
   std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");
   const std::size_t at = trace.find("MAKING");
@@ -67,8 +67,7 @@ TEST_CASE(
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
 }
 
-TEST_CASE(
-    "the golden set leads a kernel with a known fault to its line, and to the course's sentence about it") {
+TEST_CASE("a replay of all reference traces names the faulty line of a kernel, and the known fault") {
   std::vector<std::string> arguments = {
       "replay", "--quiet", "--kernel", "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so"};
   std::vector<std::string> traces;
@@ -82,7 +81,7 @@ TEST_CASE(
   CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
 }
 
-TEST_CASE("a file that is not a trace is refused with file and line") {
+TEST_CASE("contct replay refuses a file that is not a trace, and names the file") {
   const scratch_folder dir;
   dir.write("empty.trace", "");
   dir.write("header.trace", "contct-trace-1 2026-11-21\nkernel fortran\n");
@@ -95,7 +94,7 @@ TEST_CASE("a file that is not a trace is refused with file and line") {
   CHECK(contct_program(dir.path(), {"replay"}).exit == 2);
 }
 
-TEST_CASE("contct-replay is the same code, and needs neither LAPACK nor BLAS") {
+TEST_CASE("contct-replay prints the same as contct replay, and needs neither LAPACK nor BLAS") {
   const scratch_folder dir;
   recorded(dir, "pb07-three-gap-supports.toml");
   const std::string program = (fs::path(CONTCT_PROGRAM).parent_path() / "contct-replay").string();
@@ -107,7 +106,7 @@ TEST_CASE("contct-replay is the same code, and needs neither LAPACK nor BLAS") {
   CHECK_THAT(shell("ldd " + std::string(CONTCT_PROGRAM)).out, Contains("lapack"));  // the look would see it
 }
 
-TEST_CASE("run tells a CI system the kernels, the path and the certificate") {
+TEST_CASE("the JUnit report of a run has one test each for kernels, path and certificate") {
   const scratch_folder dir;
   const finished f =
       contct_program(dir.path(), {"run", reference_problem("pb05-cantilever-over-flat-obstacle.toml"),

@@ -56,7 +56,7 @@ class built_project {
 
 }  // namespace
 
-TEST_CASE("run.sh takes file names as the caller's, wherever it is called from") {
+TEST_CASE("run.sh takes file names relative to the folder in which it is called") {
   const built_project project;
   const scratch_folder elsewhere;
   elsewhere.write("my own.toml", good_problem);
@@ -67,7 +67,7 @@ TEST_CASE("run.sh takes file names as the caller's, wherever it is called from")
   CHECK(elsewhere.files() == std::vector<std::string>{"my own.toml", "out.json"});
 }
 
-TEST_CASE("run.sh alone runs the README's problem, from anywhere") {
+TEST_CASE("run.sh without arguments runs the README's problem from any folder") {
   const built_project project;
   const scratch_folder elsewhere;
   const auto [at_home, shown] = project.run(project.root(), "");
@@ -89,7 +89,7 @@ TEST_CASE("run.sh alone runs the README's problem, from anywhere") {
           "all 4 final states are certified for this mesh\nproved: 10 digits or more of every number\n"));
 }
 
-TEST_CASE("run.sh returns the program's exit status, and shows why a build fails") {
+TEST_CASE("run.sh returns the program's exit status, and prints the last messages of a failed build") {
   const built_project project;
   const scratch_folder elsewhere;
   CHECK(WEXITSTATUS(project.run(elsewhere.path(), "run missing.toml").first) == 2);

@@ -28,7 +28,7 @@ std::size_t longest_line(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the table shows share, s, load, event, node and side, and that the kernels agreed") {
+TEST_CASE("the table shows share, s, load, event, node and side, and whether the kernels agree") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"});
@@ -48,7 +48,8 @@ TEST_CASE("the table shows share, s, load, event, node and side, and that the ke
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
 }
 
-TEST_CASE("without --kernels the answer is the corrected rule's, and each row says what the 1989 rule does") {
+TEST_CASE(
+    "without --kernels, the answer is the corrected rule's, and each row shows what the 1989 rule does") {
   const scratch_folder dir;
   const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
   const finished f = contct_program(dir.path(), {"run", near, "--strict", "--json", "o.json"});
@@ -77,7 +78,7 @@ TEST_CASE("without --kernels the answer is the corrected rule's, and each row sa
   CHECK(unloaded["right"] == 0.0);
 }
 
-TEST_CASE("errors of the 1989 rule are not red if the answer is certified") {
+TEST_CASE("the table does not print errors of the 1989 rule in red if the answer is certified") {
   const scratch_folder dir;
   const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
   const process_options at_terminal{"", {{"TERM", "xterm"}}, true};
@@ -87,7 +88,7 @@ TEST_CASE("errors of the 1989 rule are not red if the answer is certified") {
              Contains(red));
 }
 
-TEST_CASE("without --kernels the trace and unit 26 are those of the 1989 rule alone") {
+TEST_CASE("without --kernels, the trace and the text of unit 26 are those of the 1989 rule") {
   const scratch_folder dir;
   const std::string pb7 = CONTCT_ROOT "/reference/problems/pb07-three-gap-supports.toml";
   const auto calls = [&](std::vector<std::string> more) {
@@ -99,8 +100,7 @@ TEST_CASE("without --kernels the trace and unit 26 are those of the 1989 rule al
   CHECK(calls({}) == calls({"--kernels", "fortran"}));
 }
 
-TEST_CASE(
-    "a beam without a bed does not change on half the element size, and a matrix is refused before solving") {
+TEST_CASE("--refine reports no change for a beam without a bed, and refuses a matrix") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--refine", "--json", "o.json"});
@@ -122,7 +122,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a bed's step has the pressure and the length in contact, and --refine says that it has more pairs") {
+    "a step's table has a bed's pressure and contact length, and --refine reports that it doubles the bed's "
+    "pairs") {
   const finished f = contct_program(
       "/", {"run", std::string(CONTCT_ROOT) + "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels",
             "corrected", "--refine"});
@@ -133,7 +134,7 @@ TEST_CASE(
   CHECK_THAT(f.out, Contains("pressure by 0.0157 (0.47 %)") && Contains("a bed has twice as many pairs"));
 }
 
-TEST_CASE("the table fits its terminal, from 40 columns to 160") {
+TEST_CASE("the table fits its terminal, from 40 to 160 columns") {
   const scratch_folder dir;
   std::string busy =
       "title = \"A beam of a long name, with which the narrowest of all terminals has its trouble\"\n"
@@ -157,7 +158,7 @@ TEST_CASE("the table fits its terminal, from 40 columns to 160") {
   }
 }
 
-TEST_CASE("a table shows the node that was requested by number or by x, and an unknown node is refused") {
+TEST_CASE("the option --node selects a node by number or by x, and an unknown node is refused") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const char* node : {"2", "x = 1", "x=1.0"})
@@ -174,7 +175,7 @@ TEST_CASE("a table shows the node that was requested by number or by x, and an u
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});
 }
 
-TEST_CASE("on a narrow terminal an increment's events stand on lines of their own") {
+TEST_CASE("on a narrow terminal, an increment's events are on lines below the increment") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"},
@@ -193,7 +194,7 @@ TEST_CASE("on a narrow terminal an increment's events stand on lines of their ow
                              "    reaction 18.1395, node 1\n"));
 }
 
-TEST_CASE("colour appears only on terminals: not in a pipe, under NO_COLOR or on a dumb terminal") {
+TEST_CASE("colour appears only on a terminal, and neither with NO_COLOR nor with TERM=dumb") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto escapes = [&](const process_options& o) {
@@ -208,7 +209,7 @@ TEST_CASE("colour appears only on terminals: not in a pipe, under NO_COLOR or on
   CHECK(escapes({"", {{"TERM", "dumb"}}, true}) == 0);
 }
 
-TEST_CASE("a problem can be read from standard input, and its result alone be written to standard output") {
+TEST_CASE("contct run reads a problem from standard input and writes only the result to standard output") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"run", "-", "--json", "-"}, {good_problem, {}, false});
   CHECK(f.exit == 0);
@@ -217,7 +218,8 @@ TEST_CASE("a problem can be read from standard input, and its result alone be wr
   CHECK(dir.files().empty());
 }
 
-TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the same file") {
+TEST_CASE(
+    "the option --log writes the leading kernel's unit 26, which is the same file for FORTRAN and C++") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran", "--log", "fortran.log"}).exit ==
@@ -230,9 +232,7 @@ TEST_CASE("unit 26 of the leader can be kept, and FORTRAN's and C++'s are the sa
   CHECK(dir.read("cpp.log") == dir.read("fortran.log"));
 }
 
-TEST_CASE(
-    "a mechanism gives exit status 4, with step, share of the step, and the pair whose separation led to "
-    "it") {
+TEST_CASE("a mechanism gives exit status 4, and the message names the pair that separated") {
   const scratch_folder dir;
   dir.write("freed.toml", freed);
   const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
@@ -245,7 +245,7 @@ TEST_CASE(
   CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
 }
 
-TEST_CASE("the limit of increments gives exit status 5, and the result names it") {
+TEST_CASE("a run that reaches --max-increments has exit status 5, and its result names this reason") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp",
@@ -255,7 +255,7 @@ TEST_CASE("the limit of increments gives exit status 5, and the result names it"
   CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "iteration-limit");
 }
 
-TEST_CASE("a single kernel is not compared with any other, and the output says so") {
+TEST_CASE("a run with a single kernel makes no comparison, and does not claim equality") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f =
@@ -265,7 +265,8 @@ TEST_CASE("a single kernel is not compared with any other, and the output says s
   CHECK(nlohmann::json::parse(dir.read("out.json"))["lockstep"].is_null());
 }
 
-TEST_CASE("free run: every kernel follows its own path, and r4 differs from r8 within a stated bound") {
+TEST_CASE(
+    "in a free run every kernel follows its own path, and r4 differs from r8 by less than a stated bound") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",
@@ -280,9 +281,7 @@ TEST_CASE("free run: every kernel follows its own path, and r4 differs from r8 w
   CHECK(result["free_run"][1]["displacement"] > 0.0);
 }
 
-TEST_CASE(
-    "free run: a share of the step beyond its bound gives exit status 1, and the message has the "
-    "difference") {
+TEST_CASE("a free run has exit status 1 if the share of an event differs by more than the bound") {
   // The node ends 1e-5 before its face, and then 1e-5 beyond it: single precision cannot tell at which share
   // it meets the face.
   const scratch_folder dir;
@@ -303,7 +302,7 @@ TEST_CASE(
   CHECK_THAT(dir.read("out.log"), Contains("MAKING"));
 }
 
-TEST_CASE("contct kernels and --version name the listing's checksum and the floating-point probe") {
+TEST_CASE("contct kernels prints the listing's checksum and the result of the floating-point probe") {
   const scratch_folder dir;
   const finished kernels = contct_program(dir.path(), {"kernels"});
   CHECK(kernels.exit == 0);
@@ -315,8 +314,7 @@ TEST_CASE("contct kernels and --version name the listing's checksum and the floa
   CHECK_THAT(kernels.out, Contains(checksum));
 }
 
-TEST_CASE(
-    "an uncertified state under --strict gives exit status 3, and the toggle that was too early is named") {
+TEST_CASE("with --strict an uncertified state gives exit status 3, and the message names the early toggle") {
   const scratch_folder dir;
   const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
   CHECK(contct_program(dir.path(), {"run", pb5, "--kernels", "fortran,cpp"}).exit == 0);
@@ -335,7 +333,7 @@ TEST_CASE(
   CHECK(contct_program(dir.path(), {"run", pb5, "--strict", "--kernels", "corrected"}).exit == 0);
 }
 
-TEST_CASE("the 1989 rule uses refactor by default, and the corrected rule the fastest engine") {
+TEST_CASE("the 1989 rule uses the engine refactor by default, and the corrected rule the fastest engine") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto engine_of = [&dir](std::vector<std::string> more) {

@@ -104,7 +104,7 @@ void write_matrix_problem(const scratch_folder& dir, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("no text of a problem sends control characters to a terminal, in any command") {
+TEST_CASE("no text of a problem file sends control characters to a terminal, in any command") {
   const scratch_folder dir;
   int escaped = 0;
   const std::string name = "p" + hostile_bytes + "'\n.toml";
@@ -115,7 +115,7 @@ TEST_CASE("no text of a problem sends control characters to a terminal, in any c
   CHECK(escaped >= 25);
 }
 
-TEST_CASE("no text of named files, traces or folders of problems sends control characters to a terminal") {
+TEST_CASE("no text of a trace or of a file that a problem names sends control characters to a terminal") {
   const scratch_folder dir;
   int escaped = 0;
   write_matrix_problem(dir, "n");
@@ -141,7 +141,7 @@ TEST_CASE("no text of named files, traces or folders of problems sends control c
   CHECK(escaped >= 2);
 }
 
-TEST_CASE("a kernel that answers with control characters is reported in plain characters") {
+TEST_CASE("control characters in a kernel's answer are escaped in messages") {
   const scratch_folder dir;
   dir.write("p.toml", filled(beam_problem, ""));
   dir.write("kernel.sh",
@@ -156,7 +156,7 @@ TEST_CASE("a kernel that answers with control characters is reported in plain ch
   CHECK(escaped >= 2);
 }
 
-TEST_CASE("a problem names files below its folder, and others under --allow-outside, in every command") {
+TEST_CASE("every command refuses a file outside the problem's folder unless --allow-outside is given") {
   const scratch_folder dir;
   fs::create_directory(dir.path() / "own");
   dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");

@@ -21,7 +21,7 @@ error_bounds bounds(double w, double w_size, double force, double force_size) {
 
 }  // namespace
 
-TEST_CASE("the allowed error of a kind is a millionth of its largest number in this state") {
+TEST_CASE("the allowed error of a quantity is a millionth of its largest number in the same state") {
   allowed_errors sizes;
   const by_quantity of_large = sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
   CHECK(of_large[quantity::w] == Approx(2e-6));
@@ -43,7 +43,7 @@ TEST_CASE("the allowed error of an unloaded state is relative to the largest num
 }
 
 TEST_CASE(
-    "the allowed error of an unloaded state depends neither on its own errors nor on unproved earlier "
+    "the allowed error of an unloaded state does not depend on its own errors or on unproved earlier "
     "states") {
   allowed_errors sizes;
   (void)sizes.of(bounds(3.0, 2.0, 20.0, 50.0), 10.0);
@@ -54,7 +54,9 @@ TEST_CASE(
   CHECK(allowed[quantity::force] == Approx(30e-6));
 }
 
-TEST_CASE("the worst share and its words") {
+TEST_CASE(
+    "the worst error is given as a share of what is allowed, and its message is relative to the largest "
+    "number") {
   allowed_errors sizes;
   const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);
   const by_quantity allowed = sizes.of(b, 10.0);
@@ -69,7 +71,7 @@ TEST_CASE("the worst share and its words") {
   CHECK(worst_bound(good.error, sizes.of(good, 10.0)).empty());
 }
 
-TEST_CASE("a bound where nothing is allowed is the worst of all, and so is NaN") {
+TEST_CASE("an error of a quantity without an allowed error, or a NaN error, is the worst of all") {
   by_quantity error, allowed;
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
@@ -83,7 +85,7 @@ TEST_CASE("a bound where nothing is allowed is the worst of all, and so is NaN")
   CHECK_FALSE(worst_bound(error, allowed).empty());
 }
 
-TEST_CASE("the allowed error does not grow with the bounds") {
+TEST_CASE("the allowed error does not grow with the error bounds") {
   for (const double bound : {1e-30, 1.0, 1e30}) {
     allowed_errors sizes;
     const by_quantity allowed = sizes.of(bounds(bound, 0.0, bound, 200.0), 2.0);
@@ -92,16 +94,14 @@ TEST_CASE("the allowed error does not grow with the bounds") {
   }
 }
 
-TEST_CASE("forces of a beam that only couples bend may be off by 2^-60 of its moments over the span") {
+TEST_CASE("the forces of a beam under couples alone may be off by 2^-60 of its moments divided by the span") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.size[quantity::moment] = 40.0;
   allowed_errors sizes;
   CHECK(sizes.of(b, 10.0)[quantity::force] == Approx(0x1p-60 * 4));
 }
 
-TEST_CASE(
-    "if supports only settle, the allowed error of forces is 2^-70 of the force that moves one of them "
-    "alone") {
+TEST_CASE("if only supports settle, forces may be off by 2^-70 of the force that settles one support alone") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.settling[quantity::force] = 2.0;
   allowed_errors of_matrix;
@@ -111,7 +111,7 @@ TEST_CASE(
   CHECK(of_beam.of(b, 10.0)[quantity::force] == Approx(0x1p-70 * 6));
 }
 
-TEST_CASE("the allowed error of a gap is relative to the deflections, or to the largest gap") {
+TEST_CASE("the allowed error of a gap is relative to the largest deflection or gap, whichever is larger") {
   error_bounds b = bounds(1e-9, 2.0, 1e-9, 50.0);
   b.error[quantity::gap] = 1e-9;
   b.size[quantity::gap] = 1.0;
@@ -121,7 +121,7 @@ TEST_CASE("the allowed error of a gap is relative to the deflections, or to the 
   CHECK(sizes.of(b, 10.0)[quantity::gap] == Approx(30e-6));
 }
 
-TEST_CASE("a NaN error is the largest of all, whatever follows") {
+TEST_CASE("a NaN error is recorded as infinite, and later errors do not replace it") {
   by_quantity error;
   for (const double value : {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})
     error.take(quantity::force, value);

@@ -87,7 +87,7 @@ beam_problem span_with_pairs() {
 
 }  // namespace
 
-TEST_CASE("a correct state is certified, with no error in any measure") {
+TEST_CASE("a correct state is certified, with no error in any measure of the certificate") {
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
   REQUIRE(right.isep == std::vector<int>{in_contact, in_contact, separated, separated});
@@ -103,7 +103,8 @@ TEST_CASE("a correct state is certified, with no error in any measure") {
   CHECK(c.rcond == right.rcond);
 }
 
-TEST_CASE("an error of a state appears in the measures that it affects, and the message names the worst") {
+TEST_CASE(
+    "an error of a state appears in every measure that it affects, and the message names the worst measure") {
   // On a spring that is too weak for the balance to tell a status that is wrong is seen alone.
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
@@ -136,7 +137,9 @@ TEST_CASE("an error of a state appears in the measures that it affects, and the 
   CHECK(judged(p, t).certified);
 }
 
-TEST_CASE("a wrong deflection that hardly disturbs equilibrium is detected only by the reference solution") {
+TEST_CASE(
+    "an error in w that hardly disturbs equilibrium is detected only by comparison with the reference "
+    "solution") {
   // A nearly rigid beam on soft springs, sunk by a hundred-thousandth too much.
   beam_problem p = free_beam_on_springs(4.0, 4, 1e10, 1.0);
   p.steps = {{{}, {{{-1.0}, {}}}}};
@@ -147,7 +150,7 @@ TEST_CASE("a wrong deflection that hardly disturbs equilibrium is detected only 
   CHECK(c.displacement_error == Approx(1e-5).epsilon(1e-3));
 }
 
-TEST_CASE("a missing force on a stiff support violates only equilibrium, not the displacements") {
+TEST_CASE("a missing force on a stiff support violates equilibrium, but hardly changes displacements") {
   // The changed load acts on a nearly rigid support.
   beam_problem p = span_with_pairs();
   p.pairs[0] = {4, face_below, -0.1, stiff, false};
@@ -162,7 +165,7 @@ TEST_CASE("a missing force on a stiff support violates only equilibrium, not the
   CHECK(wrong_in(judged(changed, t)) == "DSE");
 }
 
-TEST_CASE("the equilibrium of a fixed dof is not checked, since its load goes to the support") {
+TEST_CASE("a fixed dof's equilibrium is not checked, because its support carries its load") {
   beam_problem p = span_with_pairs();
   const told_state t = right_state(p, p.steps[0]);
   p.steps[0].points = {{0, 0, -1e6}};
@@ -192,7 +195,7 @@ TEST_CASE("a step that did not reach its load has no certificate") {
   CHECK_FALSE(j.c.all_certified());
 }
 
-TEST_CASE("without an equilibrium no state is certified, and the certificate says why") {
+TEST_CASE("without an equilibrium no state is certified, and the certificate gives this reason") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   p.steps = {{{}, {{{1.0}, {}}}}};
   const certificate c = judged(p, {std::vector<double>(10, 0.0), std::vector<int>(5, separated)});
@@ -200,7 +203,7 @@ TEST_CASE("without an equilibrium no state is certified, and the certificate say
   CHECK(says(c, "there is no equilibrium"));
 }
 
-TEST_CASE("if a rigid-body motion is free, displacements are not compared, but all else is") {
+TEST_CASE("if a rigid-body motion is free, displacements are not compared, but everything else is checked") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   told_state t = right_state(p, p.steps[0]);
@@ -216,7 +219,9 @@ TEST_CASE("if a rigid-body motion is free, displacements are not compared, but a
   CHECK(wrong_in(judged(p, t)) == "E");
 }
 
-TEST_CASE("the allowed error of an unloaded state is relative to the largest deflection of the path") {
+TEST_CASE(
+    "a certificate measures an unloaded state's displacement error relative to the path's largest "
+    "deflection") {
   beam_problem p = span_with_pairs();
   p.steps.emplace_back();
   told_state loaded = right_state(p, p.steps[0]);
@@ -238,7 +243,7 @@ TEST_CASE("the allowed error of an unloaded state is relative to the largest def
 }
 
 TEST_CASE(
-    "the allowed error of a structure that turns without sinking is not relative to the rounding of "
+    "if a structure only rotates, its displacement error is not relative to the rounding of its "
     "deflections") {
   // Equal moments at both ends of a span: its middle does not move, up to about eps times the rotation.
   beam_problem p{
@@ -255,7 +260,7 @@ TEST_CASE(
   CHECK(judged(p, t).displacement_error > 1e-9);
 }
 
-TEST_CASE("units do not matter: lengths and forces from 1e-12 to 1e12") {
+TEST_CASE("measures of a certificate do not change with units of length and force from 1e-12 to 1e12") {
   const auto in_units = [](double length, double force) {
     beam_problem p = span_with_pairs();
     for (double& x : p.geometry.x) x *= length;
@@ -292,7 +297,7 @@ TEST_CASE("units do not matter: lengths and forces from 1e-12 to 1e12") {
   }
 }
 
-TEST_CASE("a NaN or infinite displacement is not certified, at any dof") {
+TEST_CASE("a state with a NaN or infinite displacement at any dof is not certified") {
   const beam_problem p = span_with_pairs();
   for (const double odd :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -307,7 +312,8 @@ TEST_CASE("a NaN or infinite displacement is not certified, at any dof") {
 }
 
 TEST_CASE(
-    "the listing's early toggle is found, with step, pair and distance, and the state shows its error") {
+    "an early toggle of the 1989 rule is reported with step, pair and distance, and its state is not "
+    "certified") {
   // Two stops alike under a symmetric load, the second 0.3 % farther away: within EPSMUL of the first.
   const beam_problem p{even_beam(8.0, 8, 1e5),
                        {{0, 0, true}, {8, 0, true}},
@@ -332,7 +338,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a load that nothing carries has no final state, and the message names no step") {
+TEST_CASE("a load without an equilibrium has no final state") {
   // Two props under a free beam: they carry its weight, and no pull.
   beam_problem p{even_beam(4.0, 4, 1.0), {}, {{0, -1, 0.0, 1.0, true}, {4, -1, 0.0, 1.0, true}}, {}};
   p.steps = {tip_load(2, -1.0), tip_load(2, 1.0), tip_load(2, 1.0)};
@@ -347,7 +353,7 @@ TEST_CASE("a load that nothing carries has no final state, and the message names
   CHECK(told.steps[0].u[4] < 0.0);
 }
 
-TEST_CASE("the certificate of a state taken from the reference solution is not independent") {
+TEST_CASE("a certificate of a state taken from the reference solution is marked as not independent") {
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
@@ -364,7 +370,7 @@ TEST_CASE("the certificate of a state taken from the reference solution is not i
   CHECK(judged.all_certified());
 }
 
-TEST_CASE("a final state of a path that cannot be proved is replaced by the reference solution") {
+TEST_CASE("a final state that cannot be proved is replaced by the reference solution") {
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
@@ -378,7 +384,7 @@ TEST_CASE("a final state of a path that cannot be proved is replaced by the refe
   CHECK(end.state->numbers.has_value());
 }
 
-TEST_CASE("an unloaded beam held only by its faces is certified above them, and not certified below") {
+TEST_CASE("an unloaded beam without supports is certified above its faces, but not below them") {
   problem p;
   p.geometry.kind = beam{{0.0, 1.0}, {1e4}};
   p.pairs = {{0, face_below, 0.0, 10.0, false}, {1, face_below, 0.0, 10.0, false}};
@@ -394,8 +400,7 @@ TEST_CASE("an unloaded beam held only by its faces is certified above them, and 
   }
 }
 
-TEST_CASE(
-    "a structure that lies beyond a face is not certified, whether or not there is a reference solution") {
+TEST_CASE("a structure beyond a face is not certified, with or without a reference solution") {
   for (const double shortest : {0.5, 1e-9}) {  // the reference solution has no factor for the second
     problem p;
     beam b;

@@ -78,7 +78,8 @@ TEST_CASE("A stop raised by m under a cantilever presses with the force (m - gap
   });
 }
 
-TEST_CASE("A rack that goes down separates from the beam at the deflection of the beam without the rack") {
+TEST_CASE(
+    "A support that moves down separates from the beam at the deflection of the beam without this support") {
   problem p;
   p.geometry.kind = even_beam(6.0, 4, 1e4);
   p.supports = {{0, 0, true}, {4, 0, true}};
@@ -99,7 +100,7 @@ TEST_CASE("A rack that goes down separates from the beam at the deflection of th
   });
 }
 
-TEST_CASE("Two springs in series with an interference of m press with m / (1 / K + 1 / k)") {
+TEST_CASE("A spring K and a pair k with an interference of m press on each other with m / (1 / K + 1 / k)") {
   assembled a;
   a.stiffness = {1, {{0, 0, 300.0}}};
   problem p;
@@ -112,7 +113,7 @@ TEST_CASE("Two springs in series with an interference of m press with m / (1 / K
   });
 }
 
-TEST_CASE("The factor of a move multiplies its distance") {
+TEST_CASE("The move of a face is its value times its factor") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01), moving(4, 0.004)};
   p.steps[1].moves[0].factor = 2.5;
@@ -122,7 +123,7 @@ TEST_CASE("The factor of a move multiplies its distance") {
   });
 }
 
-TEST_CASE("A face that moves at a fixed deflection loads its support alone") {
+TEST_CASE("A face that moves at a node fixed in w loads only the support of this node") {
   problem p = cantilever();
   p.supports.push_back({4, 0, true});
   p.steps = {moving(4, 0.01)};
@@ -134,7 +135,7 @@ TEST_CASE("A face that moves at a fixed deflection loads its support alone") {
   });
 }
 
-TEST_CASE("A moved face lifts a beam that only faces carry, rigidly") {
+TEST_CASE("A face that moves up lifts a beam that rests only on faces as a rigid body") {
   problem p;
   p.geometry.kind = even_beam(4.0, 2, 1e4);
   p.pairs = {{0, face_below, 0.0, 1e4, true}, {2, face_below, 0.0, 1e4, true}};
@@ -148,7 +149,7 @@ TEST_CASE("A moved face lifts a beam that only faces carry, rigidly") {
   });
 }
 
-TEST_CASE("FORTRAN and C++ get the row of a pair whose face moves, and answer alike") {
+TEST_CASE("FORTRAN and C++ get an additional row for a pair whose face moves, and their answers are equal") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01), moving(4, -0.01)};
   struct : observer {
@@ -171,7 +172,7 @@ TEST_CASE("FORTRAN and C++ get the row of a pair whose face moves, and answer al
   CHECK(calls.rows[2] == Approx(-0.01 + 0.0055813953).epsilon(1e-7));  // 0.006 / (1 + 3750 / k) - m
 }
 
-TEST_CASE("A state that is correct for another position of the face is not certified") {
+TEST_CASE("A state computed for a face that is 1e-6 off is not certified") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01)};
   const linear_structure s = structure_of(p);

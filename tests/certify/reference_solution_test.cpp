@@ -73,8 +73,7 @@ double rounded_residuals(int elements, double compliance) {
 
 }  // namespace
 
-TEST_CASE(
-    "the reference solution equals PB1's hand calculation at every step: loaded, unloaded and reversed") {
+TEST_CASE("the reference solution equals PB1's hand calculation at each of its four steps") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -91,7 +90,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the reference solution finds the exact equilibria of thousands of beams, held and free") {
+TEST_CASE(
+    "the reference solution equals the exact equilibria of thousands of beams with and without supports") {
   std::map<std::string_view, int> of_layout;
   int two_sided_pressed = 0;
   int several_pressed = 0;
@@ -128,7 +128,7 @@ TEST_CASE("the reference solution finds the exact equilibria of thousands of bea
   CHECK(of_layout.size() == face_layouts);
 }
 
-TEST_CASE("the reference solution ends at the correct state even if the plain active set cycles") {
+TEST_CASE("the reference solution finds the correct state even if an active-set iteration cycles") {
   // A cantilever between stops. From the undeformed structure: none, then 2 and 3, then 3 and 4 press,
   // then none again; right is 3 alone. Nothing is near a tie: every pair stays 0.08 off its face.
   const beam_problem p{even_beam(3.0, 3, 1.0),
@@ -150,7 +150,7 @@ TEST_CASE("the reference solution ends at the correct state even if the plain ac
     CHECK(a.displacement[dof] == Approx(rounded(truth.displacement[dof])).epsilon(1e-14));
 }
 
-TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibrium") {
+TEST_CASE("a free beam that its load lifts or tips off its faces has no equilibrium") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   for (const load& l : {even_load(1.0), load{{{0, 0, -1.0}, {2, 0, 2.0}}, {}}, load{{{2, 1, 1.0}}, {}}}) {
@@ -162,7 +162,7 @@ TEST_CASE("a free beam lifted off its faces, or tipped off them, has no equilibr
   }
 }
 
-TEST_CASE("the reference solution finds the equilibrium of a load that follows one without equilibrium") {
+TEST_CASE("the reference solution finds the equilibrium of a load after a load without equilibrium") {
   const beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -175,7 +175,7 @@ TEST_CASE("the reference solution finds the equilibrium of a load that follows o
     CHECK(after.displacement[dof] == Approx(alone.displacement[dof]).epsilon(1e-14).margin(1e-16));
 }
 
-TEST_CASE("a beam balanced on one pair has an equilibrium, which is reported as one of many") {
+TEST_CASE("the reference solution reports the equilibrium of a beam balanced on one pair as not unique") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   const linear_structure s = p.structure();
   const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, even_load(-2.0)));
@@ -189,7 +189,7 @@ TEST_CASE("a beam balanced on one pair has an equilibrium, which is reported as 
 }
 
 TEST_CASE(
-    "an unloaded free structure may lie anywhere between its faces, and an unloaded held one only at 0") {
+    "the reference solution of an unloaded structure is unique if supports hold it, and otherwise not") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const std::vector<double> nothing(10, 0.0);
   const linear_structure free = p.structure();
@@ -211,7 +211,8 @@ TEST_CASE(
   CHECK(a.displacement == nothing);
 }
 
-TEST_CASE("a long simply supported span loses no digits except to the rounding of residuals") {
+TEST_CASE(
+    "the reference solution of a long simply supported span has no error except the rounding of residuals") {
   // Elements of length 1 and loads of 6 and 1: matrix and load are stored without any rounding.
   for (const int elements : {100, 400, 1000}) {
     const beam_problem p{even_beam(elements, elements, 1.0), {{0, 0, true}, {elements, 0, true}}, {}, {}};
@@ -234,7 +235,9 @@ TEST_CASE("a long simply supported span loses no digits except to the rounding o
   }
 }
 
-TEST_CASE("an answer does not depend on the loads that were solved before, even much larger ones") {
+TEST_CASE(
+    "the reference solution of a load does not depend on loads solved before, even if these were much "
+    "larger") {
   double worst = 0.0;
   int compared = 0;
   for (std::uint64_t number = 0; number < 500; ++number) {
@@ -263,7 +266,8 @@ TEST_CASE("an answer does not depend on the loads that were solved before, even 
 }
 
 TEST_CASE(
-    "a load beyond the range of double precision gives neither a state nor a statement about equilibrium") {
+    "for a load that is not finite, the reference solution gives no state and no statement about "
+    "equilibrium") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -276,7 +280,9 @@ TEST_CASE(
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));
 }
 
-TEST_CASE("the condition number belongs to the state that was found, and costs no factorisation") {
+TEST_CASE(
+    "the condition number of a reference solution is that of its pairs in contact, and needs no "
+    "factorisation") {
   const beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {0, 1, true}}, {{2, face_above, 1.0, 10.0, false}}, {}};
   const linear_structure s = p.structure();

@@ -57,7 +57,7 @@ std::vector<double> reactions_at_end(const problem& p, const solved_path& path, 
 
 }  // namespace
 
-TEST_CASE("A middle support of two spans l that settles by d is pulled down by 6 EI d / l^3") {
+TEST_CASE("A middle support of two spans l that settles by d pulls with the force 6 EI d / l^3") {
   for (const double unit : {1e-9, 1.0, 1e9}) {
     problem p = two_spans(unit);
     const double l = 3 * unit;
@@ -75,7 +75,7 @@ TEST_CASE("A middle support of two spans l that settles by d is pulled down by 6
   }
 }
 
-TEST_CASE("Supports that settle alike move the beam without bending it") {
+TEST_CASE("Equal settlements of all supports move a beam without bending it") {
   problem p = two_spans();
   p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
   const solved_path path = follow_certified(p, "refactor", "corrected");
@@ -83,7 +83,7 @@ TEST_CASE("Supports that settle alike move the beam without bending it") {
   for (const double r : reactions_at_end(p, path, 1)) CHECK(std::abs(r) < 1e-9);
 }
 
-TEST_CASE("Forces that are only rounding have no size, and are not certified") {
+TEST_CASE("Forces are not certified if they are only rounding") {
   problem p = two_spans();
   p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
   const linear_structure s = structure_of(p);
@@ -94,7 +94,7 @@ TEST_CASE("Forces that are only rounding have no size, and are not certified") {
   CHECK(judged.steps()[0]->proved);
 }
 
-TEST_CASE("A clamp that turns by t bends the beam that it holds, M = 4 EI t / l at a clamped far end") {
+TEST_CASE("A clamp that rotates by t has the moment 4 EI t / l if the far end of the beam is clamped") {
   problem p = two_spans();
   p.supports = {{0, 0, true}, {0, 1, true}, {8, 0, true}, {8, 1, true}};
   p.steps = {{{}, {}, {{0, 1, 0.002}}}};
@@ -104,7 +104,7 @@ TEST_CASE("A clamp that turns by t bends the beam that it holds, M = 4 EI t / l 
   CHECK(r[3] == Approx(2 * 1e4 * 0.002 / 6).epsilon(rounding));
 }
 
-TEST_CASE("A settlement reaches a face in proportion, as a load does, and is taken back by the next step") {
+TEST_CASE("A settlement reaches a face at the proportional share, and the next step reverses it") {
   problem p = two_spans();
   p.supports = {{0, 0, true}, {8, 0, true}};
   p.pairs = {{4, face_below, -0.005, 2e3, false}};
@@ -128,7 +128,7 @@ TEST_CASE("A settlement reaches a face in proportion, as a load does, and is tak
   }
 }
 
-TEST_CASE("The contact force of a pair at a support that settles is not part of its reaction") {
+TEST_CASE("The reaction of a support that settles does not include the contact force of a pair at its node") {
   problem p = two_spans();
   p.pairs = {{4, face_below, -0.004, 3e4, false}, {4, face_above, 0.0, 1e5, true}};
   p.steps = {settle(4, -0.01)};
@@ -143,7 +143,7 @@ TEST_CASE("The contact force of a pair at a support that settles is not part of 
   }
 }
 
-TEST_CASE("Loads and settlements of a plate and of a matrix add up") {
+TEST_CASE("The displacements of loads and settlements add up, on a plate and on a matrix") {
   problem p;
   p.geometry = {plate{{0, 1, 2, 3}, {0, 1, 2}, 100.0, 0.3}};
   for (const int node : {0, 3, 8, 11}) p.supports.push_back({node, 0, true});
@@ -172,8 +172,7 @@ TEST_CASE("Loads and settlements of a plate and of a matrix add up") {
   }
 }
 
-TEST_CASE(
-    "The reference solution finds the same settled state without a path, and detects a misplaced support") {
+TEST_CASE("The reference solution equals the path's settled state, and a wrong settlement is not certified") {
   problem p = two_spans();
   p.pairs = {{2, face_below, -0.001, 1e5, false}, {6, face_above, 0.002, 1e5, false}};
   p.steps = {{{{6, 0, 300.0}}, {}, {{4, 0, -0.01}, {0, 0, 0.003}}}};
@@ -191,7 +190,7 @@ TEST_CASE(
   CHECK_FALSE(judged.all_certified());
 }
 
-TEST_CASE("A settlement of a dof that no support was built to settle is refused") {
+TEST_CASE("A settlement of a dof that was not built to settle is refused") {
   problem p = two_spans();
   p.steps = {settle(4, -0.01)};
   const linear_structure rigid = build(p.geometry, p.supports, p.pairs);

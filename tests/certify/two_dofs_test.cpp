@@ -82,7 +82,7 @@ problem chain(double face) {
 
 }  // namespace
 
-TEST_CASE("Cantilevers that meet press on each other with (F / k1 - gap) / (1 / k1 + 1 / k2 + 1 / k)") {
+TEST_CASE("Two cantilevers that meet press on each other with (F / k1 - gap) / (1 / k1 + 1 / k2 + 1 / k)") {
   in_every_storage(two_cantilevers(), {"fortran", "corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.seen.increments[0].fraction == Approx(0.5).epsilon(1e-12));
@@ -95,7 +95,8 @@ TEST_CASE("Cantilevers that meet press on each other with (F / k1 - gap) / (1 / 
   });
 }
 
-TEST_CASE("The 1989 kernels get the difference of two dofs as a row of its own, and answer alike") {
+TEST_CASE(
+    "The 1989 kernels get the difference of two dofs as an additional row, and their answers are equal") {
   const problem p = two_cantilevers();
   struct : observer {
     void called(const answered_call& c) override {
@@ -117,14 +118,14 @@ TEST_CASE("The 1989 kernels get the difference of two dofs as a row of its own, 
   CHECK(calls.rows[2] == Approx(-0.002 - 75.0 / 11 / 1e5).epsilon(1e-10));  // c - C / k
 }
 
-TEST_CASE("A body held only by a pair with another body moves like a spring in series") {
+TEST_CASE("A body held only by a pair with another body moves like a spring in series with this body") {
   in_every_storage(chain(0.0), {"fortran", "corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.u(1)[3] == Approx(-9.0 / 200 - 9.0 / 100 - 9.0 / 600 - 9.0 / 50).epsilon(1e-11));
   });
 }
 
-TEST_CASE("A free body crosses a gap to the other body, and moves away from it without limit") {
+TEST_CASE("A free body moves across the gap to another body, and without limit in the opposite direction") {
   in_every_storage(chain(-0.01), {"corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.seen.increments.at(0).snaps);
@@ -135,7 +136,7 @@ TEST_CASE("A free body crosses a gap to the other body, and moves away from it w
   CHECK(follow_met(away, "refactor", "corrected").end.status != path_status::solved);
 }
 
-TEST_CASE("A pair between two dofs of one free body stops none of its motions") {
+TEST_CASE("A pair between two dofs of one free body stops no rigid-body motion") {
   const problem p =
       on_matrix({2, {{0, 0, 1}, {1, 0, -1}, {1, 1, 1}}}, {{0, face_below, 0.0, 5.0, true, 1}}, {force(0, 0)});
   const linear_structure s = structure_of(p);
@@ -143,7 +144,7 @@ TEST_CASE("A pair between two dofs of one free body stops none of its motions") 
   CHECK_FALSE(s.is_held(s.held_by([](std::size_t) { return true; })));
 }
 
-TEST_CASE("A dof may meet the ground and another dof: neither pair takes the other's row") {
+TEST_CASE("A dof may have one pair with the ground and another pair with a second dof") {
   const problem p = on_matrix({2, {{0, 0, 300}, {1, 0, 0}, {1, 1, 200}}},
                               {{0, face_below, -0.01, 600.0, false, 1}, {0, face_below, -0.02, 500.0, false}},
                               {force(0, -30)});
@@ -155,7 +156,7 @@ TEST_CASE("A dof may meet the ground and another dof: neither pair takes the oth
   });
 }
 
-TEST_CASE("A face that moves between two dofs closes their gap") {
+TEST_CASE("A face between two dofs that moves reduces the gap of its pair") {
   problem p = on_matrix({2, {{0, 0, 300}, {1, 0, 0}, {1, 1, 200}}}, {{0, face_below, -0.01, 600.0, false, 1}},
                         {force(0, -9)});
   p.steps[0].moves = {{0, 0, 0.005}};
@@ -166,7 +167,7 @@ TEST_CASE("A face that moves between two dofs closes their gap") {
   });
 }
 
-TEST_CASE("A state is not certified in which one of two dofs is off by a tenth of a thousandth") {
+TEST_CASE("A state is not certified if one of a pair's two dofs has a relative error of 1e-4") {
   const problem p = two_cantilevers();
   const linear_structure s = structure_of(p);
   const met path = follow_met(p, "refactor", "corrected");
@@ -179,7 +180,8 @@ TEST_CASE("A state is not certified in which one of two dofs is off by a tenth o
   }
 }
 
-TEST_CASE("The bound of a state that moves both dofs of a stiff pair too far is at least that error") {
+TEST_CASE(
+    "The error bound of a state that moves both dofs of a stiff pair by 1e-4 too far is at least 1e-4") {
   const problem p =
       on_matrix({2, {{0, 0, 1}, {1, 0, 0}, {1, 1, 1}}}, {{0, face_below, 0.0, 1e6, true, 1}}, {force(0, -3)});
   const linear_structure s = structure_of(p);
@@ -192,7 +194,7 @@ TEST_CASE("The bound of a state that moves both dofs of a stiff pair too far is 
   CHECK(judged.steps()[0]->error[quantity::w].value_or(1.0) >= 0.999e-4);
 }
 
-TEST_CASE("The reference solution of cantilevers that meet is the closed form, without a path") {
+TEST_CASE("The reference solution of two cantilevers that meet equals the closed form") {
   const problem p = two_cantilevers();
   const linear_structure s = structure_of(p);
   const std::vector<double> load = {-15, 0, 0, 0};

@@ -29,7 +29,8 @@ std::optional<decision> named(small_call<double> c, Change change) {
 
 }  // namespace
 
-TEST_CASE("the margin of a wrong SS belongs to its own pair, even if another pair has a narrower one") {
+TEST_CASE(
+    "the branch margin of a wrong SS belongs to its own pair, even if another pair has a narrower margin") {
   const auto of_gap = named(three_pairs(), [](call_outputs& o) { o.ss[1] = 1e-17; });
   REQUIRE(of_gap);
   CHECK(words_of(*of_gap).starts_with("pair 2: IF (ABS(GAP).LT.EPSGAP) was false by "));
@@ -39,7 +40,8 @@ TEST_CASE("the margin of a wrong SS belongs to its own pair, even if another pai
 }
 
 TEST_CASE(
-    "the margin of a wrong SMIN belongs to the SS that differs, or to the smallest SS if none differs") {
+    "the branch margin of a wrong SMIN belongs to the SS that differs, or to the smallest SS if none "
+    "differs") {
   const auto of_ss = named(three_pairs(), [](call_outputs& o) { o.smin = o.ss[1] = 1e-17; });
   REQUIRE(of_ss);
   CHECK(of_ss->what == branch::stationary);
@@ -48,7 +50,8 @@ TEST_CASE(
   CHECK(of_smin->what == branch::s_is_smallest);
 }
 
-TEST_CASE("the margin of a wrong ISEP is its pair's DIFF, or SMIN if the other kernel toggled nothing") {
+TEST_CASE(
+    "the branch margin of a wrong ISEP is its pair's DIFF, or SMIN if the other kernel toggled no pair") {
   // SMIN is the number before 1: IF (SMIN.EQ.1.) is narrower than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},
                                                       {0.0, 1.0, 4.0, separated, face_above}})
@@ -61,7 +64,7 @@ TEST_CASE("the margin of a wrong ISEP is its pair's DIFF, or SMIN if the other k
   CHECK(words_of(*of_smin) == "IF (SMIN.EQ.1.) was false by 1 ULP");
 }
 
-TEST_CASE("a pair that both kernels toggled to different statuses leads to IF (ISEP(I).EQ.1)") {
+TEST_CASE("if both kernels toggle a pair to different statuses, the reported branch is IF (ISEP(I).EQ.1)") {
   const small_call<double> odd = small_call<double>({{0.0, 1.0, 0.5, 2, face_above}}).ask();
   CHECK(odd.isep[0] == separated);
   const auto of_status = named(odd, [](call_outputs& o) { o.isep[0] = in_contact; });
@@ -70,8 +73,8 @@ TEST_CASE("a pair that both kernels toggled to different statuses leads to IF (I
 }
 
 TEST_CASE(
-    "the fault of a kernel with an EPSGAP of 1e-9 is traced to IF (ABS(GAP).LT.EPSGAP) of the pair that it "
-    "got wrong") {
+    "the fault of a kernel with EPSGAP = 1e-9 is traced to IF (ABS(GAP).LT.EPSGAP) of the pair with the "
+    "wrong SS") {
   made_kernel wrong(
       [](call<double>& c) {
         std::vector<event> events(c.cc.size());

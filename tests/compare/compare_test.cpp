@@ -61,7 +61,7 @@ replay_report replayed(const std::string& trace) {
 
 }  // namespace
 
-TEST_CASE("equal bytes are counted as compared, and a NaN of another payload is equal, and counted too") {
+TEST_CASE("equal bytes and NaNs of any payload count as equal, and are counted as compared") {
   tally t;
   const std::vector<int> isep = {1, -1};
   const auto compare = [&](double a, double b) {
@@ -117,7 +117,7 @@ TEST_CASE("text is compared byte for byte, and the first different line is named
   CHECK(t.mismatches == 3);
 }
 
-TEST_CASE("text compared by meaning may differ only in a number's leading zero and in blanks") {
+TEST_CASE("texts compared by meaning may differ only in blanks and in a number's leading zero") {
   const auto same = [](std::string_view a, std::string_view b) {
     tally t;
     const auto found = compare_text(a, b, t, text_equality::meaning);
@@ -152,7 +152,7 @@ TEST_CASE("the texts of gfortran and C++ are compared by bytes, and only f2c's i
     CHECK(facts_of_kernel(name).text_by_meaning == (name == "f2c"));
 }
 
-TEST_CASE("a follower counts what is compared and keeps the mismatch of the earliest call") {
+TEST_CASE("a follower counts the compared values and keeps the mismatch of the earliest call") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -175,7 +175,7 @@ TEST_CASE("a follower counts what is compared and keeps the mismatch of the earl
   CHECK(f.compared.mismatches == 2);
 }
 
-TEST_CASE("a follower refuses a call beyond the limits of 32 bits, and compares nothing") {
+TEST_CASE("a follower refuses a call beyond the limits of 32-bit integers, and compares nothing") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -189,7 +189,7 @@ TEST_CASE("a follower refuses a call beyond the limits of 32 bits, and compares 
   CHECK(f.compared.values == 3);
 }
 
-TEST_CASE("text is compared only if the leader's text is given, and counts as one value") {
+TEST_CASE("a follower compares the text only if the leader's text is given, and counts it as one value") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -201,7 +201,7 @@ TEST_CASE("text is compared only if the leader's text is given, and counts as on
   CHECK(f.compared.mismatches == 1);
 }
 
-TEST_CASE("kernels of another precision or rule are refused") {
+TEST_CASE("a comparison of kernels of different precisions or rules is refused") {
   CHECK_NOTHROW(refuse_unequal(facts_of_kernel("fortran"), facts_of_kernel("cpp")));
   CHECK_THROWS_WITH(refuse_unequal(facts_of_kernel("fortran"), facts_of_kernel("cpp-r4")),
                     Contains("precision") && Contains("--free-run"));
@@ -209,7 +209,7 @@ TEST_CASE("kernels of another precision or rule are refused") {
                     Contains("rule"));
 }
 
-TEST_CASE("a report names the call, the kernels and the place, and calls a narrow decision a tie") {
+TEST_CASE("the report of a mismatch names call, kernels and place, and calls a narrow decision a tie") {
   mismatch_report r{3, "fortran", "mine", {"ISEP", 2, "-1", "1", 0}, {}};
   r.narrowest = {branch::within_epsmul, 1, true, 1};
   CHECK(words_of(r)[0] == "call 3: mine differs in ISEP(2): fortran has -1, mine has 1");
@@ -220,8 +220,7 @@ TEST_CASE("a report names the call, the kernels and the place, and calls a narro
   CHECK(words_of(r) == std::vector<std::string>{"call 3: mine gave no answer: it ended with status 3"});
 }
 
-TEST_CASE(
-    "the text of a trace from any kernel is compared by bytes, except that f2c's is compared by meaning") {
+TEST_CASE("a replay compares the text by bytes, and the text of a trace from f2c by meaning") {
   const auto mismatches = [](const char* kernel, const char* scale_factor) {
     return replayed(trace_of(kernel, scale_factor)).compared.mismatches;
   };
@@ -236,7 +235,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an answer in which every s and every status differs has a mismatch in each, even if SMIN is equal") {
+    "an answer in which every s and every status differs has a mismatch in each of them, even if SMIN is "
+    "equal") {
   tally t;
   const std::optional<mismatch> first = differ(0.5, {0.25, 1.0}, {-1, 1}, t);
   REQUIRE(first);

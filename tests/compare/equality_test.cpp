@@ -63,8 +63,9 @@ void require_no_mismatch(side_by_side<Real>& both) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("one pair: equal for every combination of 31 values of D, d* and c, and all statuses", "",
-                   float, double) {
+TEMPLATE_TEST_CASE(
+    "FORTRAN and C++ are equal for one pair with 31 values each of D, d* and c, and with all statuses", "",
+    float, double) {
   using Real = TestType;
   const std::vector<Real> numbers = interesting_numbers<Real>();
   REQUIRE(numbers.size() == 31);
@@ -99,8 +100,10 @@ TEMPLATE_TEST_CASE("one pair: equal for every combination of 31 values of D, d* 
   CHECK(both.compared().values >= 3 * both.calls());
 }
 
-TEMPLATE_TEST_CASE("two pairs: equal through ties, and near ties at 2^-8 exactly and one ULP on either side",
-                   "", float, double) {
+TEMPLATE_TEST_CASE(
+    "FORTRAN and C++ are equal for two pairs at ties, and at near ties of 2^-8 exactly and one ULP to either "
+    "side",
+    "", float, double) {
   using Real = TestType;
   const Real half = Real(0.5);
   const Real edge = half + half / Real(256);
@@ -151,8 +154,10 @@ TEMPLATE_TEST_CASE("two pairs: equal through ties, and near ties at 2^-8 exactly
   for (const int reached : near_ties) CHECK(reached >= 16);
 }
 
-TEMPLATE_TEST_CASE("100,000 random calls: equal with up to 64 pairs, shared nodes and every dof layout", "",
-                   float, double) {
+TEMPLATE_TEST_CASE(
+    "FORTRAN and C++ are equal in 100,000 random calls with up to 64 pairs, shared nodes and every dof "
+    "layout",
+    "", float, double) {
   using Real = TestType;
   constexpr int calls = 100'000;
   random_calls<Real> source(1989);

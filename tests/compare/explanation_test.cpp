@@ -38,8 +38,8 @@ std::vector<std::string> listing_text() {
 }  // namespace
 
 TEST_CASE(
-    "a pair within EPSMUL that has not reached its face is toggled too early, by the distance that is "
-    "stated") {
+    "a pair within EPSMUL that has not reached its face is explained as toggled too early, with its "
+    "distance") {
   const explained_call e = explained(
       small_call<double>({{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, 0.501, separated, face_above}}));
   CHECK(e.winner == 0);
@@ -50,14 +50,17 @@ TEST_CASE(
   CHECK(e.pairs[1].toggled());
 }
 
-TEST_CASE("a pair that is behind the winner only by rounding reaches its face at the same share") {
+TEST_CASE(
+    "a pair whose s exceeds the winner's only by rounding is explained as reaching its face at the same "
+    "share") {
   const explained_call e = explained(small_call<double>(
       {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, std::nextafter(0.5, 1.0), separated, face_above}}));
   CHECK(e.pairs[1].why == why_toggled::same_moment);
   CHECK(e.ulps_ahead == 1);
 }
 
-TEST_CASE("near full load the mark of a pair without any event lies within EPSMUL, and toggles it") {
+TEST_CASE(
+    "near full load, the s = 1 of a pair without an event lies within EPSMUL, so that the pair is toggled") {
   const explained_call e = explained(small_call<double>({{0.0, 1.0, 0.999, separated, face_above},
                                                          {0.0, 0.0, -1.0, separated, face_below},
                                                          {0.0, -1.0, 0.0, in_contact, face_below}}));
@@ -70,14 +73,14 @@ TEST_CASE("near full load the mark of a pair without any event lies within EPSMU
   CHECK(e.pairs[2].why == why_toggled::by_mark);
 }
 
-TEST_CASE("the marks of pairs without an event are just beyond EPSMUL if SMIN is 256/257") {
+TEST_CASE("if SMIN is 256/257, the s = 1 of a pair without an event lies just beyond EPSMUL") {
   const explained_call e = explained(small_call<double>(
       {{0.0, 1.0, 256.0 / 257.0 - 1e-9, separated, face_above}, {0.0, 0.0, -1.0, separated, face_below}}));
   CHECK(e.pairs[1].why == why_toggled::not_toggled);
   CHECK_FALSE(e.pairs[1].toggled());
 }
 
-TEST_CASE("a stationary pair wins by its check variable, and no other pair is within EPSMUL") {
+TEST_CASE("a stationary pair wins by its check variable, and no pair farther away is within EPSMUL") {
   const explained_call e = explained(
       small_call<double>({{0.0, 2.0, 0.0, in_contact, face_below}, {0.0, 1.0, 0.5, separated, face_above}}));
   CHECK(e.winner == 0);
@@ -88,7 +91,7 @@ TEST_CASE("a stationary pair wins by its check variable, and no other pair is wi
   CHECK(e.pairs[1].why == why_toggled::not_toggled);
 }
 
-TEST_CASE("a call without events has no winner, and the narrowest decision is named") {
+TEST_CASE("the explanation of a call without events has no winner, and names the narrowest decision") {
   const explained_call e = explained(small_call<double>({{0.0, 1.0, 2.0, separated, face_above}}));
   CHECK(e.smin == 1.0);
   CHECK(e.winner == -1);
@@ -98,8 +101,8 @@ TEST_CASE("a call without events has no winner, and the narrowest decision is na
 }
 
 TEST_CASE(
-    "the winner's s is SMIN, and exactly the pairs explained as toggled were toggled, in 20,000 random calls "
-    "each") {
+    "an explanation's winner has SMIN, and its toggled pairs are those of the kernel, in 20,000 random "
+    "calls") {
   const auto agree = [](const auto& in, const call_outputs& out, const explained_call& e) {
     for (std::size_t i = 0; i < in.pairs(); ++i) {
       const explained_pair& p = e.pairs[i];
@@ -132,7 +135,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("every line that explanations cite holds its statement, and none is cited twice") {
+TEST_CASE(
+    "every line of the listing that explanations cite has the cited statement, and no line is cited twice") {
   const std::vector<std::string> text = listing_text();
   REQUIRE(text.size() == 69);
   for (const listing_line& cited : listing::all) {
@@ -146,9 +150,7 @@ TEST_CASE("every line that explanations cite holds its statement, and none is ci
   }
 }
 
-TEST_CASE(
-    "the explanation of a call has its precision, GAP in that precision, and nothing of what no IF "
-    "computed") {
+TEST_CASE("the explanation of a call has its precision, and only those values that the call's IFs computed") {
   // Before and beyond its face, and without a response.
   small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
                         {0.4, 1.0, 0.1, separated, face_above},

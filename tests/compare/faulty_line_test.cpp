@@ -44,13 +44,13 @@ int line_of(const fault_finder& all) {
 
 }  // namespace
 
-TEST_CASE("answers that are equal name no line") {
+TEST_CASE("equal answers name no faulty line") {
   fault_finder all;
   note(all, four_pairs(0.25), [](call_outputs&) {});
   CHECK_FALSE(all.found());
 }
 
-TEST_CASE("a kernel with an EPSGAP of 1e-9 is told line 33, and the gaps that it treated as zero") {
+TEST_CASE("line 33 is reported for a kernel with EPSGAP = 1e-9, with the gaps that it treated as zero") {
   fault_finder all;
   for (const double gap : {2e-10, 5e-10}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
@@ -67,7 +67,7 @@ TEST_CASE("a kernel with an EPSGAP of 1e-9 is told line 33, and the gaps that it
 }
 
 TEST_CASE(
-    "a kernel that rounds a quotient twice is told line 38, and one with the wrong sign of GAP line 30") {
+    "line 38 is reported for a kernel that rounds a quotient twice, and line 30 for a wrong sign of GAP") {
   fault_finder rounded, negative;
   for (const double gap : {0.3, 0.7}) {
     note(rounded, four_pairs(gap), [](call_outputs& o) { o.ss[2] = std::nextafter(o.ss[2], 1.0); });
@@ -81,9 +81,7 @@ TEST_CASE(
   CHECK(line_of(negative) == 30);
 }
 
-TEST_CASE(
-    "a kernel with another limit of DIFF is told line 52, and one that toggles a larger DIFF but not a "
-    "smaller one line 51") {
+TEST_CASE("line 52 is reported for a wrong threshold of DIFF, and line 51 for a wrong DIFF") {
   fault_finder threshold, no_threshold;
   const auto toggle = [](std::size_t i) { return [i](call_outputs& o) { o.isep[i] = in_contact; }; };
   note(threshold, with_diffs(0x1.8p-8, 0x1.8p-7), toggle(1));
@@ -93,7 +91,9 @@ TEST_CASE(
   CHECK(line_of(no_threshold) == 51);
 }
 
-TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong, SS are not suspected") {
+TEST_CASE(
+    "if only SMIN is wrong, no line that computes SS is reported, since SMIN is compared with the kernel's "
+    "own SS") {
   fault_finder all;
   for (const double gap : {0.25, 0.3}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
@@ -106,7 +106,7 @@ TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong
   CHECK(all.found()->explained == 2);
 }
 
-TEST_CASE("a wrong value that the named line cannot cause is counted as not explained") {
+TEST_CASE("a wrong value that the reported line cannot cause is counted as not explained") {
   fault_finder all;
   for (int times = 0; times < 4; ++times) {
     note(all, four_pairs(0.3), [](call_outputs& o) {
@@ -121,7 +121,7 @@ TEST_CASE("a wrong value that the named line cannot cause is counted as not expl
   CHECK(all.found()->differ == 5);
 }
 
-TEST_CASE("the lines that two kernels took are reported with GAP, DTEST and SSCHK") {
+TEST_CASE("the lines that two kernels took for a pair are reported with GAP, DTEST and SSCHK") {
   small_call<double> c = four_pairs(5e-10);
   call_outputs other{c.smin, c.ss, c.isep, ""};
   other.ss[2] = 1e-20;
@@ -135,7 +135,7 @@ TEST_CASE("the lines that two kernels took are reported with GAP, DTEST and SSCH
         "(SSCHK.GT.0.) SS(I) = SSCHK * DELTA");
 }
 
-TEST_CASE("a call without pairs whose text differs leads to the FORMAT") {
+TEST_CASE("the FORMAT is reported as the faulty line if only the text differs in a call without pairs") {
   fault_finder all;
   small_call<double> c({});
   answered_call right = c.ask().answered();
@@ -145,7 +145,7 @@ TEST_CASE("a call without pairs whose text differs leads to the FORMAT") {
   CHECK(line_of(all) == 44);
 }
 
-TEST_CASE("a text without any line of the listing leads to a FORMAT, and has no numbers to compare") {
+TEST_CASE("the FORMAT is reported as the faulty line if a text has no line of the listing") {
   fault_finder all;
   small_call<double> c = four_pairs(0.25);
   answered_call right = c.answered();

@@ -54,7 +54,7 @@ lockstep_on_path with_fault(std::function<void(call<double>&, std::string&)> fau
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
+TEST_CASE("FORTRAN and C++ follow PB1 in lockstep without a mismatch, and every value is counted") {
   const lockstep_on_path compared = in_lockstep_with(make_kernel("cpp"));
   CHECK(compared.calls() == 6);
   CHECK(compared.compared().values == 6L * 4);  // SMIN, SS, ISEP, text
@@ -63,8 +63,7 @@ TEST_CASE("FORTRAN and C++ follow PB1 in lockstep, and everything is counted") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE(
-    "the difference of each follower in the last call is counted in ULPs, for SMIN and for the worst s") {
+TEST_CASE("the last call's differences are counted in ULPs for each follower, for SMIN and for the worst s") {
   const lockstep_on_path good = in_lockstep_with(make_kernel("cpp"));
   REQUIRE(good.last_answers().size() == 1);
   CHECK(good.last_answers()[0].values == 4);
@@ -81,7 +80,7 @@ TEST_CASE(
   CHECK(off.last_answers()[0].ss_ulps == 2);
 }
 
-TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
+TEST_CASE("a fault of one ULP in SMIN is detected at its first call") {
   int call_number = 0;
   const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
     if (++call_number == 2) c.smin = std::nextafter(c.smin, 1.0);
@@ -94,7 +93,7 @@ TEST_CASE("a fault of one ULP in SMIN is caught at its first call") {
   CHECK(compared.first()->follower == "faulty");
 }
 
-TEST_CASE("the last call counts as equal only if every follower's answer to it is equal") {
+TEST_CASE("the last call counts as equal only if every follower's answer is equal") {
   const auto fault = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
   CHECK_FALSE(with_fault(fault).last_call_equal());
   CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
@@ -110,7 +109,7 @@ TEST_CASE("the last call counts as equal only if every follower's answer to it i
   }
 }
 
-TEST_CASE("a follower that gives no answer has one mismatch in its call, and its distance is not measured") {
+TEST_CASE("a follower without an answer has one mismatch in its call, and no difference in ULPs") {
   const lockstep_on_path compared =
       with_fault([](call<double>&, std::string&) { throw kernel_failure("it ended with status 3"); });
   CHECK(compared.compared().values == 6);
@@ -120,14 +119,14 @@ TEST_CASE("a follower that gives no answer has one mismatch in its call, and its
   CHECK(compared.last_answers()[0].smin_ulps == 0);
 }
 
-TEST_CASE("faults in SS, in ISEP and in the text are caught too") {
+TEST_CASE("faults in SS, in ISEP and in the text are detected") {
   CHECK(with_fault([](call<double>& c, std::string&) { c.ss[0] = -c.ss[0]; }).first()->where.field == "SS");
   CHECK(with_fault([](call<double>& c, std::string&) { c.isep[0] = -c.isep[0]; }).first()->where.field ==
         "ISEP");
   CHECK(with_fault([](call<double>&, std::string& text) { text[3] = '?'; }).first()->where.field == "text");
 }
 
-TEST_CASE("the path follows the leader, whatever a follower answers") {
+TEST_CASE("the path follows the leader's answers, whatever the followers answer") {
   // Every call goes to the follower with the leader's inputs, so one fault is one mismatch.
   int call_number = 0;
   const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
@@ -137,7 +136,7 @@ TEST_CASE("the path follows the leader, whatever a follower answers") {
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("the mismatch of the earliest call is reported, whatever the order of the followers") {
+TEST_CASE("the mismatch of the earliest call is reported, in any order of the followers") {
   const auto wrong_from = [](int call, double by) {
     return faulty([call, by, n = 0](call_of_double& c, std::string&) mutable {
       if (++n >= call) c.smin += by;

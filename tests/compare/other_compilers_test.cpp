@@ -25,7 +25,7 @@ std::vector<std::string> other_kernels() {
 }  // namespace
 
 TEST_CASE(
-    "flang's build and f2c's answer 20,000 random calls as gfortran's and C++ do, f2c's text by its "
+    "flang's and f2c's builds answer 20,000 random calls as gfortran's and C++ do, and f2c's text has equal "
     "meaning") {
   constexpr int calls = 20'000;
   for (const std::string& name : other_kernels()) {
@@ -60,7 +60,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("each run-time library has its own unit 26, and only one is open at a time") {
+TEST_CASE("each compiler's run-time library has a separate unit 26, and only one of them is open at a time") {
   const call_inputs<double> quarter{{0.0}, {4.0}, {1.0}, {1}, {separated}, {face_above}, {}};
   for (const std::string& name : other_kernels()) {
     INFO(name);

@@ -41,7 +41,7 @@ const std::string lies =
 
 }  // namespace
 
-TEST_CASE("a combination equals the step with its cases' loads times their factors, to the bit") {
+TEST_CASE("the exact path of a combination equals that of a step with its cases' loads times their factors") {
   for (const auto follow : {follow_corrected_path, follow_1989_path}) {
     const exact_path of_cases = follow(read(combined), {});
     const exact_path of_one_step = follow(read(by_hand), {});
@@ -58,7 +58,7 @@ TEST_CASE("a combination equals the step with its cases' loads times their facto
   }
 }
 
-TEST_CASE("a combination that follows a mechanism starts from the unloaded structure") {
+TEST_CASE("in the exact path, a combination after a mechanism starts from the unloaded structure") {
   for (const auto follow : {follow_corrected_path, follow_1989_path}) {
     const exact_path path = follow(read(lies), {});
     CHECK(path.status == path_status::mechanism);

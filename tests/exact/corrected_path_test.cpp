@@ -89,7 +89,7 @@ const std::string free_beam = "[beam]\nx = [0, 1, 2]\nEI = 1\n";
 }  // namespace
 
 TEST_CASE(
-    "the cantilever over a stop makes contact at 1/10 of the step, and breaks it at 3/10 of the step back") {
+    "the exact path of PB1 makes contact at share 1/10, and breaks contact at share 3/10 while unloading") {
   const exact_path path = reference("pb01-cantilever-tip-stop");
   REQUIRE(path.steps.size() == 4);
   CHECK(told(path.steps[0]) == "1:");
@@ -99,15 +99,14 @@ TEST_CASE(
   CHECK(path.steps[1].force[0] == 50000 * (rational(26, 5375) - rational(4, 1000)));
 }
 
-TEST_CASE("the two outer stops of three are reached at exactly 3/38 of the step") {
+TEST_CASE("the exact path of PB7 reaches its two outer stops at exactly 3/38 of the step") {
   const exact_path path = reference("pb07-three-gap-supports");
   CHECK(told(path.steps[1]) == "3/38: +1 +3; 1:");
   CHECK(told(path.steps[3]) == "231/730: -2; 84/95: -1 -3; 1:");
 }
 
 TEST_CASE(
-    "a nearly rigid plate on springs has the published -208/58875 and 176/153075, except for its own "
-    "bending") {
+    "the exact deflections of a nearly rigid plate on springs are the published -208/58875 and 176/153075") {
   contct::problem p = read_problem(CONTCT_REFERENCE "/problems/pb09b-plate-on-springs-ei-4e8.toml");
   for (double& EI : std::get<contct::beam>(p.geometry.kind).EI) EI = 1e40;
   const exact_path path = follow_corrected_path(exact_problem_of(p));
@@ -117,7 +116,7 @@ TEST_CASE(
   CHECK(std::count(path.steps[0].closed.begin(), path.steps[0].closed.end(), 1) == 13);
 }
 
-TEST_CASE("an event exactly at full load belongs to the next step") {
+TEST_CASE("in the exact path, an event exactly at full load belongs to the next step") {
   const std::string stop = cantilever + pair(2, "below", "-1", "3");
   const std::string step = "[[step]]\npoint = [ { node = 2, w = ";
   const exact_path path =
@@ -129,7 +128,8 @@ TEST_CASE("an event exactly at full load belongs to the next step") {
   CHECK(at(path, 1, 2) == rational(-3, 2));
 }
 
-TEST_CASE("pairs at their faces get their statuses together, from one complementarity problem") {
+TEST_CASE(
+    "in the exact path, pairs at their faces get their statuses together from one complementarity problem") {
   // Both pairs start in contact: the load over node 2 presses the one there and lifts the end.
   const exact_path path = followed("[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n" +
                                    pair(2, "below", "0", "1e6") + pair(3, "below", "0", "1e6") +
@@ -137,7 +137,7 @@ TEST_CASE("pairs at their faces get their statuses together, from one complement
   CHECK(told(path.steps[0]) == "0: -2; 1:");
 }
 
-TEST_CASE("a free beam falls onto its faces at constant load, one after the other") {
+TEST_CASE("in the exact path, a free beam falls onto its faces at constant load, one after the other") {
   const exact_path path = followed(free_beam + pair(1, "below", "-1", "2") + pair(3, "below", "-2", "2") +
                                    "[[step]]\npoint = [ { node = 2, w = -4 } ]\n");
   CHECK(path.status == contct::path_status::solved);
@@ -147,7 +147,7 @@ TEST_CASE("a free beam falls onto its faces at constant load, one after the othe
   CHECK(at(path, 0, 2) == rational(-5, 2) - 4 * rational(8, 48));
 }
 
-TEST_CASE("a mechanism is proved by a rigid-body motion on which the load does work") {
+TEST_CASE("the exact path proves a mechanism by a rigid-body motion on which the load does work") {
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(2, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -1 }, { node = 2, theta = -4e-13 } ]\n");
@@ -159,7 +159,8 @@ TEST_CASE("a mechanism is proved by a rigid-body motion on which the load does w
   CHECK(path.mechanism->work == rational(4, 10000000000000));
 }
 
-TEST_CASE("a step that takes away the last contact ends in a mechanism at that share") {
+TEST_CASE(
+    "an exact path whose step removes the last contact ends in a mechanism at the share of this event") {
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(3, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -2 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n");
@@ -169,7 +170,8 @@ TEST_CASE("a step that takes away the last contact ends in a mechanism at that s
   CHECK(path.mechanism->work == 3);
 }
 
-TEST_CASE("a rigid-body motion on which the load does no work does not change") {
+TEST_CASE(
+    "an exact path does not move a structure along a rigid-body motion on which the load does no work") {
   const exact_path path = followed(free_beam + pair(2, "below", "0", "1") +
                                    "[[step]]\npoint = [ { node = 1, w = -1 }, { node = 3, w = -1 } ]\n");
   REQUIRE(path.status == contct::path_status::solved);
@@ -177,8 +179,7 @@ TEST_CASE("a rigid-body motion on which the load does no work does not change") 
   CHECK(at(path, 0, 0) == at(path, 0, 4));
 }
 
-TEST_CASE(
-    "a settlement of a support is exact, and the other displacements follow from the beam's stiffness") {
+TEST_CASE("the exact path reaches a face at 1/5 of a settlement, and ends with the exact settlement") {
   contct::problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = "
       "3\n"
@@ -195,7 +196,8 @@ TEST_CASE(
   CHECK(path.steps[0].reactions[2] < 0);
 }
 
-TEST_CASE("an elastic support and pairs on both sides of a node follow the load to and fro") {
+TEST_CASE(
+    "in the exact path, an elastic support and pairs on both sides of a node follow a load that reverses") {
   const std::string text =
       "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = 2\n"
       "spring = { w = 1 }\n" +
@@ -210,7 +212,7 @@ TEST_CASE("an elastic support and pairs on both sides of a node follow the load 
   CHECK(path.steps[1].reactions[2] == rational(-1, 2));
 }
 
-TEST_CASE("numbers of any size are solved exactly") {
+TEST_CASE("the exact path solves numbers from 1e-300 to 1e308") {
   const exact_path path =
       followed("[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n" +
                pair(2, "below", "-1e-300", "1e300") + "[[step]]\npoint = [ { node = 2, w = -1e308 } ]\n");
@@ -218,7 +220,7 @@ TEST_CASE("numbers of any size are solved exactly") {
   CHECK(length_in_bits(path.steps[0].displacement[2]) > 1000);
 }
 
-TEST_CASE("exact ends of 300 random problems are equilibria") {
+TEST_CASE("the exact final states of 300 random problems are equilibria") {
   contct::random_problem_kind kind;
   kind.most_elements = 8;
   kind.most_lines = 2;

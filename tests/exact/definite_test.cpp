@@ -55,7 +55,8 @@ entries chain(int n, double more) {
 }  // namespace
 
 TEST_CASE(
-    "matrices that are singular in doubles are classified exactly, and singular ones are semidefinite") {
+    "matrices that doubles cannot tell from singular are classified exactly, and singular ones are "
+    "semidefinite") {
   CHECK(pair_of(1.0, 1.0).what.semidefinite);
   CHECK(pair_of(1.0, 1.0000000000000002).what.semidefinite);
   CHECK(pair_of(1.0, 0.9999999999999999).shows());
@@ -66,12 +67,12 @@ TEST_CASE(
   CHECK(of(30, chain(30, -0x1p-52)).shows());
 }
 
-TEST_CASE("negative work at fixed dofs does not count, and a negative diagonal entry is reported") {
+TEST_CASE("an indefinite matrix counts as semidefinite if only fixed dofs do negative work") {
   CHECK(of(4, chain(4, -6.0), 0).what.semidefinite);
   CHECK(of(4, chain(4, -6.0)).shows());
 }
 
-TEST_CASE("numbers of all sizes are scaled: 1e-200 beside 1e200") {
+TEST_CASE("a matrix with entries from 1e-200 to 1e200 is scaled before it is classified as semidefinite") {
   const auto coupled = [](double coupling) {
     return of(3, {{0, 0, 1e-200}, {1, 0, coupling}, {1, 1, 1e200}, {2, 2, 3.0}});
   };
@@ -79,7 +80,7 @@ TEST_CASE("numbers of all sizes are scaled: 1e-200 beside 1e200") {
   CHECK(coupled(1.001).shows());
 }
 
-TEST_CASE("random Gram matrices are semidefinite, and with a slightly smaller diagonal they are not") {
+TEST_CASE("random Gram matrices are semidefinite, and most are indefinite with a slightly smaller diagonal") {
   std::mt19937_64 random(16);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same matrices every time
   int indefinite = 0;
   for (int round = 0; round < 60; ++round) {

@@ -143,7 +143,8 @@ struct one_end {
 
 }  // namespace
 
-TEST_CASE("bounds contain the errors on exact paths of random problems, and refined states are certified") {
+TEST_CASE(
+    "error bounds contain the errors of random problems on exact paths, and refined states are certified") {
 #ifdef CONTCT_HAS_GMP
   constexpr int problems = 40;
 #else
@@ -176,7 +177,7 @@ TEST_CASE("bounds contain the errors on exact paths of random problems, and refi
   CHECK(2 * proved > steps * 95 / 100);
 }
 
-TEST_CASE("a state with any wrong number has bounds that contain the error, or the step is not certified") {
+TEST_CASE("if any number of a state is wrong, its error bound contains the error") {
   one_end e(beam_over_stop);
   REQUIRE(certified(e.again()));
   CHECK(check_bounds(errors_of(e.what, e.truly, e.end), e.again().error) == 6);
@@ -194,7 +195,7 @@ TEST_CASE("a state with any wrong number has bounds that contain the error, or t
     e.end.numbers.pair_forces[0] *= 1 + 1e-5;
     check(false);
   }
-  SECTION("a pair's status is flipped, so that its force is missing") {
+  SECTION("the force of a pair in contact is missing") {
     e.end.numbers.pair_forces[0] = 0.0;
     check(false);
   }
@@ -202,7 +203,7 @@ TEST_CASE("a state with any wrong number has bounds that contain the error, or t
     e.end.numbers.reactions[0] = -right.reactions[0];
     check(false);
   }
-  SECTION("a moment is off") {
+  SECTION("a moment is off by a part in 1e3") {
     e.end.numbers.element_values[2] *= 1 + 1e-3;
     check(false);
   }
@@ -216,7 +217,7 @@ TEST_CASE("a state with any wrong number has bounds that contain the error, or t
   }
 }
 
-TEST_CASE("the bounds of a state whose stiffness is off by 1e-9 contain its error") {
+TEST_CASE("the error bounds of a state contain the error of a stiffness that is off by 1e-9") {
   one_end wrong(std::string(beam_over_stop).replace(beam_over_stop.find("1e4"), 3, "1.000000001e4"));
   const one_end right(beam_over_stop);
   error_prover prover(right.what, right.structure);
@@ -242,7 +243,7 @@ TEST_CASE("displacements that are only rounding of 0 become 0, so that a held st
 }
 
 TEST_CASE(
-    "an unloaded held structure is at 0, so its errors are known, and an unloaded free one has known "
+    "the errors of an unloaded state are known if supports hold the structure, and otherwise only those of "
     "forces") {
   const std::string freed =
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
@@ -304,7 +305,7 @@ TEST_CASE("the error of an unloaded state is at least its largest number at any 
   }
 }
 
-TEST_CASE("a structure that is not certainly held is not proved, with the reason") {
+TEST_CASE("a structure that is not certainly held is not proved, and the reason is reported") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
       "0\nstiffness = 1e6\n"
@@ -318,7 +319,7 @@ TEST_CASE("a structure that is not certainly held is not proved, with the reason
         "the stiffness is too ill-conditioned, or it is not certain that the structure is held");
 }
 
-TEST_CASE("a fixed dof that settles and has a spring: the reactions of support and spring have bounds") {
+TEST_CASE("the reactions of a fixed dof that settles and has a spring are certified") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
@@ -344,7 +345,7 @@ std::string balanced(const std::string& loads) {
 
 }  // namespace
 
-TEST_CASE("a beam that balances on one face has proved forces and moments, but no proved displacements") {
+TEST_CASE("for a beam that balances on one face, forces and moments are proved, but displacements are not") {
   const one_end e(balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1 }, { node = 2, w = -3 }"));
   CHECK(certified(e.end.bounds));
   CHECK_FALSE(e.end.bounds.unique);
@@ -354,7 +355,7 @@ TEST_CASE("a beam that balances on one face has proved forces and moments, but n
   CHECK(*e.end.bounds.error[quantity::moment] < 1e-14);
 }
 
-TEST_CASE("a load that is out of balance by one part in 1e13 is not balanced: the beam turns onto its end") {
+TEST_CASE("a beam whose load is out of balance by one part in 1e13 rotates until its end is supported") {
   const one_end e(
       balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1000000000001 }, { node = 2, w = -3 }"));
   CHECK(e.end.bounds.unique);
@@ -363,7 +364,9 @@ TEST_CASE("a load that is out of balance by one part in 1e13 is not balanced: th
   CHECK(certified(e.end.bounds));
 }
 
-TEST_CASE("a residual that underflows does not count as 0: a stiffness of 1e-300 proves no slope of 1e-24") {
+TEST_CASE(
+    "a residual that underflows does not count as 0, so a wrong slope is not proved at a stiffness of "
+    "1e-300") {
   const problem p = parse_problem(
       "[beam]\nlength = 2.5\nelements = 1\nEI = 1e-300\n[[support]]\nnode = 1\nfix = \"w\"\n"
       "[[support]]\nnode = 2\nfix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",
@@ -377,7 +380,8 @@ TEST_CASE("a residual that underflows does not count as 0: a stiffness of 1e-300
 }
 
 TEST_CASE(
-    "a structure that all last digits of a row together could free, but no single one, is not certified") {
+    "a matrix is not certified if the last digits of a whole row could free it, even if no single digit "
+    "could") {
   // An arrow: dof 1 is coupled with all others by entries that are written with 6 digits.
   const auto proved = [](int others) {
     problem p;
@@ -420,7 +424,8 @@ TEST_CASE("an elastic support without a force does not widen the bounds on react
 }
 
 TEST_CASE(
-    "a pair whose face is below the normal range of doubles presses as it would at 0, and is not certified") {
+    "a pair whose face is below the normal range of doubles has the force of a face at 0, and is not "
+    "certified") {
   for (const char* face : {"-5e-324", "-1e-310", "-1.2345678901234567e-300", "0"}) {
     INFO(face);
     const one_end e(

@@ -19,7 +19,8 @@ problem referee_problem(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a drop onto stiff pairs fails in doubles, but its final forces are exact") {
+TEST_CASE(
+    "the exact path gives the final forces of a drop onto stiff pairs, at which the path in doubles fails") {
   const judged_run r(referee_problem("dropped-onto-stiff-pairs"), "corrected");
   CHECK(r.end.status == path_status::solved);
   CHECK(r.exactly == std::vector<char>{0, 1});
@@ -32,7 +33,7 @@ TEST_CASE("a drop onto stiff pairs fails in doubles, but its final forces are ex
   CHECK(without.reference == std::vector<char>{0, 1});
 }
 
-TEST_CASE("a mesh without a factor in doubles ends its first step in the final state of the exact path") {
+TEST_CASE("the first step on a mesh without a factor in doubles ends in the exact path's final state") {
   const judged_run r(referee_problem("graded-mesh"), "corrected");
   CHECK(r.end.status == path_status::solved);
   CHECK(r.exactly.front() == 1);
@@ -62,7 +63,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "steps after the end of an exact path have no exact state, nor has any step of too large a problem") {
+    "no exact state is given for steps after the end of an exact path, or for a problem that is too large") {
   const problem p = referee_problem("graded-mesh");
   CHECK_FALSE(exact_means_of(p)->end_of(3).exists);
 
@@ -74,8 +75,7 @@ TEST_CASE(
   CHECK_FALSE(exact_means_of(large)->end_of(1).exists);
 }
 
-TEST_CASE(
-    "the residual at the exact end of a step is the rounding of u, and equals the reaction at a fixed dof") {
+TEST_CASE("the residual of an exact state is only the rounding of u, and at a fixed dof the reaction") {
   const problem p = referee_problem("graded-mesh");
   const exact_path path = follow_corrected_path(exact_problem_of(p));
   const auto exactly = exact_means_of(p);
@@ -95,7 +95,7 @@ TEST_CASE(
   CHECK(checked == 20);
 }
 
-TEST_CASE("the residual of a state in 32 digits is exact, on either side of a face") {
+TEST_CASE("the residual of a state in 32 digits is exact on either side of a face") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   const rational face = decimal_of(-7.6e-12);
@@ -114,7 +114,7 @@ TEST_CASE("the residual of a state in 32 digits is exact, on either side of a fa
 }
 
 TEST_CASE(
-    "a residual beyond the range of doubles is infinite, and displacements that are not finite have no "
+    "a residual beyond the range of doubles is infinite, and an infinite or NaN displacement has no "
     "residual") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);

@@ -17,14 +17,14 @@ const std::string unloaded = "[[step]]\nuniform = 0\n";
 
 }  // namespace
 
-TEST_CASE("a length divided evenly gives exact thirds") {
+TEST_CASE("the exact stiffness of a beam divided into three elements has exact thirds") {
   const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 0.1\n" + clamped + unloaded);
   CHECK(e.stiffness[2].at(0) == -12 * rational(1, 10) * 27);
   CHECK(e.stiffness[2].at(2) == 24 * rational(1, 10) * 27);
   CHECK(e.stiffness[3].at(2) == 0);
 }
 
-TEST_CASE("a bed's pairs have its modulus times exact shares of the length") {
+TEST_CASE("in exact arithmetic, a bed's pairs have its modulus times exact tributary lengths") {
   const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 1\n" + clamped +
                              "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.1\nstiffness = 0.7\n"
                              "[[bed]]\nmodulus = 0.3\nface = 0\n" +
@@ -35,7 +35,7 @@ TEST_CASE("a bed's pairs have its modulus times exact shares of the length") {
   CHECK(e.pairs[3].stiffness == rational(1, 20));
 }
 
-TEST_CASE("a bed under a plate has exact shares of its area") {
+TEST_CASE("in exact arithmetic, the pairs of a bed under a plate have exact tributary areas") {
   const exact_problem e =
       of("[plate]\nsize = [1, 1]\nelements = [3, 1]\nD = 1\nnu = 0.3\n"
          "[[bed]]\nmodulus = 1\nface = 0\n" +
@@ -44,7 +44,7 @@ TEST_CASE("a bed under a plate has exact shares of its area") {
   CHECK(e.pairs[1].stiffness == rational(1, 6));
 }
 
-TEST_CASE("elastic supports join the stiffness, fixed ones do not") {
+TEST_CASE("the exact stiffness includes elastic supports, but not fixed ones") {
   const exact_problem e = of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
                              "[[support]]\nnode = 2\nspring = { theta = 0.2 }\n" + unloaded);
   CHECK(e.stiffness[3].at(3) == rational(42, 10));
@@ -52,7 +52,7 @@ TEST_CASE("elastic supports join the stiffness, fixed ones do not") {
   CHECK(e.supports[2].spring == rational(1, 5));
 }
 
-TEST_CASE("pressure on a plate is consistent, and a settlement moves a fixed dof") {
+TEST_CASE("the exact load of a plate is consistent with its pressure, and its settlement moves a fixed dof") {
   contct::problem p = parse_problem(
       "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0.3\n[[support]]\nnode = 1\nfix = [\"w\"]\n"
       "[[step]]\nuniform = 0.6\n",
@@ -64,7 +64,9 @@ TEST_CASE("pressure on a plate is consistent, and a settlement moves a fixed dof
   CHECK(e.steps[0].settlement[0] == rational(-1, 100));
 }
 
-TEST_CASE("a list of coordinates is taken as written where it divides a length evenly as doubles") {
+TEST_CASE(
+    "in exact arithmetic, a list of coordinates is used as written, even if doubles divide its length "
+    "evenly") {
   const rational third = decimal_of(0.3333333333333333);
   const exact_problem list =
       of("[beam]\nx = [0, 0.3333333333333333, 0.6666666666666666, 1]\nEI = 1\n" + clamped + unloaded);
@@ -74,7 +76,7 @@ TEST_CASE("a list of coordinates is taken as written where it divides a length e
   CHECK(of("[plate]\nx = [0, 0.3333333333333333, 1]\ny = [0, 1]\n" + plate).pairs[0].stiffness == third / 4);
 }
 
-TEST_CASE("element_size makes equal parts between the coordinates that the file names") {
+TEST_CASE("in exact arithmetic, element_size makes equal elements between the coordinates of the file") {
   const exact_problem e =
       of("[beam]\nlength = 1\nelement_size = 0.25\nEI = 1\n" + clamped +
          "[[contact]]\nx = 0.7\nsurface = \"below\"\nface = -1\nstiffness = 1\n" + unloaded);
@@ -84,7 +86,7 @@ TEST_CASE("element_size makes equal parts between the coordinates that the file 
   CHECK(e.stiffness[10].at(11) == -6 / (rational(3, 20) * rational(3, 20)));
 }
 
-TEST_CASE("a bed's polynomial face is exact, and so is the test whether it is at 0") {
+TEST_CASE("in exact arithmetic, a bed's polynomial face is exact, and so is the test whether it is at 0") {
   const std::string bed = clamped + "[[bed]]\nmodulus = 1\n";
   const exact_problem e = of("[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + bed +
                              "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);

@@ -131,7 +131,7 @@ TEST_CASE("Extremes inside elements are within their proved bounds under random 
   CHECK(certified > problems * 9 / 10);
 }
 
-TEST_CASE("Extremes inside elements beside a hinge are within their proved bounds") {
+TEST_CASE("Extremes inside elements next to a hinge are within their proved bounds") {
   random_numbers random(41);
   int compared = 0;
   for (int number = 0; number < 100; ++number) {
@@ -142,7 +142,7 @@ TEST_CASE("Extremes inside elements beside a hinge are within their proved bound
   CHECK(compared > 540);
 }
 
-TEST_CASE("The least moment under (x - 1000)^6 is -2 16^(1/7), and certified to 8 digits") {
+TEST_CASE("The least moment under the load (x - 1000)^6 is -2 16^(1/7), and is certified to 8 digits") {
   const outcome o = outcome_of(parse_problem(
       "[beam]\nx = [1000, 1001, 1002]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n"
       "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -1.0\nstiffness = 1.0\n"

@@ -32,7 +32,9 @@ TEST_CASE("The moment at the hinge of a two-span Gerber beam is 0, and its react
   CHECK(end.displacement[8] == rational(-400, 3) / 52857);
 }
 
-TEST_CASE("Two cantilevers that a hinge joins over a stop share what the stop does not take") {
+TEST_CASE(
+    "Two cantilevers joined by a hinge over a stop carry equal parts of the load that the stop does not "
+    "carry") {
   const contct::problem p = parse_problem(
       "[beam]\nlength = 2.0\nelements = 4\nEI = 1e4\n[[hinge]]\nx = 1.0\n"
       "[[support]]\nx = [0.0, 2.0]\nfix = [\"w\", \"theta\"]\n"
@@ -45,7 +47,7 @@ TEST_CASE("Two cantilevers that a hinge joins over a stop share what the stop do
   CHECK(end.force.at(0) == 30);
 }
 
-TEST_CASE("A beam with three hinges between two supports is a mechanism that its load drives") {
+TEST_CASE("A beam with three hinges between two supports is a mechanism under its load") {
   const exact_path path =
       path_of(parse_problem("[beam]\nlength = 4.0\nelements = 4\nEI = 1\n[[hinge]]\nx = [1, 2, 3]\n"
                             "[[support]]\nx = [0, 4]\nfix = \"w\"\n[[step]]\nuniform = -1\n",
@@ -55,7 +57,7 @@ TEST_CASE("A beam with three hinges between two supports is a mechanism that its
   CHECK(path.mechanism->work == 3);
 }
 
-TEST_CASE("Self-weight acts as the exact product of weight and area, and EI is that of E and I") {
+TEST_CASE("The exact self-weight is the product of weight and area, and the exact EI that of E and I") {
   const contct::problem p = parse_problem(
       "[beam]\nx = [0, 1]\nsection = { E = 0.1, I = 0.3, A = 0.7, weight = 0.1 }\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nself_weight = true\n",

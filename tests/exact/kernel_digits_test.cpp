@@ -41,7 +41,7 @@ struct stop_run {
 
 }  // namespace
 
-TEST_CASE("a path that is correct to the last bit has 16 digits") {
+TEST_CASE("a kernel's path that is correct to the last bit has 16 correct digits") {
   const kernel_digits r = stop_run().with(0.0, 0.0);
   CHECK(r.same_events);
   CHECK(r.first_difference.empty());
@@ -50,7 +50,7 @@ TEST_CASE("a path that is correct to the last bit has 16 digits") {
   CHECK(r.event_digits > 15.5);
 }
 
-TEST_CASE("lost digits are measured for displacements, forces and shares separately") {
+TEST_CASE("lost digits of a kernel's path are measured separately for displacements, forces and shares") {
   const kernel_digits r = stop_run().with(1e-7, 2e-6);
   CHECK(r.same_events);
   CHECK(r.digits == Approx(6.0));
@@ -58,11 +58,11 @@ TEST_CASE("lost digits are measured for displacements, forces and shares separat
   CHECK(r.event_digits == Approx(7.0));
 }
 
-TEST_CASE("an error as large as the number leaves no digit") {
+TEST_CASE("an error as large as the number leaves no correct digit") {
   CHECK(stop_run().with(0.0, 5.0).digits == 0.0);
 }
 
-TEST_CASE("the first event that differs is reported for both paths") {
+TEST_CASE("the first event in which a kernel's path differs from the exact path is reported for both") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::break_);
   CHECK_FALSE(r.same_events);
   CHECK(r.first_difference ==
@@ -70,13 +70,13 @@ TEST_CASE("the first event that differs is reported for both paths") {
         "0.333333333");
 }
 
-TEST_CASE("a path that ends early does not count as having the exact path's events") {
+TEST_CASE("a kernel's path that ends early does not count as having the exact path's events") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::make, path_status::mechanism);
   CHECK_FALSE(r.same_events);
   CHECK_THAT(r.first_difference, Contains("ends early"));
 }
 
-TEST_CASE("events that only one path has are reported") {
+TEST_CASE("events that only the kernel's path or only the exact path has are reported") {
   const stop_run run;
   const kernel_digits nothing = digit_counter(run.what, run.exactly).result("k", path_status::solved, 1e-9);
   CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("nothing more happens"));
@@ -91,7 +91,7 @@ TEST_CASE("events that only one path has are reported") {
 }
 
 TEST_CASE(
-    "a pair that toggles twice at one share has no event, nor has one that only touches at the end of a "
+    "toggles of a pair that cancel at one share do not count as events, nor does a touch at the end of a "
     "step") {
   const stop_run run;
   digit_counter counter(run.what, run.exactly);

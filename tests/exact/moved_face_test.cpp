@@ -20,7 +20,8 @@ const std::string raised_stop =
 
 }  // namespace
 
-TEST_CASE("A raised stop presses with (m - gap) / (1 / k + l^3 / 3 EI), as a fraction, by either rule") {
+TEST_CASE(
+    "The exact force of a raised stop is (m - gap) / (1 / k + l^3 / 3 EI), a fraction, by either rule") {
   const exact_problem p = exact_problem_of(parse_problem(raised_stop, "p.toml"));
   for (const exact_path& path : {follow_1989_path(p), follow_corrected_path(p)}) {
     REQUIRE(path.steps.size() == 3);
@@ -37,14 +38,14 @@ TEST_CASE("A raised stop presses with (m - gap) / (1 / k + l^3 / 3 EI), as a fra
   }
 }
 
-TEST_CASE("A move's value and factor are multiplied as decimals") {
+TEST_CASE("The value and the factor of a face's move are multiplied as decimals") {
   problem p = parse_problem(raised_stop, "p.toml");
   p.steps[0].moves[0].value = 0.1;
   p.steps[0].moves[0].factor = 0.1;  // their doubles' product is another double than 0.01
   CHECK(exact_problem_of(p).steps[0].moved[4] == rational(1, 100));
 }
 
-TEST_CASE("States with moved faces have errors within their bounds") {
+TEST_CASE("The errors of states with moved faces are within their bounds") {
   for (const std::string kernel : {"fortran", "corrected"}) {
     const judged_run r{parse_problem(raised_stop, "p.toml"), kernel};
     const exact_path truly = follow_corrected_path(exact_problem_of(r.what));
@@ -61,7 +62,7 @@ TEST_CASE("States with moved faces have errors within their bounds") {
   }
 }
 
-TEST_CASE("Cantilevers that meet press on each other with the exact force, a fraction, by either rule") {
+TEST_CASE("Two cantilevers that meet press on each other with the exact force, a fraction, by either rule") {
   assembled a;
   a.stiffness = {4,
                  {{0, 0, 15000},

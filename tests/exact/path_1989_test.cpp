@@ -34,7 +34,9 @@ std::string stop(int node, const std::string& face, const std::string& k) {
 
 }  // namespace
 
-TEST_CASE("s is exact for a pair without a response, approaching a face, and at a face") {
+TEST_CASE(
+    "the exact 1989 rule gives the s of a pair without a response, of an advancing pair and of one at its "
+    "face") {
   const rational d_star(-1, 3);
   const std::vector<listing_pair> pairs = {
       open_pair(-1, 0, 0),                // no response
@@ -48,7 +50,9 @@ TEST_CASE("s is exact for a pair without a response, approaching a face, and at 
   CHECK(a.toggled == std::vector<int>{2});
 }
 
-TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is not an event") {
+TEST_CASE(
+    "for the exact 1989 rule, a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is not an "
+    "event") {
   const std::vector<listing_pair> pairs = {open_pair(-ten_to_minus(10), 0, -ten_to_minus(10))};
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s[0] == 1);
@@ -56,7 +60,7 @@ TEST_CASE("a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is n
   CHECK(a.toggled.empty());
 }
 
-TEST_CASE("every pair within EPSMUL is toggled, but only tied pairs win together") {
+TEST_CASE("the exact 1989 rule toggles every pair within EPSMUL, but only tied pairs have the least s") {
   const std::vector<listing_pair> pairs = {
       open_pair(rational(-1, 2), 0, -1), open_pair(-2, -1, -2),
       open_pair(rational(-1, 2) - rational(1, 1024), 0, -1),  // 1/512 later: within 1/256
@@ -69,7 +73,7 @@ TEST_CASE("every pair within EPSMUL is toggled, but only tied pairs win together
   CHECK(a.toggled == std::vector<int>{0, 1, 2});
 }
 
-TEST_CASE("a single stop makes contact exactly at its face by the 1989 rule too") {
+TEST_CASE("the exact 1989 rule makes contact with a single stop exactly at its face") {
   const exact_path path =
       listed(one_span + stop(2, "-1", "3") + "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
@@ -78,8 +82,8 @@ TEST_CASE("a single stop makes contact exactly at its face by the 1989 rule too"
 }
 
 TEST_CASE(
-    "a pair within EPSMUL of the first is toggled before it touches, and the error stays in the "
-    "displacements") {
+    "by the exact 1989 rule, a pair within EPSMUL is toggled before it touches, and the displacements keep "
+    "the error") {
   // Two stops at one node: 1 is reached at a third, 1.001 within 1/256 of that.
   const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
                                  "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
@@ -91,7 +95,7 @@ TEST_CASE(
   CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < ten_to_minus(19));
 }
 
-TEST_CASE("a stationary pair is toggled after DELTA of the residual load") {
+TEST_CASE("the exact 1989 rule toggles a stationary pair after DELTA of the residual load") {
   const exact_path path =
       listed(one_span + stop(2, "0", "3") + "[[step]]\npoint = [ { node = 2, w = 6 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
@@ -100,7 +104,7 @@ TEST_CASE("a stationary pair is toggled after DELTA of the residual load") {
   CHECK(path.steps[0].displacement[2] == 2 - ten_to_minus(20));
 }
 
-TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
+TEST_CASE("for the exact 1989 rule, a gap below EPSGAP is stationary in any unit of length") {
   const exact_path path =
       listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
   // Contact is made too early, at a share of DELTA / d*: the true path makes it at 1/20.
@@ -109,8 +113,8 @@ TEST_CASE("a gap below EPSGAP is stationary, whatever the unit of length") {
 }
 
 TEST_CASE(
-    "the exact 1989 rule goes wrong in the same problems as the 1989 code, as reference/DIVERGENCES.md "
-    "says") {
+    "the exact 1989 rule is wrong in the same problems as the 1989 code, with the errors that DIVERGENCES.md "
+    "gives") {
   struct divergence {
     const char* name;
     double error;  // of w at the ends of steps that the rule reaches, relative to the largest
@@ -142,7 +146,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a structure that no pair in contact holds is a mechanism for the 1989 driver") {
+TEST_CASE("for the exact 1989 rule, a structure held by no pair in contact is a mechanism") {
   const exact_path path = listed("[beam]\nx = [0, 1]\nEI = 1\n" + stop(1, "-1", "1") + stop(2, "-1", "1") +
                                  "[[step]]\nuniform = -1\n");
   CHECK(path.status == contct::path_status::mechanism);

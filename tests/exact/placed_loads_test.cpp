@@ -23,7 +23,7 @@ rational_vector work_of(const std::string& step) {
 
 }  // namespace
 
-TEST_CASE("A force at a quarter of an element does the exact work of the cubic shape functions") {
+TEST_CASE("A force at a quarter of an element does the exact work on its cubic shape functions") {
   CHECK(work_of("point = [ { x = 0.25, w = 64 } ]\n") == rational_vector{54, 9, 10, -3});
   CHECK(work_of("point = [ { x = 0.25, theta = 16 } ]\n") == rational_vector{-18, 3, 18, -5});
 }

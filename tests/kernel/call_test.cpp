@@ -26,7 +26,7 @@ std::string verdict(int id, dof_layout layout, int isep, int isurf) {
 
 }  // namespace
 
-TEST_CASE("a call is accepted up to the limits of a product ISEP * ISURF and of a dof") {
+TEST_CASE("a call is accepted up to the 32-bit limits of the product ISEP * ISURF and of a dof") {
   CHECK(verdict(2, {1, 1}, 1, -1) == "accepted");
   CHECK(verdict(1, {2, 2}, 65536, -32768) == "accepted");
   CHECK(verdict(2, {1, 1}, 46341, 46340) == "accepted");
@@ -34,7 +34,7 @@ TEST_CASE("a call is accepted up to the limits of a product ISEP * ISURF and of 
   CHECK(verdict(0, {3, 2}, 1, 1) == "accepted");  // dof 1
 }
 
-TEST_CASE("a call whose product ISEP * ISURF overflows 32 bits is refused with the product") {
+TEST_CASE("a call whose product ISEP * ISURF overflows 32 bits is refused, and the message has the product") {
   CHECK(
       verdict(2, {1, 1}, 65536, 65536) ==
       "call: pair 1: found ISEP 65536 and ISURF 65536, whose product is 4294967296; allowed: a product of 32 "
@@ -43,7 +43,7 @@ TEST_CASE("a call whose product ISEP * ISURF overflows 32 bits is refused with t
   CHECK_THAT(verdict(2, {1, 1}, 65536, -32769), Contains("whose product is -2147549184"));
 }
 
-TEST_CASE("a call whose dof is outside its arrays, or only inside them after an overflow, is refused") {
+TEST_CASE("a call is refused if a dof is outside its arrays, or inside them only after a 32-bit overflow") {
   CHECK(verdict(3, {1, 1}, 1, 1) ==
         "call: pair 1: found ID 3, which is dof 3 with INDOF 1 and NDOFPN 1; allowed: a dof from 1 to 2, "
         "computed "

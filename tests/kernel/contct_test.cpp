@@ -8,8 +8,8 @@
 
 using namespace contct;
 
-TEMPLATE_TEST_CASE("a pair comes into contact at the share of the load that brings it to its face (eq. 4)",
-                   "", float, double) {
+TEMPLATE_TEST_CASE("a pair makes contact at the share of the load that brings it to its face (eq. 4)", "",
+                   float, double) {
   // 1 of 4 units of the test response are used up when the structure meets the face below it.
   small_call<TestType> c({{TestType(-1), TestType(-4), TestType(-2), apart, below}});
   c.ask();
@@ -19,7 +19,7 @@ TEMPLATE_TEST_CASE("a pair comes into contact at the share of the load that brin
   CHECK(c.events == std::vector<event>{{0, change::make}});
 }
 
-TEMPLATE_TEST_CASE("the same formula separates a pair that is lifted off its face", "", float, double) {
+TEMPLATE_TEST_CASE("a pair in contact separates at the share that eq. 4 gives", "", float, double) {
   // Pressed to D = -3 against a face at -2, lifted by 4: after a quarter it passes the face.
   small_call<TestType> c({{TestType(-3), TestType(4), TestType(-2), touching, below}});
   c.ask();
@@ -28,7 +28,7 @@ TEMPLATE_TEST_CASE("the same formula separates a pair that is lifted off its fac
   CHECK(c.events == std::vector<event>{{0, change::break_}});
 }
 
-TEST_CASE("the face's side does not enter eq. 4: it cancels out") {
+TEST_CASE("the s of eq. 4 is the same for a face above and a face below") {
   small_call<double> c({{0.0, 2.0, 1.0, apart, above}, {0.0, 2.0, 1.0, apart, below}});
   c.ask();
   CHECK(c.ss[0] == c.ss[1]);
@@ -46,7 +46,7 @@ TEST_CASE("a pair has no event if its face is out of reach or behind it, or if i
   CHECK(c.isep == std::vector<int>{apart, apart, apart, apart});
 }
 
-TEST_CASE("of several events the smallest s comes first (lemma 2)") {
+TEST_CASE("the smallest s of several events comes first (lemma 2)") {
   small_call<double> c(
       {{0.0, -1.0, -0.75, apart, below}, {0.0, -2.0, -0.5, apart, below}, {-1.0, 2.0, 0.5, touching, below}});
   c.ask();
@@ -54,9 +54,8 @@ TEST_CASE("of several events the smallest s comes first (lemma 2)") {
   CHECK(c.events == std::vector<event>{{1, change::make}});
 }
 
-TEMPLATE_TEST_CASE(
-    "a stationary pair separates at once when it is pulled, by a step too small to count (eq. 11, 12)", "",
-    float, double) {
+TEMPLATE_TEST_CASE("a stationary pair separates at once if it is pulled, at an s below 1e-19 (eq. 11, 12)",
+                   "", float, double) {
   using Real = TestType;
   small_call<Real> c({{Real(0), Real(0.5), Real(0), touching, below},     // pulled off its face
                       {Real(0), Real(-0.5), Real(0), touching, below},    // pressed on: quiet
@@ -71,7 +70,7 @@ TEMPLATE_TEST_CASE(
   CHECK(c.events == std::vector<event>{{0, change::break_}, {2, change::make}});
 }
 
-TEST_CASE("a stationary pair has its event before every advancing one, and D does not change") {
+TEST_CASE("a stationary pair has its event before every advancing pair, and its s does not change D") {
   small_call<double> c({{0.0, -1.0, -1e-9, apart, below}, {0.25, 1e-3, 0.25, touching, below}});
   c.ask();
   CHECK(c.events == std::vector<event>{{1, change::break_}});
@@ -79,8 +78,8 @@ TEST_CASE("a stationary pair has its event before every advancing one, and D doe
 }
 
 TEMPLATE_TEST_CASE(
-    "a near tie toggles every pair less than 2^-8 above the smallest s, and none at exactly 2^-8", "", float,
-    double) {
+    "a near tie toggles every pair whose s is less than 2^-8 above the smallest, but not at exactly 2^-8", "",
+    float, double) {
   using Real = TestType;
   const Real half = Real(0.5);
   const Real edge = half + half / Real(256);
@@ -103,7 +102,7 @@ TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257,
 }
 
 // An initial state that its faces contradict: problem files refuse it (reference/DIVERGENCES.md, way 5).
-TEST_CASE("a pair that starts on the wrong side of its face toggles in reverse, without an error") {
+TEST_CASE("a pair that starts beyond its face gets the wrong status at its event, without an error") {
   small_call<double> pressed({{0.0, -1.0, 0.1, apart, below}});  // the face is inside the structure
   CHECK(pressed.ask().smin == 1.0);                              // which ends 1.1 deep
   CHECK(pressed.ss[0] == -0.1);
@@ -115,7 +114,7 @@ TEST_CASE("a pair that starts on the wrong side of its face toggles in reverse, 
   CHECK(reaches.isep[0] == apart);
 }
 
-TEST_CASE("EPSGAP is a length: in small units every gap counts as zero") {
+TEST_CASE("EPSGAP is an absolute length, so that every gap counts as zero in small units") {
   // The same structure in units in which it measures 1e-10: a real gap is taken for contact at rest.
   small_call<double> c({{0.0, -4e-11, -1e-11, apart, below}});
   c.ask();
@@ -132,7 +131,7 @@ TEST_CASE("a call with NaN has no event") {
   CHECK(c.events.empty());
 }
 
-TEST_CASE("pairs are found through ID, INDOF and NDOFPN, and one node may have several") {
+TEST_CASE("a pair's dof is found through ID, INDOF and NDOFPN, and one node may have several pairs") {
   // Two nodes of three dofs each; the second dof deflects.
   std::vector<double> dd(6, 0.0);
   std::vector<double> dtest = {9, 9, 9, 9, 2.0, 9};
@@ -155,7 +154,7 @@ TEST_CASE("a call without pairs has no event") {
   CHECK(c.events.empty());
 }
 
-TEST_CASE("the constants of single precision are not those of double precision rounded") {
+TEST_CASE("the constants of single precision differ from those of double precision after rounding") {
   CHECK(static_cast<double>(constants<float>::delta) != constants<double>::delta);
   CHECK(static_cast<double>(constants<float>::epsgap) != constants<double>::epsgap);
   CHECK(constants<float>::epsmul == 1.0F / 256);

@@ -90,8 +90,7 @@ void check_unchanged(const Change& changed) {
 }  // namespace
 
 TEST_CASE(
-    "corrected: a pair makes contact when it reaches its face, and breaks contact when it returns to the "
-    "face") {
+    "the corrected kernel makes contact when a pair reaches its face, and breaks it on return to the face") {
   const answered closes({{-1.0, -4.0, -2.0, apart, below}});
   CHECK(closes.smin == 0.25);
   CHECK(closes.ss[0] == 0.25);
@@ -103,7 +102,7 @@ TEST_CASE(
   CHECK(opens.happened == breaks(0));
 }
 
-TEST_CASE("corrected: only an approach makes contact, and only a retreat breaks it") {
+TEST_CASE("the corrected kernel makes contact only on approach, and breaks contact only on retreat") {
   // Each of these has s in (0, 1) by eq. 4 and the wrong direction: it is past its face, and comes back.
   const answered c({{-3.0, 4.0, -2.0, apart, below},      // separated, below its face, on its way up
                     {3.0, -4.0, 2.0, apart, above},       // the same above
@@ -115,7 +114,8 @@ TEST_CASE("corrected: only an approach makes contact, and only a retreat breaks 
   CHECK(c.isep == std::vector<int>{apart, apart, touching, touching});
 }
 
-TEST_CASE("corrected: without a response, or at full load and beyond, there is no event, and all s are 1") {
+TEST_CASE(
+    "the corrected kernel has no event without a response or at full load and beyond, and all s are 1") {
   const answered c({{0.0, -1.0, -1.0, apart, below},      // exactly at full load
                     {0.0, -1.0, -2.0, apart, below},      // beyond it
                     {0.0, 1.0, -2.0, apart, below},       // moving away
@@ -127,7 +127,7 @@ TEST_CASE("corrected: without a response, or at full load and beyond, there is n
   CHECK(c.ss == std::vector<double>(6, 1.0));
 }
 
-TEST_CASE("corrected: where the pairs stand among the dofs does not matter") {
+TEST_CASE("the corrected kernel's answer does not depend on the places of the pairs' dofs in its arrays") {
   random_numbers random(31);
   int happened = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -154,7 +154,7 @@ TEST_CASE("corrected: where the pairs stand among the dofs does not matter") {
   CHECK(happened >= 500);
 }
 
-TEST_CASE("corrected: a face that is overshot by any amount counts as reached") {
+TEST_CASE("the corrected kernel counts a face as reached if it is overshot by any amount") {
   for (const double beyond : {0.0, eps, 1e-9, 0.1}) {
     const answered makes_at_once({{-1.0 - beyond, -1.0, -1.0, apart, below}});
     CHECK(makes_at_once.smin == 0.0);
@@ -166,7 +166,7 @@ TEST_CASE("corrected: a face that is overshot by any amount counts as reached") 
   }
 }
 
-TEST_CASE("corrected: a gap of any size counts as a gap") {
+TEST_CASE("the corrected kernel treats a gap of any size as a gap") {
   // The listing takes everything below 1e-10 for contact at rest.
   const answered c({{0.0, -4e-11, -1e-11, apart, below}});
   CHECK(c.smin == 0.25);
@@ -174,7 +174,7 @@ TEST_CASE("corrected: a gap of any size counts as a gap") {
   CHECK(tiny.smin == 0.25);
 }
 
-TEST_CASE("corrected: an approach of less than 1e-10 of the largest response does not count") {
+TEST_CASE("the corrected kernel ignores an approach of less than 1e-10 of the largest response") {
   const auto ask = [](double d_star, int isep) {
     // A pair at its face, next to a pair that responds by 1 and has no event.
     return answered({{0.0, isep * -d_star, 0.0, isep, below}, {0.0, 1.0, -5.0, apart, below}}).happened;
@@ -188,7 +188,7 @@ TEST_CASE("corrected: an approach of less than 1e-10 of the largest response doe
   CHECK(ask(std::numeric_limits<double>::denorm_min(), touching) == breaks(0));
 }
 
-TEST_CASE("corrected: the largest response is taken over all pairs, on either side and in either status") {
+TEST_CASE("the corrected kernel's largest response is that of all pairs, above or below, in any status") {
   for (const int isep : {apart, touching}) {
     for (const double other : {-1.0, 1.0}) {
       // The other pair's event is far ahead, or already passed.
@@ -199,7 +199,7 @@ TEST_CASE("corrected: the largest response is taken over all pairs, on either si
   }
 }
 
-TEST_CASE("corrected: only the first pair of the least s is toggled, and near ties wait") {
+TEST_CASE("the corrected kernel toggles only the first pair with the least s, and no near tie") {
   const answered tie({{0.0, -1.0, -0.5, apart, below},
                       {0.0, 2.0, 0.5, apart, above},
                       {0.0, 1.0, 0.25, apart, above},
@@ -211,8 +211,8 @@ TEST_CASE("corrected: only the first pair of the least s is toggled, and near ti
 }
 
 TEST_CASE(
-    "corrected: the largest response comes first among pairs at rest, and the lowest index among equal "
-    "ones") {
+    "the corrected kernel toggles the pair at rest with the largest response first, or else the lowest "
+    "index") {
   const std::vector<pair_at<double>> pairs = {{0.0, -0.5, 0.0, apart, below},
                                               {0.0, 2.0, 0.0, touching, below},
                                               {0.0, -2.0, 0.0, touching, above},
@@ -224,14 +224,14 @@ TEST_CASE(
   CHECK(c.isep == std::vector<int>{apart, apart, touching, apart});
 }
 
-TEST_CASE("corrected: a call without pairs has no event, nor has a call with NaN") {
+TEST_CASE("the corrected kernel has no event in a call without pairs or with NaN") {
   CHECK(answered({}).happened == nothing);
   CHECK(answered({}).smin == 1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(answered({{0.0, nan, 0.5, apart, above}}).happened == nothing);
 }
 
-TEST_CASE("corrected: the answer in other units is the same to the bit, since no length is absolute") {
+TEST_CASE("the corrected kernel's answer is the same to the bit in other units of length") {
   for (const int power : {-600, -40, 33, 600}) {
     INFO(power);
     check_unchanged([power](const pair_at<double>& p) -> pair_at<double> {
@@ -240,13 +240,13 @@ TEST_CASE("corrected: the answer in other units is the same to the bit, since no
   }
 }
 
-TEST_CASE("corrected: the answer upside down is the same to the bit") {
+TEST_CASE("the corrected kernel's answer is the same to the bit for a structure turned upside down") {
   check_unchanged([](const pair_at<double>& p) -> pair_at<double> {
     return {-p.d, -p.d_star, -p.c, p.isep, -p.isurf};
   });
 }
 
-TEST_CASE("corrected: in every call s is from 0 to 1, SMIN is the least, and pairs that toggle have that s") {
+TEST_CASE("the corrected kernel's s is from 0 to 1, SMIN is the least s, and toggled pairs have this s") {
   random_numbers r(103);
   for (int round = 0; round < 20000; ++round) {
     const std::vector<pair_at<double>> pairs = random_pairs(r);

@@ -23,7 +23,7 @@ small_call<double> one_that_closes() {
 
 }  // namespace
 
-TEST_CASE("the 1989 code gives an answer as printed and with 8-byte REAL") {
+TEST_CASE("the 1989 code answers in 4-byte REAL, as printed, and in 8-byte REAL") {
   small_call<float> r4({{0.0F, 3.0F, 1.0F, separated, face_above}});
   call<float> c4 = r4.arguments();
   fortran::contct(c4);
@@ -36,7 +36,7 @@ TEST_CASE("the 1989 code gives an answer as printed and with 8-byte REAL") {
   CHECK(r8.isep[0] == in_contact);
 }
 
-TEST_CASE("unit 26 writes nothing unless asked: no fort.26 appears") {
+TEST_CASE("without a request, unit 26 writes nothing and no file fort.26 appears") {
   for (int i = 0; i < 1000; ++i) {
     auto c = one_that_closes();
     call<double> arguments = c.arguments();
@@ -45,7 +45,7 @@ TEST_CASE("unit 26 writes nothing unless asked: no fort.26 appears") {
   CHECK_FALSE(std::filesystem::exists("fort.26"));
 }
 
-TEST_CASE("the text of unit 26 can be taken once") {
+TEST_CASE("the text of unit 26 is returned only once, and then only text of later calls") {
   fortran::unit_26 log;
   CHECK(log.take().empty());
   auto c = one_that_closes();
@@ -59,7 +59,7 @@ TEST_CASE("the text of unit 26 can be taken once") {
   CHECK(log.take() == text);
 }
 
-TEST_CASE("each take returns the text of its call, even when the file behind unit 26 is emptied in between") {
+TEST_CASE("each reading of unit 26 returns exactly the text written since the reading before") {
   fortran::unit_26 log;
   auto c = small_call<double>({{0.0, 0.0, 0.25, separated, face_above}});
   call<double> arguments = c.arguments();
@@ -80,7 +80,7 @@ TEST_CASE("each take returns the text of its call, even when the file behind uni
   CHECK(characters > 2'500'000);
 }
 
-TEST_CASE("unit 26 belongs to the whole process: it cannot be opened twice") {
+TEST_CASE("only one object at a time can open unit 26, which belongs to the whole process") {
   {
     const fortran::unit_26 log;
     CHECK_THROWS_AS(fortran::unit_26(), std::logic_error);
@@ -88,7 +88,7 @@ TEST_CASE("unit 26 belongs to the whole process: it cannot be opened twice") {
   CHECK_NOTHROW(fortran::unit_26());
 }
 
-TEST_CASE("a signal at any moment leaves no file of unit 26 behind") {
+TEST_CASE("a signal at any moment leaves no file of unit 26") {
   const auto folder =
       std::filesystem::temp_directory_path() / ("contct-unit26-test-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
@@ -109,7 +109,7 @@ TEST_CASE("a signal at any moment leaves no file of unit 26 behind") {
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("COMMON /DOF/ is set for every call, so calls from several threads do not mix") {
+TEST_CASE("COMMON /DOF/ is set for every call, so that calls from several threads do not mix") {
   const auto many = [](int indof, bool& right) {
     // Node 1 has dofs 1..3; only dof `indof` responds.
     const std::vector<double> dd(3, 0.0);

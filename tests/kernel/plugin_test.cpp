@@ -72,7 +72,7 @@ class caught_stream {
 
 }  // namespace
 
-TEST_CASE("a plug-in that hangs is stopped three times, and then not started again") {
+TEST_CASE("a plug-in that hangs three times is stopped, and not started again") {
   const leftovers left;
   {
     const auto k = make_plugin(plugin("misbehaves"), short_patience());
@@ -87,7 +87,7 @@ TEST_CASE("a plug-in that hangs is stopped three times, and then not started aga
   left.check();
 }
 
-TEST_CASE("a plug-in may fail a thousand times if its failures take no time") {
+TEST_CASE("a plug-in is not called again after the allowed number of quick failures, 1000 by default") {
   const leftovers left;
   {
     outside_limits limits;  // forty stand for the thousand: under a sanitizer each takes a while
@@ -102,7 +102,7 @@ TEST_CASE("a plug-in may fail a thousand times if its failures take no time") {
   left.check();
 }
 
-TEST_CASE("a plug-in that writes around an array fails, and the array is named") {
+TEST_CASE("a plug-in that writes beyond an array fails, and the message names the array") {
   const std::vector<std::string> arrays = {"DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF"};
   const leftovers left;
   {
@@ -116,7 +116,7 @@ TEST_CASE("a plug-in that writes around an array fails, and the array is named")
   left.check();
 }
 
-TEST_CASE("a plug-in that changes an input fails, and the input is named") {
+TEST_CASE("a plug-in that changes an input fails, and the message names the input") {
   const auto k = make_plugin(plugin("misbehaves"), short_patience());
   CHECK(put(*k, 30) == "it changed its input DD");
   CHECK(put(*k, 31) == "it changed its input DTEST");
@@ -126,7 +126,7 @@ TEST_CASE("a plug-in that changes an input fails, and the input is named") {
   CHECK(put(*k, behaves).empty());
 }
 
-TEST_CASE("a library that is not a plug-in is refused with the reason") {
+TEST_CASE("a library that is not a plug-in is refused, with the reason") {
   const leftovers left;
   CHECK_THAT(why_refused("/no/such/library.so"), Contains("plugin:/no/such/library.so: cannot be loaded"));
   CHECK_THAT(why_refused("no-such-library.so"), Contains("cannot be loaded: ./no-such-library.so"));
@@ -141,7 +141,7 @@ TEST_CASE("a library that is not a plug-in is refused with the reason") {
   left.check();
 }
 
-TEST_CASE("a plug-in is asked calls of any size after a small one") {
+TEST_CASE("a plug-in answers calls of any size after a small call") {
   const leftovers left;
   {
     const auto k = make_plugin(plugin("misbehaves"));
@@ -166,7 +166,7 @@ TEST_CASE("a plug-in is asked calls of any size after a small one") {
   left.check();
 }
 
-TEST_CASE("a FORTRAN plug-in's unit 26 is not this program's, and leaves no file") {
+TEST_CASE("a FORTRAN plug-in's unit 26 is separate from this program's, and leaves no file") {
   const leftovers left;
   const in_own_folder here;
   {
@@ -187,7 +187,7 @@ TEST_CASE("a FORTRAN plug-in's unit 26 is not this program's, and leaves no file
   left.check();
 }
 
-TEST_CASE("a FORTRAN plug-in leaves no file in a process that never ran the listing") {
+TEST_CASE("a FORTRAN plug-in leaves no file in a process that never called the listing") {
   const in_own_folder here;
   {
     const auto k = make_plugin(plugin("writes_unit_26"), short_patience());
@@ -196,14 +196,14 @@ TEST_CASE("a FORTRAN plug-in leaves no file in a process that never ran the list
   CHECK(here.is_empty());
 }
 
-TEST_CASE("a plug-in's crash is reported as a crash, whatever signal handler this program has") {
+TEST_CASE("a plug-in's crash is reported, whatever signal handler this program has") {
   const auto own = std::signal(SIGSEGV, [](int) { _exit(9); });
   const std::string words = put(*make_plugin(plugin("misbehaves"), short_patience()), crashes);
   (void)std::signal(SIGSEGV, own);
   CHECK_THAT(words, Contains("it was ended by signal 11"));
 }
 
-TEST_CASE("the printed output of a plug-in goes to standard error") {
+TEST_CASE("a plug-in's printed output goes to standard error") {
   const caught_stream out(STDOUT_FILENO);
   const caught_stream err(STDERR_FILENO);
   std::string words;

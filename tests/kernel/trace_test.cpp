@@ -247,7 +247,7 @@ double read_number(const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("numbers of every kind come back from a trace to the bit") {
+TEST_CASE("numbers of every kind are read from a trace as they were written, to the bit") {
   recorded_call c = call_with(numbers());
   const recorded_call back = read_back(written(c));
   CHECK(differences(c.in.dd, back.in.dd) == 0);
@@ -267,7 +267,7 @@ TEST_CASE("numbers of every kind come back from a trace to the bit") {
   }
 }
 
-TEST_CASE("a dof that no pair uses is not written, and read as NaN") {
+TEST_CASE("a dof that no pair uses is not written to a trace, and is read as NaN") {
   recorded_call c = call_with({1.0, 2.0});
   c.in.dd[0] = 7.0;
   const std::string text = written(c);
@@ -277,7 +277,7 @@ TEST_CASE("a dof that no pair uses is not written, and read as NaN") {
   CHECK(back.in.dd[1] == 1.0);
 }
 
-TEST_CASE("notes and unit-26 text come back, whatever characters they have") {
+TEST_CASE("notes and texts of unit 26 with any characters are read from a trace as they were written") {
   recorded_call c = call_with({1.0});
   c.note = "a note with \"quotes\", | bars |, end, \t tabs and \xc3\xa9";
   c.out.text = "|bar\n\nend\n  call 2\n\t\x01\x7f\xff" + std::string(1, '\0') + "\ncarriage\r\n ask\n";
@@ -290,7 +290,7 @@ TEST_CASE("notes and unit-26 text come back, whatever characters they have") {
   CHECK(read_back(written(c)).out.text.empty());
 }
 
-TEST_CASE("a header that is written is read back") {
+TEST_CASE("a header of a trace is read as it was written") {
   const trace_header h{{"what it is for", "in two lines"},
                        "fortran-r4",
                        4,
@@ -315,7 +315,7 @@ TEST_CASE("a header that is written is read back") {
   CHECK(back.floating_point == h.floating_point);
 }
 
-TEST_CASE("a kernel's name of several lines stays one line of the header") {
+TEST_CASE("a kernel's name of several lines is written as one line of a trace's header") {
   trace_header h;
   h.kernel = "pipe:while read x\ndo echo $x\ndone";
   std::string text;
@@ -337,7 +337,7 @@ TEST_CASE("a malformed trace is refused with file and line, what was found and w
   }
 }
 
-TEST_CASE("a trace cut off anywhere is refused, unless the rest is a complete trace") {
+TEST_CASE("a trace that is cut anywhere is refused, except between its calls") {
   int whole = 0;
   for (std::size_t length = 0; length <= good.size(); ++length) {
     const read_result r = read_all(good.substr(0, length));
@@ -355,7 +355,7 @@ TEST_CASE("a trace cut off anywhere is refused, unless the rest is a complete tr
   CHECK(whole < static_cast<int>(good.find("call 1")) + 6);
 }
 
-TEST_CASE("a dof that the next call does not name becomes NaN again") {
+TEST_CASE("a dof that a later call of a trace does not name becomes NaN again") {
   const std::string calls =
       "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
       "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
@@ -374,7 +374,7 @@ TEST_CASE("a dof that the next call does not name becomes NaN again") {
   CHECK_FALSE(reader.next(c));
 }
 
-TEST_CASE("a trace may have numbers as people write them") {
+TEST_CASE("a trace may have numbers as decimals, hex floats, inf and nan") {
   CHECK(read_number("1") == 1.0);
   CHECK(read_number("-0.1") == -0.1);
   CHECK(read_number(".5") == 0.5);

@@ -65,7 +65,9 @@ const std::string force2 = R"("quantity": "force", "pair": 2)";
 
 }  // namespace
 
-TEST_CASE("an error is relative to the largest exact number of its kind, also where 0 is exact") {
+TEST_CASE(
+    "another program's error is relative to the largest exact number of its kind, even if the exact number "
+    "is 0") {
   const foreign_results r =
       judged(of_p(entry(w1, "-0.25025") + "," + entry(w2, "0.0005") + "," + entry(force2, "-0.004")));
   const auto& numbers = r.cases.at(0).numbers;
@@ -78,7 +80,7 @@ TEST_CASE("an error is relative to the largest exact number of its kind, also wh
   CHECK(r.cases.at(0).largest_error == numbers.at(1).error);
 }
 
-TEST_CASE("counts and states must be equal, whatever the tolerance") {
+TEST_CASE("another program's counts and states must be equal, whatever the tolerance") {
   const std::string state = R"("quantity": "state", "pair": 2)";
   const std::string contacts = R"("quantity": "contacts")";
   const auto failed = [&](const std::string& a, const std::string& b) {
@@ -89,13 +91,13 @@ TEST_CASE("counts and states must be equal, whatever the tolerance") {
   CHECK(failed("\"separated\"", "1.05") == 1);
 }
 
-TEST_CASE("numbers and problems that are not given are listed, each once") {
+TEST_CASE("numbers and problems that another program's results do not have are listed once each") {
   const foreign_results r = judged(of_p(entry(w2, "0")));
   CHECK(r.not_given == std::vector<std::string>{"other"});
   CHECK(r.cases.at(0).not_given.size() == 5);
 }
 
-TEST_CASE("an entry that the table does not have, or has twice, is refused with its place") {
+TEST_CASE("a result of another program that is unknown or given twice is refused, with its place") {
   CHECK_THAT(refused("\"q\": [" + entry(w1, "0") + "]"),
              StartsWith("f.json:3:6: problems.q: found an unknown key") && Contains("allowed: p, other"));
   CHECK_THAT(refused("\"othr\": [" + entry(w1, "0") + "]"), Contains("did you mean \"other\"?"));

@@ -24,7 +24,7 @@ found_case a_case() {
 
 }  // namespace
 
-TEST_CASE("a case as a trace is read back, and says what differed") {
+TEST_CASE("a shrunk case is written as a trace, whose header says what differed") {
   const found_case c = a_case();
   const std::string text = trace_of(c, {});
   trace_reader reader(text, "a case");

@@ -38,7 +38,7 @@ fuzz_result full_result(std::int64_t calls, std::int64_t each) {
 
 }  // namespace
 
-TEST_CASE("shards together compare the calls of the whole run") {
+TEST_CASE("the shards of a fuzz run together compare the calls of the whole run") {
   std::vector<branch_counts> counts;
   std::vector<std::int64_t> calls;
   for (const int stride : {1, 3}) {
@@ -59,13 +59,13 @@ TEST_CASE("shards together compare the calls of the whole run") {
   }
 }
 
-TEST_CASE("a fuzz run refuses kernels that cannot be equal") {
+TEST_CASE("a fuzz run refuses kernels of different rules or precisions") {
   CHECK_THROWS_AS(of_calls({"fortran", "corrected"}), std::invalid_argument);
   CHECK_THROWS_AS(of_calls({"fortran", "cpp-r4"}), std::invalid_argument);
   CHECK_THROWS_AS(of_calls({"fortran", "nobody"}), std::invalid_argument);
 }
 
-TEST_CASE("events are counted by kind, and those of pairs within EPSGAP of their face as stationary") {
+TEST_CASE("a fuzz run counts events by kind, and those of pairs within EPSGAP of their face as stationary") {
   two_toggles t;
   fuzz_result r;
   r.count(t.c, t.before);
@@ -77,7 +77,8 @@ TEST_CASE("events are counted by kind, and those of pairs within EPSGAP of their
   CHECK(r.branches.of(branch::stationary, true) == 2);
 }
 
-TEST_CASE("the closeness of a follower is its largest distance, and whether its events are the same") {
+TEST_CASE(
+    "the closeness of a follower is its largest difference in ULPs and whether its events are the same") {
   const call_inputs<double> in{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
   call_outputs out;
   call<double> led = out.prepare(in);
@@ -97,7 +98,7 @@ TEST_CASE("the closeness of a follower is its largest distance, and whether its 
   CHECK_FALSE(r.same_events);
 }
 
-TEST_CASE("a run has minimum counts of calls, values, events by kind and every outcome of every IF") {
+TEST_CASE("a fuzz run fails below its minimum counts of calls, values, events and outcomes of every IF") {
   CHECK(floors_missed(full_result(100'000, 10)).empty());
   CHECK_THAT(floors_missed(full_result(100'000, 9)),
              Catch::Matchers::Contains("make: 9, break: 9, stationary: 9"));
@@ -111,7 +112,7 @@ TEST_CASE("a run has minimum counts of calls, values, events by kind and every o
   CHECK_THAT(floors_missed(nobody), Catch::Matchers::Contains("nothing was compared"));
 }
 
-TEST_CASE("a run on whole problems compares every call of every path, and is the same every time") {
+TEST_CASE("a fuzz run on whole problems compares every call of every path, and is the same every time") {
   fuzz_request r;
   r.calls = 1;
   r.problems = 20;

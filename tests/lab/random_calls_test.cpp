@@ -31,8 +31,9 @@ std::uint64_t digest(const call_inputs<double>& in) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("adversarial calls lie on every threshold, and one ULP to either side of it", "", float,
-                   double) {
+TEMPLATE_TEST_CASE(
+    "adversarial random calls lie on every threshold of the listing, and one ULP to either side", "", float,
+    double) {
   using Real = TestType;
   random_calls<Real> source(1989);
   std::map<branch, std::array<int, 3>> near;  // exactly on it; true and false by one ULP
@@ -63,7 +64,7 @@ TEMPLATE_TEST_CASE("adversarial calls lie on every threshold, and one ULP to eit
   CHECK(near[branch::check_positive][0] >= 20);
 }
 
-TEST_CASE("a call is a function of the seed and its number alone") {
+TEST_CASE("a random call depends only on its seed and its number") {
   for (const int real_bytes : {4, 8}) {
     call_source forwards(7, real_bytes);
     call_source backwards(7, real_bytes);
@@ -77,7 +78,7 @@ TEST_CASE("a call is a function of the seed and its number alone") {
   }
 }
 
-TEST_CASE("dofs that no pair addresses are NaN, so that a kernel which reads them is found") {
+TEST_CASE("a random call has NaN at every dof without a pair, so that a kernel that reads it is found") {
   call_source source(1989, 8);
   for (std::uint64_t n = 1; n <= 50; ++n) {
     const call_inputs<double>& in = source.at(n);

@@ -46,7 +46,7 @@ bool is_nothing(const load& l) {
 
 }  // namespace
 
-TEST_CASE("a random problem depends on its seed and number alone, and no two are equal") {
+TEST_CASE("a random problem depends only on its seed and its number, and no two are equal") {
   std::set<std::vector<double>> seen;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (std::uint64_t number = 0; number < 300; ++number) {
@@ -89,7 +89,7 @@ TEST_CASE("random problems of fixed seeds do not change between versions") {
   }
 }
 
-TEST_CASE("random problems are well formed") {
+TEST_CASE("every random problem has valid supports, pairs and steps") {
   for (std::uint64_t number = 0; number < problems; ++number) {
     const random_problem p = make_random_problem(21, number);
     INFO(number << " " << name_of(p.layout));
@@ -127,7 +127,7 @@ TEST_CASE("random problems are well formed") {
   }
 }
 
-TEST_CASE("each of 2000 structures held by their supports is certified at every step, without a fallback") {
+TEST_CASE("each of 2000 random structures with supports is certified at every step, without a fallback") {
   random_problem_kind kind;
   kind.free_share = 0.0;
   const auto k = make_kernel("corrected");

@@ -31,7 +31,7 @@ struct followed {
 
 }  // namespace
 
-TEST_CASE("every problem file is in the table, and every file of the table is there") {
+TEST_CASE("verification.toml lists exactly the files of reference/problems") {
   std::set<std::string> listed;
   for (const verification_case& c : read_verification((reference / "verification.toml").string()))
     listed.insert(c.file);
@@ -74,8 +74,7 @@ std::string refusal_of(const std::string& lines) {
 }  // namespace
 
 TEST_CASE(
-    "a number of verification.toml without an exact value, a decimal or a fraction in lowest terms, is "
-    "refused") {
+    "verification.toml is refused if a number has no exact value, a decimal or a fraction in lowest terms") {
   for (const char* exact : {"1/2", "0.5", "5e-1", "-0.0", "-208/58875"})
     CHECK(refusal_of("value = 0.5\nexact = \"" + std::string(exact) + "\"\n").empty());
   CHECK_THAT(refusal_of("value = 0.5\n"), Contains("exact"));
@@ -86,7 +85,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a computed number and the table's value must be within their tolerance of the exact one") {
+TEST_CASE(
+    "a computed number and the value of verification.toml must be within tolerance of the exact value") {
   expected_number e = third();
   CHECK(exact_disagreement(e, 1.0 / 3 + 1e-9, 1e-8).empty());
   CHECK_THAT(exact_disagreement(e, 1.0 / 3 + 1e-7, 1e-8), Contains("exactly 1/3; allowed: 1e-08 apart"));
@@ -111,7 +111,7 @@ TEST_CASE("exact states are compared by name, and a number without an exact valu
   CHECK(exact_disagreement(unknown, 7.0, 1e-8).empty());
 }
 
-TEST_CASE("errors are measured by the largest number of their kind on the path") {
+TEST_CASE("the size of a number is the largest number of its kind on the path") {
   const followed f("pb01-cantilever-tip-stop.toml");
   const measurement m(f.p, f.path.result.record);
   const auto size = [&](const char* quantity, const char* dof = "") {
@@ -131,9 +131,7 @@ TEST_CASE("errors are measured by the largest number of their kind on the path")
   for (const char* other : {"events", "contacts", "zero", "x of max moment"}) CHECK(size(other) == 0.0);
 }
 
-TEST_CASE(
-    "a quantity that a plate does not have has no value: a fifth corner, an element too many, a beam's "
-    "moment") {
+TEST_CASE("a quantity that a plate does not have has the value NaN") {
   const followed f("pp01a-simply-supported-plate-n4.toml");
   const measurement m(f.p, f.path.result.record);
   expected_number e;
@@ -154,7 +152,7 @@ TEST_CASE(
   CHECK(std::isnan(m.of(e)));
 }
 
-TEST_CASE("a difference is relative to the size of the expected value, and absolute where that is 0") {
+TEST_CASE("a difference is relative to the expected value, or absolute if the expected value is 0") {
   verified_number n;
   n.expected.value = 2.0;
   n.computed = 3.0;
@@ -167,7 +165,8 @@ TEST_CASE("a difference is relative to the size of the expected value, and absol
   CHECK(n.difference() == 1e-3);
 }
 
-TEST_CASE("each number is verified on both paths, and against the exact value to the certified accuracy") {
+TEST_CASE(
+    "each number is verified on both rules' paths, and against its exact value to the certified accuracy") {
   const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
   expected_number tip;
   tip.step = 2;
@@ -197,7 +196,8 @@ TEST_CASE("each number is verified on both paths, and against the exact value to
   CHECK_THAT(c.numbers[4].apart, Contains("exactly -27/5375; allowed: "));
 }
 
-TEST_CASE("extremes are named by bound and quantity, and have no value if the structure does not have them") {
+TEST_CASE(
+    "extremes are named by bound and quantity, and are NaN if the structure does not have the quantity") {
   const followed f("pb07-three-gap-supports.toml");
   const measurement m(f.p, f.path.result.record);
   expected_number e;
@@ -213,7 +213,7 @@ TEST_CASE("extremes are named by bound and quantity, and have no value if the st
   for (const char* none : {"max mx", "x of min mxy", "mean moment", "max "}) CHECK(std::isnan(of(none)));
 }
 
-TEST_CASE("a number is described by its quantity and its place") {
+TEST_CASE("a verified number is described by its quantity and its place") {
   expected_number e;
   e.quantity = "w";
   e.node = 3;

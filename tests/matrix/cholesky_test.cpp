@@ -29,7 +29,7 @@ double rcond_of(const linear_structure& s) {
 
 }  // namespace
 
-TEST_CASE("factor and solve recover the vector that the matrix was multiplied by") {
+TEST_CASE("a band factor solves K x = b for the x from which b was computed") {
   band_matrix a(5, 2);
   for (int j = 0; j < 5; ++j) {
     a.add(j, j, 10.0 + j);
@@ -43,7 +43,7 @@ TEST_CASE("factor and solve recover the vector that the matrix was multiplied by
   for (std::size_t i = 0; i < 5; ++i) CHECK(b[i] == Approx(x[i]).epsilon(1e-14));
 }
 
-TEST_CASE("the condition is that of the equilibrated matrix, so units do not matter") {
+TEST_CASE("the condition number is that of the equilibrated matrix, so that it does not depend on units") {
   const double metres = rcond_of(simple_span(10, 1.0));
   const double tiny = rcond_of(simple_span(10, 1e-9));
   CHECK(metres == Approx(tiny).epsilon(1e-6));
@@ -51,7 +51,7 @@ TEST_CASE("the condition is that of the equilibrated matrix, so units do not mat
   CHECK(metres < 1e-3);
 }
 
-TEST_CASE("the condition is LAPACK's own estimate, dpbcon's") {
+TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
   for (const int n : {1, 2, 7, 50, 400}) {
     const linear_structure s = simple_span(n, 1.0);
     const double ours = rcond_of(s);
@@ -77,7 +77,7 @@ TEST_CASE("the condition is LAPACK's own estimate, dpbcon's") {
   }
 }
 
-TEST_CASE("the exact condition of a small matrix is found") {
+TEST_CASE("the condition number of a 2 by 2 matrix is exact") {
   band_matrix a(2, 1);  // 1 .5 / .5 1: norm 1.5, inverse 4/3 (1 -.5 / -.5 1) of norm 2
   a.add(0, 0, 4.0);
   a.add(1, 1, 25.0);
@@ -86,10 +86,7 @@ TEST_CASE("the exact condition of a small matrix is found") {
   CHECK(stiffness_factor(k).reciprocal_condition({}) == Approx(1.0 / 3.0).epsilon(1e-14));
 }
 
-TEST_CASE(
-    "the digits lost by a long span grow with the fourth power of the number of elements, and are reported, "
-    "unlike by "
-    "LAPACK") {
+TEST_CASE("a span of n elements loses digits as n^4, and at n = 5000 at most one digit is left") {
   const double at_10 = rcond_of(simple_span(10, 1.0));
   const double at_100 = rcond_of(simple_span(100, 1.0));
   CHECK(at_10 / at_100 == Approx(1e4).epsilon(0.5));
@@ -103,7 +100,7 @@ TEST_CASE("the number of digits is never negative") {
   CHECK(digits_left(1.0) == 15);
 }
 
-TEST_CASE("LAPACK is identified by its version and the library that holds dpbtrf") {
+TEST_CASE("LAPACK is identified by its version and the library that contains dpbtrf") {
   const std::string identity = lapack_identity();
   CHECK(identity.rfind("LAPACK 3.", 0) == 0);
   const std::size_t comma = identity.find(", ");

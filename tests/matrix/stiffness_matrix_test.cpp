@@ -19,7 +19,7 @@ std::vector<long double> minus_product(const stiffness_matrix& k, std::span<cons
 
 }  // namespace
 
-TEST_CASE("a matrix stored as a band equals the one stored by its entries, to the bit") {
+TEST_CASE("a matrix stored as a band equals the matrix stored by columns, to the bit") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const band_matrix band = random_band(order, half_bandwidth, seed);
     stiffness_matrix wide(band);
@@ -67,7 +67,7 @@ TEST_CASE("a matrix stored as a band equals the one stored by its entries, to th
   }
 }
 
-TEST_CASE("the largest sum of a column is that of the whole matrix, not of its lower triangle") {
+TEST_CASE("the 1-norm of K includes the upper triangle, which is not stored") {
   band_matrix k(3, 1);
   k.at(0, 0) = 4;
   k.at(1, 0) = -1;
@@ -79,7 +79,7 @@ TEST_CASE("the largest sum of a column is that of the whole matrix, not of its l
   CHECK(stiffness_matrix(columns_of(k)).one_norm(std::vector<double>{4, 5.5, 6}, ones) == 8.5);
 }
 
-TEST_CASE("springs at one row add up on the diagonal, and K itself does not change") {
+TEST_CASE("several springs at one row add up on the diagonal, and K itself does not change") {
   band_matrix k(3, 1);
   for (int row = 0; row < 3; ++row) k.at(row, row) = row + 1.0;
   const std::vector<spring_at> springs = {{1, 10.0}, {1, 0.5}, {2, 4.0}};
@@ -89,7 +89,7 @@ TEST_CASE("springs at one row add up on the diagonal, and K itself does not chan
   }
 }
 
-TEST_CASE("a band keeps only its lower half: (row, column) is its entry column * (kd + 1) + row - column") {
+TEST_CASE("a band stores the entry (row, column) of its lower half at column * (kd + 1) + row - column") {
   band_matrix a(4, 1);
   a.add(1, 0, 2.0);
   a.add(0, 1, 3.0);
@@ -111,7 +111,7 @@ TEST_CASE("a product with a band uses both triangles of the matrix") {
   CHECK(small.times(std::vector<double>{1, 2, 3}) == std::vector<long double>{7, 10, 19});
 }
 
-TEST_CASE("the order of the rows sets the width of the band, its memory and its places") {
+TEST_CASE("the order of rows determines the width of a band, its memory and the positions of its entries") {
   CHECK(subdiagonals_of(small, {}) == 2);
   CHECK(bytes_of_band(small, {}) == 3L * 3 * 8);
   const std::vector<int> rows = {0, 2, 1};  // row 2 of the matrix next to row 0
@@ -126,7 +126,7 @@ TEST_CASE("the order of the rows sets the width of the band, its memory and its 
   CHECK(band.at(2, 2) == 5.0);
 }
 
-TEST_CASE("entries in any order become columns in ascending order, each with its diagonal") {
+TEST_CASE("entries in any order become columns in ascending order, each with its diagonal entry") {
   const sparse_matrix a{4, {{3, 1, 5.0}, {2, 2, 7.0}, {2, 1, 4.0}, {0, 0, 1.0}, {3, 3, 9.0}, {3, 0, 2.0}}};
   const sparse_columns k = columns_of(a);
   CHECK(k.order() == 4);
@@ -135,7 +135,7 @@ TEST_CASE("entries in any order become columns in ascending order, each with its
   CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 has nothing on its diagonal
 }
 
-TEST_CASE("columns of a band omit its zeros, except those on the diagonal") {
+TEST_CASE("the columns of a band omit its zeros, except those on the diagonal") {
   band_matrix band(3, 2);
   band.at(0, 0) = 4.0;
   band.at(2, 0) = 1.0;
@@ -148,7 +148,7 @@ TEST_CASE("columns of a band omit its zeros, except those on the diagonal") {
   CHECK(k.diagonal(2) == 6.0);
 }
 
-TEST_CASE("products use K by columns if most of its band is zeros") {
+TEST_CASE("a band with mostly zeros is multiplied by columns, and a full band as a band") {
   band_matrix band(40, 20);
   for (int row = 0; row < 40; ++row) band.at(row, row) = 1.0;
   CHECK(without_zeros(stiffness_matrix(band)).has_value());

@@ -86,7 +86,7 @@ TEST_CASE("the rigid-body motions of a beam's matrix are straight lines, in any 
   }
 }
 
-TEST_CASE("supports remove rigid-body motions, and the matrix has only the remaining ones") {
+TEST_CASE("supports remove rigid-body motions from a beam given by its matrix") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}}, {}).rigid_motions == 1);
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, false, 1e4}}, {}).rigid_motions == 1);
@@ -94,7 +94,8 @@ TEST_CASE("supports remove rigid-body motions, and the matrix has only the remai
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}, {1, 0, false, 3.0}}, {}).rigid_motions == 0);
 }
 
-TEST_CASE("pairs hold a free beam given by its matrix exactly if they hold it by its formula") {
+TEST_CASE(
+    "pairs remove as many rigid-body motions from a beam given by its matrix as from a beam given by EI") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4)})) == 1);
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4), at_dof(4)})) == 1);
@@ -103,14 +104,16 @@ TEST_CASE("pairs hold a free beam given by its matrix exactly if they hold it by
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(5), at_dof(20)})) == 2);
 }
 
-TEST_CASE("a body in space: four vertical pairs stop three motions, and six well placed ones all") {
+TEST_CASE(
+    "of a body in space, four vertical pairs remove three rigid-body motions, and six suitable pairs all "
+    "six") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(11)})) == 3);
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(0), at_dof(6), at_dof(1)})) == 6);
 }
 
-TEST_CASE("a dof that no rigid-body motion moves holds no motion, since its entries are rounding") {
+TEST_CASE("a pair at a dof that no rigid-body motion moves removes no rigid-body motion") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);
   std::vector<support> only_x_is_left;
@@ -121,7 +124,9 @@ TEST_CASE("a dof that no rigid-body motion moves holds no motion, since its entr
   CHECK(rank_of(build(body, only_x_is_left, {at_dof(21)})) == 1);
 }
 
-TEST_CASE("a very flexible matrix counts as elastic, unless its last digits are in doubt") {
+TEST_CASE(
+    "a very flexible matrix has no rigid-body motion, except if the last digits of its entries leave this "
+    "open") {
   const std::vector<support> clamp = {{0, 0, true}, {1, 0, true}};
   CHECK(by_matrix(build(beam_of(1000), {}, {}), clamp, {}).rigid_motions == 0);
   assembled longer;
@@ -135,7 +140,8 @@ TEST_CASE("a very flexible matrix counts as elastic, unless its last digits are 
   CHECK(build(longer, clamp, {}).rigid_motions == 0);
 }
 
-TEST_CASE("matrices that are not stiffness matrices are refused by name, with what was found") {
+TEST_CASE(
+    "a matrix that is not positive semidefinite or has a dof without stiffness is refused, with its name") {
   using Catch::Matchers::Contains;
   assembled a;
   a.name = "K.mtx";
@@ -157,7 +163,7 @@ TEST_CASE("matrices that are not stiffness matrices are refused by name, with wh
                                          "of the matrix on its supports, 6"));
 }
 
-TEST_CASE("the order of rows changes neither motions nor reactions") {
+TEST_CASE("the order of a matrix's rows changes neither its rigid-body motions nor its reactions") {
   const std::vector<support> supports = {{0, 0, true}, {24, 0, false, 50.0}};
   assembled a;
   a.stiffness = entries_of(build(beam_of(12), {}, {}));

@@ -15,7 +15,7 @@ const std::vector<support> clamped_left = {{0, 0, true}, {0, 1, true}};
 
 }  // namespace
 
-TEST_CASE("cantilever under a tip load: w = P L^3 / 3 EI, and linear moments") {
+TEST_CASE("a cantilever under a tip load P has the deflection P L^3 / 3 EI and linear moments") {
   const beam b = even_beam(2.0, 4, 50.0);
   const load l{{{4, 0, -3.0}}, {}};
   const auto u = displaced(b, clamped_left, l);
@@ -31,7 +31,8 @@ TEST_CASE("cantilever under a tip load: w = P L^3 / 3 EI, and linear moments") {
   CHECK(r[1] == Approx(6.0).epsilon(1e-12));
 }
 
-TEST_CASE("simply supported beam under uniform load: exact at the nodes, M = q L^2 / 8 in the middle") {
+TEST_CASE(
+    "a simply supported beam under uniform load is exact at its nodes, with M = q L^2 / 8 in the middle") {
   const beam b = even_beam(10.0, 6, 7.0);
   const std::vector<support> ends = {{0, 0, true}, {6, 0, true}};
   const load l{{}, {{{-2.0}, {}}}};
@@ -49,7 +50,7 @@ TEST_CASE("simply supported beam under uniform load: exact at the nodes, M = q L
   CHECK(r[1] == Approx(10.0).epsilon(1e-12));
 }
 
-TEST_CASE("stiffness may change from element to element") {
+TEST_CASE("the EI of a beam may differ from element to element") {
   // Cantilever, root half twice as stiff: w = P/3 (L^3/EI2 + (1/EI1 - 1/EI2) (L/2)^3 7 ...), by unit loads.
   beam b = even_beam(2.0, 2, 1.0);
   b.EI = {2.0, 1.0};
@@ -58,7 +59,7 @@ TEST_CASE("stiffness may change from element to element") {
   CHECK(u[4] == Approx(7.0 / 6 + 1.0 / 3).epsilon(1e-13));
 }
 
-TEST_CASE("a polynomial load has its exact resultant and moment, on any mesh") {
+TEST_CASE("the nodal forces of a polynomial load have its exact resultant and moment on any mesh") {
   beam b;
   b.x = {0.0, 0.3, 1.0, 1.1, 2.0};
   b.EI.assign(4, 1.0);
@@ -74,7 +75,7 @@ TEST_CASE("a polynomial load has its exact resultant and moment, on any mesh") {
   CHECK(moment == Approx(20.0 / 3).epsilon(1e-14));
 }
 
-TEST_CASE("a polynomial of degree 0 is a uniform load, and several parts add up") {
+TEST_CASE("a polynomial of degree 0 is a uniform load, and several distributed loads add up") {
   const beam b = even_beam(3.0, 3, 1.0);
   std::vector<double> whole(8, 0.0);
   std::vector<double> parts(8, 0.0);
@@ -83,7 +84,7 @@ TEST_CASE("a polynomial of degree 0 is a uniform load, and several parts add up"
   for (std::size_t i = 0; i < 8; ++i) CHECK(parts[i] == Approx(whole[i]).margin(1e-15));
 }
 
-TEST_CASE("a rigid-body motion bends nothing, however large") {
+TEST_CASE("a rigid-body motion of any size gives a beam no moments") {
   const beam b = even_beam(10.0, 100, 1e4);
   std::vector<double> u;
   for (const double x : b.x) {
@@ -96,7 +97,7 @@ TEST_CASE("a rigid-body motion bends nothing, however large") {
     for (const double moment : forces.at(e, 1)) CHECK(std::abs(moment) < 1e-4);
 }
 
-TEST_CASE("elastic supports: a beam on two springs sinks by F / 2k, and each reacts with half") {
+TEST_CASE("a beam on two springs k sinks by F / 2k, and each spring reacts with half of F") {
   const beam b = even_beam(4.0, 2, 1e6);
   const std::vector<support> springs = {{0, 0, false, 10.0}, {2, 0, false, 10.0}};
   const load l{{{1, 0, -4.0}}, {}};
@@ -107,19 +108,19 @@ TEST_CASE("elastic supports: a beam on two springs sinks by F / 2k, and each rea
   CHECK(r[1] == Approx(2.0).epsilon(1e-9));
 }
 
-TEST_CASE("a rotational spring k at the root adds F L^2 / k to the deflection of the tip") {
+TEST_CASE("a rotational spring k at a cantilever's root adds F L^2 / k to the deflection of its tip") {
   const beam b = even_beam(1.0, 1, 1.0);
   const std::vector<support> soft = {{0, 0, true}, {0, 1, false, 2.0}};
   const auto u = displaced(b, soft, {{{1, 0, 1.0}}, {}});
   CHECK(u[2] == Approx(1.0 / 3 + 1.0 / 2).epsilon(1e-13));
 }
 
-TEST_CASE("a stiffness beyond double precision is refused, with the element") {
+TEST_CASE("a beam whose stiffness exceeds double precision is refused, and the message names the element") {
   beam b = even_beam(1e-150, 2, 1.0);
   CHECK_THROWS_WITH(build(b, clamped_left, {}), Catch::Matchers::Contains("element 1"));
 }
 
-TEST_CASE("the two rigid-body motions of a beam, up and about its middle, are what rigid_rows says") {
+TEST_CASE("a beam has two rigid-body motions, a translation and a rotation about its middle") {
   beam b;
   b.x = {2.0, 3.0, 5.0, 6.0};
   b.EI.assign(3, 1.0);
@@ -139,7 +140,7 @@ TEST_CASE("the two rigid-body motions of a beam, up and about its middle, are wh
   }
 }
 
-TEST_CASE("supports, springs and pairs hold a beam") {
+TEST_CASE("a support and a pair together remove both rigid-body motions of a beam") {
   const beam b = even_beam(2.0, 2, 1.0);
   const std::vector<support> one = {{0, 0, true}};
   const linear_structure s = build(b, one, {{2, 1, 0.5, 1.0, false}});

@@ -75,8 +75,8 @@ TEST_CASE("A load that grows with x has its largest moment where the shear is ze
 }
 
 TEST_CASE(
-    "The deflection line of an element has the values at its nodes, and its derivatives are slope, moment, "
-    "shear and load") {
+    "An element's deflection line has the values of its nodes, and its derivatives are slope, moment, shear "
+    "and load") {
   const beam b{{1.0, 1.5, 4.0}, {20.0, 50.0}};
   const load l{{{1, 0, -3.0}}, {{{1.0, -2.0, 0.5}, {1}}, {{4.0}, {}}}};
   const std::vector<double> u = displaced(b, {{0, 0, true}, {0, 1, true}, {2, 0, true}}, l);
@@ -102,7 +102,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A plate's moments are largest at corners of elements, with their nodes") {
+TEST_CASE("A plate's largest moments are at corners of elements, and name the nodes there") {
   const plate p{{0, 1, 2}, {0, 2, 4}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
   for (std::size_t node = 0; node < 9; ++node) {  // w = x^2: mx = 2 D, my = 2 nu D
@@ -121,7 +121,7 @@ TEST_CASE("A plate's moments are largest at corners of elements, with their node
   CHECK(range_named(all, "mxy").largest().value == Approx(0.0).margin(1e-12));
 }
 
-TEST_CASE("the places of a plate's largest and least deflections have both coordinates of the node") {
+TEST_CASE("the places of a plate's largest and least deflections have the x and y of the node") {
   const plate p{{0, 1, 3}, {0, 2, 5, 9}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
   u[21] = 2.0;   // the middle node of the third line
@@ -131,7 +131,9 @@ TEST_CASE("the places of a plate's largest and least deflections have both coord
   CHECK((w.least.node == 5 && w.least.x == 3.0 && w.least.y == 2.0));
 }
 
-TEST_CASE("a plate's moment that grows along x is least at one side of an element and largest at the other") {
+TEST_CASE(
+    "a plate's moment that grows along x is least at the left side of an element and largest at the right "
+    "side") {
   const plate p{{0, 2}, {0, 3}, 10.0, 0.0};
   std::vector<double> u(p.dofs(), 0.0);
   for (std::size_t node = 0; node < 4; ++node) {  // w = x^3: mx = 6 D x
@@ -146,7 +148,7 @@ TEST_CASE("a plate's moment that grows along x is least at one side of an elemen
   CHECK(mx.most.x == 2.0);
 }
 
-TEST_CASE("a deflection that rises between two nodes is largest at the last one") {
+TEST_CASE("the largest deflection between two nodes is that of the second node if the deflection grows") {
   const beam b{{0, 1, 2, 4}, {1.0, 1.0, 1.0}};
   std::vector<double> u;
   for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});
@@ -159,7 +161,7 @@ TEST_CASE("a deflection that rises between two nodes is largest at the last one"
   CHECK(w.most.node == 3);
 }
 
-TEST_CASE("the lines of all elements begin with the shears and moments that they are given") {
+TEST_CASE("the polynomials of an element begin with the given shear and moment at its left end") {
   const beam b{{0, 1, 2, 3}, {1.0, 1.0, 1.0}};
   const std::vector<double> given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   const std::vector<double> u(8, 0.0);

@@ -61,7 +61,7 @@ TEST_CASE("An element between two hinges sags as a simple beam that stands on tw
   CHECK(w.least.x == Approx(2.0).epsilon(1e-7));
 }
 
-TEST_CASE("A hinge over a support makes two simple beams of two spans") {
+TEST_CASE("A hinge over a support makes two simple beams of a beam with two spans") {
   const beam b = hinged({0, 1, 2}, {1});
   const std::vector<support> supports = {{0, 0, true}, {1, 0, true}, {2, 0, true}};
   const std::vector<double> u = displaced(b, supports, uniform_on(-8));
@@ -71,7 +71,7 @@ TEST_CASE("A hinge over a support makes two simple beams of two spans") {
   CHECK(u[3] == Approx(-8.0 / 24).epsilon(hinge_rounding));
 }
 
-TEST_CASE("A load that grows along an element left of a hinge is condensed exactly") {
+TEST_CASE("A load that grows along an element with a hinge at its right end is condensed exactly") {
   // A clamp, 3 long, and a hinge at a prop: q = -2 x has the propped cantilever's clamp moment, 7 q0 L^2 /
   // 120.
   const beam b = hinged({0, 3, 5}, {1}, 7);
@@ -81,7 +81,7 @@ TEST_CASE("A load that grows along an element left of a hinge is condensed exact
   CHECK(reactions({b}, l, supports, u)[1] == Approx(7.0 * 6 * 9 / 120).epsilon(hinge_rounding));
 }
 
-TEST_CASE("A beam of n hinges has 2 + n rigid-body motions, none of which needs a force") {
+TEST_CASE("A beam of n hinges has 2 + n rigid-body motions, which need no force") {
   const beam b = hinged({0, 1, 2.5, 3, 4, 6, 7}, {1, 2, 4}, 3);
   const linear_structure s = build(b, {}, {});
   REQUIRE(s.rigid_motions == 5);
@@ -97,7 +97,9 @@ TEST_CASE("A beam of n hinges has 2 + n rigid-body motions, none of which needs 
   CHECK(held_motions(build(b, std::vector<support>{{0, 0, true}, {6, 0, true}, {3, 1, true}}, {})) == 3);
 }
 
-TEST_CASE("Three hinges in a row between two supports are a mechanism, which only loads that drive it show") {
+TEST_CASE(
+    "Three hinges between two supports make a mechanism, but a load that does no work on it has an "
+    "equilibrium") {
   const beam b = hinged({0, 1, 2, 3, 4}, {1, 2, 3});
   const linear_structure s = build(b, std::vector<support>{{0, 0, true}, {2, 0, true}, {4, 0, true}}, {});
   CHECK(held_motions(s) == 3);
@@ -106,7 +108,7 @@ TEST_CASE("Three hinges in a row between two supports are a mechanism, which onl
   CHECK(s.has_equilibrium(s.truth->work_of(uniform_on(-1))) == false);
 }
 
-TEST_CASE("Pairs that press carry a hinged beam whose supports do not hold it") {
+TEST_CASE("A hinged beam that its supports do not hold is in equilibrium if pairs carry its load") {
   const beam b = hinged({0, 1, 2, 3}, {1, 2});
   const std::vector<support> ends = {{0, 0, true}, {3, 0, true}};
   const load down = uniform_on(-1);

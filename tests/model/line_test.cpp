@@ -35,7 +35,7 @@ const std::vector<double> sixth_power = {1e18, -6e15, 1.5e13, -2e10, 1.5e7, -600
 
 }  // namespace
 
-TEST_CASE("the decimal 0.1 is one tenth, which its double is not") {
+TEST_CASE("the number 0.1 is read as the decimal one tenth, which differs from its double") {
   CHECK(decimal(0.1).hi == 0.1);
   CHECK(decimal(0.1).lo != 0.0);
   CHECK(std::abs((decimal(0.1) * 10 - 1.0).hi) <= 0x1p-100);
@@ -47,7 +47,7 @@ TEST_CASE("the decimal 0.1 is one tenth, which its double is not") {
   }
 }
 
-TEST_CASE("a decimal at the ends of the range of doubles is no less than its double") {
+TEST_CASE("a decimal at the ends of the range of doubles equals its double") {
   for (const double x : {5e-324, -5e-324, 1e-310, 2.2250738585072014e-308, -1.2345678901234567e-300,
                          1.2345678901234567e-293, 1.7976931348623157e308}) {
     INFO(x);
@@ -57,7 +57,7 @@ TEST_CASE("a decimal at the ends of the range of doubles is no less than its dou
   }
 }
 
-TEST_CASE("decimals are added exactly before rounding: 0.1, 0.2 and -0.3 have the sum 0") {
+TEST_CASE("decimals are added exactly before rounding, so that 0.1, 0.2 and -0.3 have the sum 0") {
   const auto loads = [](const std::vector<double>& parts) {
     std::vector<point_load> all;
     for (const double x : parts) all.push_back({0, 0, x});
@@ -80,18 +80,19 @@ TEST_CASE("a number times a factor is the product of their decimals, rounded onc
   CHECK(contct::product_of<double>(0.1, 1.0) == 0.1);
 }
 
-TEST_CASE("loads at one dof that cancel with their factors have the sum 0: 0.1 times 3 and -0.3") {
+TEST_CASE(
+    "loads at one dof have the sum 0 if their decimals times their factors cancel, as 0.1 times 3 and -0.3") {
   const std::vector<point_load> all = {{0, 0, 0.1, 3.0}, {0, 0, -0.3}, {0, 0, 1.1, 0.1}, {0, 0, -0.11}};
   CHECK(contct::sum_of<double>(all) == 0.0);
   CHECK(contct::sum_of<rational>(all) == 0);
 }
 
-TEST_CASE("a distributed load is the sum of its parts times their factors, to the last decimal") {
+TEST_CASE("a distributed load is the exact decimal sum of its parts times their factors") {
   const distributed_load d{{-0.135}, {}, {{{-0.1}, 1.35}, {{0.3}, 0.1}, {{-0.03}}}};
   CHECK(contct::coefficients_of<rational>(d) == std::vector<rational>{rational(-135, 1000)});
 }
 
-TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as large") {
+TEST_CASE("A polynomial face is rounded once, even if its terms are 1e33 times as large as the face") {
   const beam b{{0.0, 1.1, 2.2}, {1e4, 1e4}};
   const auto faces = contct::values_at<double_double>(b, std::vector<double>{-0.001, -1.21e30, 0.0, 1e30},
                                                       std::vector<int>{1, 0});
@@ -102,11 +103,11 @@ TEST_CASE("A polynomial face is rounded once, though its terms are 1e33 times as
   }
 }
 
-TEST_CASE("each point of a line stands for half of the intervals beside it") {
+TEST_CASE("the tributary length of a point is half of each interval next to it") {
   CHECK(contct::tributary_lengths<double>(std::vector<double>{2, 1}) == std::vector<double>{1, 1.5, 0.5});
 }
 
-TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts") {
+TEST_CASE("Faces at nodes that divide a length equally are evaluated at the exact fractions of the length") {
   const beam thirds{{0.0, 1.0 / 3, 2.0 / 3, 1.0}, {1, 1, 1}, {{1.0, 3}}};
   const auto faces =
       contct::values_at<double_double>(thirds, std::vector<double>{-1.0, 3.0}, std::vector<int>{1, 2});
@@ -114,7 +115,7 @@ TEST_CASE("Nodes that are equal parts of a length have faces at the exact parts"
   CHECK(faces[1] == 1.0);
 }
 
-TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element that begins there") {
+TEST_CASE("The load (x - 1000)^6 becomes t^6 on the element that begins at x = 1000") {
   const beam b{{1000.0, 1001.0, 1003.0}, {1, 1}};
   const load l{{}, {{sixth_power, {}}}};
   CHECK(load_on(b, l, 0) == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
@@ -122,7 +123,7 @@ TEST_CASE("A load that is a sixth power about x = 1000 is t^6 on the element tha
   CHECK(pieces_on(b, l, 0).at(0).size == 1.0);
 }
 
-TEST_CASE("Parts of a load add up exactly before they are shifted to an element") {
+TEST_CASE("Parts of a distributed load are added exactly before the sum is shifted to an element") {
   const beam b{{0.0, 1.0, 2.0}, {1, 1}};
   load l{{}, {{{0.1 + 0.2 - 0.3}, {1}, {{{0.1}}, {{0.2}}, {{-0.3}}}}}};
   CHECK(load_on(b, l, 1) == std::vector<double>{0.0});
@@ -133,7 +134,7 @@ TEST_CASE("Parts of a load add up exactly before they are shifted to an element"
   CHECK(load_on(b, l, 1) == std::vector<double>{6.0, 2.0});
 }
 
-TEST_CASE("Equal elements under the same constant loads share one list of pieces") {
+TEST_CASE("Equal elements under the same constant loads have a common list of load pieces") {
   const beam b{{0.0, 0.1, 0.2, 0.3, 0.7}, {1, 1, 1, 1}};
   const auto all = pieces_of(b, {{}, {{{4.0}, {}}, {{2.0}, {1, 2, 3}}}});
   REQUIRE(all.size() == 3);

@@ -54,7 +54,7 @@ constexpr double few_roundings = 1e-13;
 
 }  // namespace
 
-TEST_CASE("A simple beam under q from a to b has its largest moment at a + R/q: R (a + R / 2q)") {
+TEST_CASE("A simple beam under a load q from a to b has its largest moment R (a + R / 2q) at a + R / q") {
   for (const beam& b : {bar(10, 1e4), bar(10, 1e4, {1.0, 3.0, 4.5, 8.0})}) {
     const auto r = solved(b, on_two_supports(b), uniform(-40, 2, 5));
     const double R = 40 * 3 * 0.65;  // the load's middle is 6.5 from the right end
@@ -67,7 +67,7 @@ TEST_CASE("A simple beam under q from a to b has its largest moment at a + R/q: 
 }
 
 TEST_CASE(
-    "A simple beam of one element is exact under a force between its nodes: P a b / L, P a^2 b^2 / 3 EI L") {
+    "A simple beam of one element is exact under a force P between its nodes, with the moment P a b / L") {
   const beam b = bar(10, 1e4);
   const load l = placed({{load_kind::point, 3.3, 3.3, {-75}}});
   const auto u = displaced(b, on_two_supports(b), l);
@@ -86,7 +86,8 @@ TEST_CASE(
   CHECK(polynomial_at(pieces[1].w, 1.0) == Approx(0.0).margin(1e-14));
 }
 
-TEST_CASE("A moment m on a simple beam makes the shear m / L, and the moment falls by m where it acts") {
+TEST_CASE(
+    "A moment m on a simple beam of length L makes the shear m / L, and the bending moment jumps by m") {
   const beam b = bar(8, 50);
   const load l = placed({{load_kind::moment, 3, 3, {16}}});
   const auto r = solved(b, on_two_supports(b), l);
@@ -98,7 +99,7 @@ TEST_CASE("A moment m on a simple beam makes the shear m / L, and the moment fal
 }
 
 TEST_CASE(
-    "An imposed curvature bends a simple beam by curvature L^2 / 8 and a cantilever by L^2 / 2, without "
+    "An imposed curvature c deflects a simple beam by c L^2 / 8 and a cantilever by c L^2 / 2, without "
     "moments") {
   for (const beam& b : {bar(4, 7e3), bar(4, 7e3, {1.0, 2.5})}) {
     const auto r = solved(b, on_two_supports(b), curved(1.2e-3, 0, 4));
@@ -113,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A curvature from a to b turns the part to its right by curvature (b - a) about the middle of a and b") {
+    "A curvature c from a to b rotates the rest of a cantilever by c (b - a) about the middle of a and b") {
   const beam b = bar(5, 10, {2.0});
   const auto u = displaced(b, held_left, curved(0.02, 1, 3.5));
   CHECK(u[4] == Approx(0.02 * 2.5 * (5 - 2.25)).epsilon(few_roundings));
@@ -121,7 +122,7 @@ TEST_CASE(
   CHECK(u[2] == Approx(0.02 * 0.5).epsilon(few_roundings));  // 1 from where it begins: curvature / 2
 }
 
-TEST_CASE("An imposed curvature between two clamps makes the moment -EI curvature, without deflection") {
+TEST_CASE("An imposed curvature c between two clamps makes the moment -EI c, without deflection") {
   for (const beam& b : {bar(4, 50), bar(4, 50, {1.0, 2.5})}) {
     const int last = b.nodes() - 1;
     const auto r =
@@ -133,7 +134,7 @@ TEST_CASE("An imposed curvature between two clamps makes the moment -EI curvatur
   }
 }
 
-TEST_CASE("A load from node to node does the work of the same load on the elements between them") {
+TEST_CASE("A load between two nodes has the same nodal forces whether given by coordinates or by elements") {
   const beam b = bar(3, 2, {0.7, 1.1, 2.0});
   const std::vector<double> q = {0.3, -2.0, 0.5};
   std::vector<double> by_place(8);
@@ -158,7 +159,7 @@ TEST_CASE("The factor of a load multiplies its force, its moment and its resulta
   CHECK(forces[1] == Approx(162 * 0.35 + 15 * 0.6).epsilon(few_roundings));
 }
 
-TEST_CASE("A mixture of two loads scales each placed load by its share") {
+TEST_CASE("A mixture of two loads contains each placed load times its share of the mixture") {
   const load at =
       mix(uniform(-40, 2, 5), placed({{load_kind::force, 2, 5, {-60}}, {load_kind::point, 1, 1, {8}}}), 0.25);
   REQUIRE(at.placed.size() == 2);
@@ -196,7 +197,8 @@ double work_on(const plate& p, const load& l, int m, int n) {
 
 }  // namespace
 
-TEST_CASE("A pressure on any rectangle of a plate does its work on 1, x, y, x^2, xy, .. x^3 y and x y^3") {
+TEST_CASE(
+    "A pressure on any rectangle of a plate does exact work on the cubic polynomials, x^3 y and x y^3") {
   const plate p = uneven_grid();
   const load l = rectangle(3.0, {-0.3, 1.3}, {0.25, 1.05});
   const auto moment = [](double a, double b, int n) {
@@ -219,7 +221,8 @@ TEST_CASE("A pressure on any rectangle of a plate does its work on 1, x, y, x^2,
   }
 }
 
-TEST_CASE("A rectangle between grid lines is the same load as that on its elements, to the bit") {
+TEST_CASE(
+    "A pressure on a rectangle between grid lines equals that on the rectangle's elements, to the bit") {
   const plate p = uneven_grid();
   std::vector<double> by_place(p.dofs());
   std::vector<double> by_elements(p.dofs());
@@ -228,14 +231,15 @@ TEST_CASE("A rectangle between grid lines is the same load as that on its elemen
   CHECK(by_place == by_elements);
 }
 
-TEST_CASE("The resultant of a rectangle on a plate is its pressure times its area, at its middle") {
+TEST_CASE(
+    "The resultant of a pressure on a rectangle is pressure times area, at the middle of the rectangle") {
   const resultant r = resultant_of(uneven_grid(), rectangle(0.5, {-0.3, 1.3}, {0.25, 1.05}));
   CHECK(r.force == 0.64);
   CHECK(r.moments.at(0) == 0.32);
   CHECK(r.moments.at(1) == 0.416);
 }
 
-TEST_CASE("Four rectangles in opposite directions that make up a plate leave exactly no load") {
+TEST_CASE("Pressures on a plate that cancel as decimals leave nodal forces of exactly 0") {
   const plate p = uneven_grid();
   load l = placed({{load_kind::force, -1.0, 0.3, {0.1}, {0.0, 0.9}},
                    {load_kind::force, 0.3, 2.0, {0.1}, {0.0, 0.9}},

@@ -158,7 +158,7 @@ linear_structure magnitudes(linear_structure s) {
 
 }  // namespace
 
-TEST_CASE("the three rigid-body motions of a plate need no force, and are what rigid_rows says") {
+TEST_CASE("the three rigid-body motions of a plate need no force") {
   for (const plate& p : {uneven_plate(), uneven_plate(1000, 1), uneven_plate(1e-12, 1e-12)}) {
     const linear_structure s = build(p, {}, {});
     const linear_structure of_signs = magnitudes(s);
@@ -183,8 +183,7 @@ TEST_CASE("the three rigid-body motions of a plate need no force, and are what r
 }
 
 TEST_CASE(
-    "patch test: edge moments bend an uneven plate to constant curvatures, and forces at the corners twist "
-    "it") {
+    "patch test: edge moments bend an uneven plate to constant curvatures, and corner forces twist it") {
   for (const double narrow : {1.0, 0.1, 10.0}) {
     const plate p = uneven_plate(1.0, narrow);
     const auto bent = displaced(p, held_at_first_node(), edge_moments(p, 3.0, -0.5));
@@ -195,7 +194,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "patch test at an aspect of 1:1000: constant curvature and twist need the edges' forces, no others") {
+    "patch test at an aspect ratio of 1:1000: constant curvature and twist need only forces at the edges") {
   for (const double narrow : {1.0 / 1024, 1024.0}) {
     // All numbers here are exact in binary: a rounding of w alone would weigh eps aspect^4, 1e-3.
     const plate p{{0.0, 1.0, 2.5}, {0.0, narrow, 2.5 * narrow}, 2.0, 0.25};
@@ -229,7 +228,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("corner moments are exact for every cubic field, with x^3 y and x y^3, and sagging is positive") {
+TEST_CASE(
+    "a plate's corner moments are exact for cubic deflections, x^3 y and x y^3, and positive for sagging") {
   const plate p = uneven_plate();
   const field w = {[](double x, double y) {
                      return x * x * x + 2 * x * x * y - y * y * y + x * x * x * y - 2 * x * y * y * y;
@@ -259,7 +259,7 @@ TEST_CASE("corner moments are exact for every cubic field, with x^3 y and x y^3,
   CHECK(sag.at(63, 1)[2] == Approx(sag.at(63, 0)[2]).epsilon(1e-12));
 }
 
-TEST_CASE("a rigid-body motion bends no plate, however large") {
+TEST_CASE("a rigid-body motion of any size gives a plate no moments") {
   const plate p = quarter_of_square(10);
   const field far = {[](double x, double y) { return 1000 + 3 * x - 7 * y; },
                      [](double, double) { return 3.0; }, [](double, double) { return -7.0; }};
@@ -268,7 +268,7 @@ TEST_CASE("a rigid-body motion bends no plate, however large") {
   for (const double moment : moments.values) CHECK(std::abs(moment) < 1e-8);
 }
 
-TEST_CASE("a quarter of a simply supported square: the deflections and corner forces of PP1") {
+TEST_CASE("a quarter of a simply supported square plate has the deflections and corner forces of PP1") {
   struct expected {
     int n;
     double w, corner;
@@ -284,7 +284,7 @@ TEST_CASE("a quarter of a simply supported square: the deflections and corner fo
   }
 }
 
-TEST_CASE("a refined plate converges to Navier's series as h^2") {
+TEST_CASE("the deflection of a plate with elements of size h converges to Navier's series as h^2") {
   double navier = 0.0;
   for (int m = 1; m < 400; m += 2) {
     for (int n = 1; n < 400; n += 2) {
@@ -304,7 +304,7 @@ TEST_CASE("a refined plate converges to Navier's series as h^2") {
   CHECK(before / navier < 3e-4);
 }
 
-TEST_CASE("a strip of a plate along x or along y is a beam within rounding") {
+TEST_CASE("a strip of a plate along x or along y bends like a beam") {
   // nu = 0, one end clamped: the strip bends as a beam of EI = D times its width does.
   const double width = 0.5;
   for (const bool along_x : {true, false}) {
@@ -332,7 +332,7 @@ TEST_CASE("a strip of a plate along x or along y is a beam within rounding") {
   }
 }
 
-TEST_CASE("a plate in any unit has the same answer, from lengths of 1e-12 to 1e12") {
+TEST_CASE("a plate has the same dimensionless answer in units of length from 1e-12 to 1e12") {
   const plate one = quarter_of_square(6);
   const auto u = displaced(one, simply_supported_quarter(one), unit_pressure_down);
   for (const double unit : {1e-12, 1e-6, 1e6, 1e12}) {
@@ -352,7 +352,7 @@ TEST_CASE("a plate in any unit has the same answer, from lengths of 1e-12 to 1e1
   }
 }
 
-TEST_CASE("a pressure's consistent vector has its resultant and moments, on the elements it names") {
+TEST_CASE("the nodal forces of a pressure on some elements of a plate have its resultant and moments") {
   const plate p = uneven_plate();
   const auto resultant = [&](const load& l) {
     std::vector<double> f(p.dofs(), 0.0);
@@ -382,14 +382,13 @@ TEST_CASE("a pressure's consistent vector has its resultant and moments, on the 
                                  -4.0 / 3});
 }
 
-TEST_CASE("a pressure on a plate that is not constant is refused") {
+TEST_CASE("a pressure on a plate that is a polynomial in x is refused") {
   const plate p = uneven_plate();
   std::vector<double> f(p.dofs(), 0.0);
   CHECK_THROWS_AS(add_consistent_loads(p, {{}, {{{1.0, 2.0}, {}}}}, f), std::invalid_argument);
 }
 
-TEST_CASE(
-    "reactions balance the loads, at fixed corners, edges and inner nodes, and springs take their share") {
+TEST_CASE("a plate's reactions balance the loads at fixed corners, edges and inner nodes, and at springs") {
   const plate p = uneven_plate();
   std::vector<support> supports = {{p.node_at(0, 0), 0, true},       {p.node_at(3, 0), 0, true},
                                    {p.node_at(1, 2), 0, true},       {p.node_at(1, 2), 2, true},
@@ -415,14 +414,14 @@ TEST_CASE("E, nu and thickness make D = E t^3 / 12 (1 - nu^2)") {
   CHECK(bending_stiffness(12.0, 0.0, 2.0) == 8.0);
 }
 
-TEST_CASE("a plate whose stiffness is beyond double precision is refused, with the element") {
+TEST_CASE("a plate whose stiffness exceeds double precision is refused, and the message names the element") {
   plate p = quarter_of_square(2);
   p.x = {0.0, 1.0, 1.0 + 1e-12};
   for (double& x : p.x) x *= 1e-100;
   CHECK_THROWS_WITH(build(p, {}, {}), Catch::Matchers::Contains("element 2"));
 }
 
-TEST_CASE("three points not on a line hold a plate, and so do a point and its slopes") {
+TEST_CASE("three points that are not on a line hold a plate, and so does a point with its two slopes") {
   const plate p = uneven_plate(1e9, 1e-9);
   const auto rank_of = [&](const std::vector<support>& supports, const std::vector<contact_pair>& pairs) {
     const linear_structure s = build(p, supports, pairs);
@@ -437,7 +436,7 @@ TEST_CASE("three points not on a line hold a plate, and so do a point and its sl
   CHECK(build(p, {}, {stop}).dof_of_pair(0) == 3 * p.node_at(2, 3));
 }
 
-TEST_CASE("D of a plate is right to 32 digits where 1 - nu^2 cancels in doubles") {
+TEST_CASE("D of a plate is correct to 32 digits even if 1 - nu^2 cancels in doubles") {
   const plate p{{0, 1}, {0, 1}, 1.0, -0.9999999999999999, 2484, 0.1};
   // 1 - nu^2 = 1e-16 (2 - 1e-16), and D = 0.207 / (1 - nu^2).
   const auto D = stiffness_of<double_double>(p);

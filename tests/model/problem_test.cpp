@@ -19,7 +19,9 @@ std::vector<std::string> names_of(const model& m) {
 
 }  // namespace
 
-TEST_CASE("a model knows its sizes and the names of its dofs, whichever kind it is") {
+TEST_CASE(
+    "beam, plate and matrix each know their numbers of nodes, elements and dofs, and the names of their "
+    "dofs") {
   const model b{two_spans};
   CHECK(nodes(b) == 3);
   CHECK(elements(b) == 2);
@@ -36,7 +38,7 @@ TEST_CASE("a model knows its sizes and the names of its dofs, whichever kind it 
   CHECK(tributary_shares(p) == std::vector<double>{0.25, 0.75, 0.5, 0.25, 0.75, 0.5});
 }
 
-TEST_CASE("the resultant of a load has its force, and a moment for each slope") {
+TEST_CASE("the resultant of a load has a force, and one moment for each slope of the structure") {
   const resultant b = resultant_of(model{two_spans}, {{{1, 0, -4.0}, {2, 1, 0.5}}, {{{-2.0}, {1}}}});
   CHECK(b.force == Approx(-8.0));
   REQUIRE(b.moments.size() == 1);
@@ -50,7 +52,7 @@ TEST_CASE("the resultant of a load has its force, and a moment for each slope") 
   CHECK(p.moments[1] == Approx(-4.0 * 1 - 2.0 * 0.5 + 0.25));
 }
 
-TEST_CASE("the resultant is exact where powers of x or loads cancel") {
+TEST_CASE("the resultant of a load is exact even if powers of x or loads cancel") {
   const load far{{}, {{{1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1}, {}}}};  // (x - 1000)^6
   const resultant r = resultant_of(model{beam{{1000, 1001, 1002}, {1, 1}}}, far);
   CHECK(r.force == 128.0 / 7);

@@ -22,15 +22,14 @@ int rank_of(const std::vector<rigid_row>& rows) {
 
 }  // namespace
 
-TEST_CASE(
-    "two deflections at different places hold a beam, but two at one place do not, nor do rotations alone") {
+TEST_CASE("two deflections at different places hold a beam, but two at one place or two rotations do not") {
   CHECK(rank_of({{1, 0.5, 0}, {1, 0.5, 0}}) == 1);
   CHECK(rank_of({{1, 0.5, 0}, {1, 0.5000001, 0}}) == 2);
   CHECK(rank_of({{0, 1, 0}, {0, 1, 0}}) == 1);
   CHECK(rank_of({{0, 1, 0}, {1, 0.9, 0}}) == 2);
 }
 
-TEST_CASE("three points on a line do not hold a plate, a fourth beside it does") {
+TEST_CASE("three points on a line do not hold a plate, but with a fourth point beside the line they do") {
   const std::vector<rigid_row> on_a_line = {{1, -0.3, -0.1}, {1, 0.1, 0.3}, {1, 0.5, 0.7}};
   CHECK(rank_of(on_a_line) == 2);
   std::vector<rigid_row> all = on_a_line;
@@ -38,7 +37,8 @@ TEST_CASE("three points on a line do not hold a plate, a fourth beside it does")
   CHECK(rank_of(all) == 3);
 }
 
-TEST_CASE("a row counts by its direction only, not by its length from 1e-200 to 1e200") {
+TEST_CASE(
+    "for the rank of supports only the direction of a row counts, not its length from 1e-200 to 1e200") {
   for (const double size : {1e-200, 1.0, 1e200}) {
     CHECK(rank_of({{0, size, 0}, {0, 2 * size, 0}}) == 1);
     CHECK(rank_of({{0, size, 0}, {1, 1, 0}, {0, 0, size}}) == 3);
@@ -61,7 +61,7 @@ band_matrix chain(int points) {
 
 }  // namespace
 
-TEST_CASE("a chain of springs has one rigid-body motion: all points by the same length") {
+TEST_CASE("a chain of springs has one rigid-body motion, in which all points move by the same length") {
   const free_motions f = find_free_motions(chain(9), {});
   REQUIRE(f.count == 1);
   REQUIRE(f.rows.size() == 9);
@@ -69,13 +69,13 @@ TEST_CASE("a chain of springs has one rigid-body motion: all points by the same 
   CHECK(f.rounding < 1e-9);
 }
 
-TEST_CASE("a spring to the ground leaves a chain no rigid-body motion") {
+TEST_CASE("a chain with a spring to the ground has no rigid-body motion") {
   band_matrix k = chain(9);
   k.at(3, 3) += 0.5;
   CHECK(find_free_motions(k, {}).count == 0);
 }
 
-TEST_CASE("the scale of the matrix, and of single dofs, does not matter") {
+TEST_CASE("scaling the matrix or single dofs does not change the number of rigid-body motions") {
   stiffness_matrix k = chain(9);
   std::vector<double> d(9, 1e-8);
   d[4] = 1e3;
@@ -87,7 +87,8 @@ TEST_CASE("the scale of the matrix, and of single dofs, does not matter") {
   CHECK(std::abs(f.rows[4][0]) <= 1e-10);
 }
 
-TEST_CASE("a dof with the smallest stiffness in doubles does not change the other rigid-body motions") {
+TEST_CASE(
+    "a dof with the smallest positive stiffness in doubles does not change the other rigid-body motions") {
   band_matrix k(10, 1);
   for (int i = 0; i < 9; ++i)
     for (int j = std::max(i - 1, 0); j <= i; ++j) k.at(i, j) = chain(9).at(i, j);
@@ -97,7 +98,7 @@ TEST_CASE("a dof with the smallest stiffness in doubles does not change the othe
   CHECK(f.rows[9][0] == 0.0);
 }
 
-TEST_CASE("a wrong number of rigid-body motions is refused, and so is a matrix with negative work") {
+TEST_CASE("a wrong number of rigid-body motions is refused, and so is an indefinite matrix") {
   CHECK(find_free_motions(chain(9), 1).count == 1);
   CHECK_THROWS_WITH(find_free_motions(chain(9), 2), Catch::Matchers::Contains("on its supports, 1"));
   band_matrix negative = chain(9);
@@ -105,7 +106,7 @@ TEST_CASE("a wrong number of rigid-body motions is refused, and so is a matrix w
   CHECK_THROWS_AS(find_free_motions(negative, {}), std::invalid_argument);
 }
 
-TEST_CASE("rigid-body motions are the same for sparse storage and for a band") {
+TEST_CASE("a matrix has the same rigid-body motions in sparse storage as in a band") {
   if (!sparse_factor::available()) return;
   assembled body;
   body.name = "K";
@@ -129,7 +130,8 @@ TEST_CASE("rigid-body motions are the same for sparse storage and for a band") {
   CHECK_THROWS_WITH(build(body, {}, {}), Catch::Matchers::Contains("K: "));
 }
 
-TEST_CASE("a point that hangs on a spring 1e22 times softer than the others moves with them all the same") {
+TEST_CASE(
+    "a rigid-body motion of a chain includes a point on a spring that is 1e22 times softer than the others") {
   const int n = 100;
   band_matrix k = chain(n);
   const double soft = 1e-22;

@@ -68,14 +68,14 @@ bool by_every_choice(const numbers& sum, const std::vector<numbers>& parts) {
 
 }  // namespace
 
-TEST_CASE("The work of loads on a beam with hinges is the same from decimals as from condensed loads") {
+TEST_CASE("The work of loads on a hinged beam's motions is the same from decimals as from condensed loads") {
   beam b = beam_at({0, 1, 2, 2.5, 4, 5.5, 6});
   b.hinges = {2, 5};
   agree(b, {{{1, 0, -1.0}, {3, 1, 0.75}}, {{{-2.0}, {1, 2, 3}}, {{0.5, -1.0, 0.25}, {}}}});
   agree(b, {{}, {{{-2.0, 1.0}, {5}}, {{3.0}, {0, 1}}}});
 }
 
-TEST_CASE("loads of 0.1 + 0.2 - 0.3 count as 0, and a load of 1e-300 beside 1e12 does not") {
+TEST_CASE("loads of 0.1, 0.2 and -0.3 do no work on a free beam, but a load of 1e-300 next to 1e12 does") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));
   CHECK(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}, {1, 0, 1e-300}})));
@@ -85,7 +85,8 @@ TEST_CASE("loads of 0.1 + 0.2 - 0.3 count as 0, and a load of 1e-300 beside 1e12
       driven_by_rounded(m, s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));  // in doubles 5.6e-17
 }
 
-TEST_CASE("a load over a support turns the beam about it only with a moment, however small") {
+TEST_CASE(
+    "a load over the only support of a beam drives a rotation only together with a moment, however small") {
   const linear_structure s = build(beam_at({0, 0.7, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, -1.0}}), {2}));
   const auto turn = driven(s, points({{1, 0, -1.0}, {1, 1, -4e-13}}), {2});
@@ -96,14 +97,13 @@ TEST_CASE("a load over a support turns the beam about it only with a moment, how
   CHECK(turn->at(1) < 0.0);  // the slope goes as the moment
 }
 
-TEST_CASE("the driven motion is that on which loads do most work, and equals that of the rounded loads") {
+TEST_CASE("the driven rigid-body motion is that on which the load does most work") {
   load l = points({{0, 0, 3.0}, {2, 1, -0.5}});
   l.distributed = {{{1.0, -0.25, 0.125}, {}}, {{2.0}, {0, 2}}, {{-1.0, 1.0}, {1, 2}}};
   agree(beam_at({0, 1, 3, 4}), l);
 }
 
-TEST_CASE(
-    "the work of a plate's pressures and forces on rigid-body motions is exact, rectangle by rectangle") {
+TEST_CASE("the work of a plate's pressures and forces on its rigid-body motions is exact") {
   plate p;
   p.x = {0, 0.7, 1.3, 2.9};
   p.y = {-1, 0.1, 0.35};
@@ -122,7 +122,7 @@ TEST_CASE(
   CHECK(driven(even, balanced));
 }
 
-TEST_CASE("equal parts of a length are exact: a third has no decimal") {
+TEST_CASE("loads at exact thirds of a beam that balance each other drive no rigid-body motion") {
   beam b = beam_at({0, 1.0 / 3, 2.0 / 3, 1});
   b.runs = {{1.0, 3}};
   const linear_structure s = build(b, {}, {});
@@ -131,7 +131,7 @@ TEST_CASE("equal parts of a length are exact: a third has no decimal") {
   CHECK(driven(by_decimals, points({{0, 0, 2.0}, {1, 0, -3.0}, {3, 0, 1.0}})));
 }
 
-TEST_CASE("two supports hold a beam however near they are, and three a plate unless they lie on one line") {
+TEST_CASE("two supports hold a beam however close they are, and three a plate unless they lie on one line") {
   const linear_structure s = build(beam_at({0, 1e-14, 1}), {}, {});
   CHECK(s.truth->is_independent(std::vector<int>{0}, 2));
   CHECK_FALSE(s.truth->is_independent(std::vector<int>{0}, 0));
@@ -155,7 +155,7 @@ TEST_CASE("two supports hold a beam however near they are, and three a plate unl
   CHECK(build(p, {}, {}).truth->is_independent(std::vector<int>{w(0, 0), w(1, 1)}, w(3, 3)));
 }
 
-TEST_CASE("the difference of the work of two loads is unknown if one of them is unknown") {
+TEST_CASE("the difference of the work of two loads is unknown if one of the two is unknown") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   const rigid_work large = s.truth->work_of(points({{1, 0, -1e16}, {2, 0, -0.1}}));
   const rigid_work small = s.truth->work_of(points({{1, 0, -1e16}}));
@@ -166,7 +166,7 @@ TEST_CASE("the difference of the work of two loads is unknown if one of them is 
 }
 
 TEST_CASE(
-    "two pairs carry a load between them, and a hinged support with a pair carries a load that presses the "
+    "two pairs carry a load between them, and a hinged support and a pair carry a load that presses the "
     "pair") {
   const linear_structure bare =
       build(beam_at({0, 1, 2, 3}), {}, {{0, -1, 0, 1, false}, {2, -1, 0, 1, false}});
@@ -186,7 +186,7 @@ TEST_CASE(
   CHECK(carried(build(beam_at({0, 1}), {}, {}), points({{0, 0, 1.0}})) == false);
 }
 
-TEST_CASE("a plate's load is carried exactly if some three of its pairs carry it") {
+TEST_CASE("a plate's load has an equilibrium if and only if three of its pairs can carry it") {
   const plate p{{-3, -2, -1, 0, 1, 2, 3}, {-3, -2, -1, 0, 1, 2, 3}, 1.0, 0.3};
   contct::random_numbers random(17);
   int carried = 0;
@@ -211,7 +211,7 @@ TEST_CASE("a plate's load is carried exactly if some three of its pairs carry it
   CHECK(carried < 900);
 }
 
-TEST_CASE("a thousand pairs in a square carry a load at its edge, but not a load beyond it by 1e-300") {
+TEST_CASE("a thousand pairs in a square carry a load at the edge of the square, but not 1e-300 beyond it") {
   plate p;
   for (int i = -15; i <= 15; ++i) p.x.push_back(i / 10.0);
   p.y = p.x;

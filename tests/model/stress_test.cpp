@@ -27,7 +27,7 @@ const value_range* named(const std::vector<value_range>& all, std::string_view n
 
 }  // namespace
 
-TEST_CASE("The stress of a beam of two sections is M / W, largest inside its weaker part") {
+TEST_CASE("The stress of a beam with two section moduli is M / W, and is largest inside its weaker part") {
   beam b{{0, 3, 4}, {1, 1}};
   const load l{{}, {{{-8.0}, {}}}};
   const std::vector<double> u = displaced(b, {{0, 0, true}, {2, 0, true}}, l);
@@ -46,7 +46,7 @@ TEST_CASE("The stress of a beam of two sections is M / W, largest inside its wea
 }
 
 TEST_CASE(
-    "Stresses of a plate are 6 m / t^2, with principal ones on Mohr's circle and von Mises' from them") {
+    "Stresses of a plate are 6 m / t^2, with principal stresses by Mohr's circle and von Mises' stress") {
   const element_results moments{{"mx", "my", "mxy"}, 4, {5, 0, 1, 2, -1, 0, 1, -2, 2, 0, 0, 3}};
   const element_results s = stresses_of({square(2.0)}, moments);  // 6 / t^2 = 1.5
   REQUIRE(s.values.size() == 24);
@@ -62,8 +62,7 @@ TEST_CASE(
   CHECK(stresses_of({square(0.0)}, moments).names.empty());
 }
 
-TEST_CASE(
-    "A bound on moments gives a bound on stresses that the worst change of the moments does not exceed") {
+TEST_CASE("The bound on stresses is at least the change of stresses under the worst change of moments") {
   const plate p = square(1.0);
   const double bound = *stress_error({p}, 1e-3, 0.0);
   double worst = 0.0;

@@ -25,7 +25,7 @@ linear_structure four_dofs() {
 
 }  // namespace
 
-TEST_CASE("gaps and forces have the same signs on either side, and tension is a negative force") {
+TEST_CASE("gaps and forces have the same signs above and below, and tension is a negative force") {
   const contact_pair below = {0, -1, -0.5, 100.0, false};  // a face below, at -0.5
   CHECK(gap_of(below, 0.0, false) == 0.5);
   CHECK(gap_of(below, -0.5, false) == 0.0);
@@ -53,7 +53,7 @@ TEST_CASE("supports act in the rows of their dofs") {
   CHECK_FALSE(s.deflects(3));
 }
 
-TEST_CASE("a load between two loads is their proportional mixture, with equal places merged") {
+TEST_CASE("a load within a step is the proportional mixture of two loads, with loads at one place added") {
   const load before{{{2, 0, -10.0}}, {{{-4.0}, {}}}};
   const load after{{{2, 0, -60.0}, {1, 1, 5.0}}, {{{-8.0, 2.0}, {}}, {{1.0}, {0}}}};
   const load at = mix(before, after, 0.1);
@@ -73,7 +73,9 @@ TEST_CASE("the load at the end of a step equals the load of the file, to the bit
   CHECK(mix({{{0, 0, 0.7}}, {}}, after, 1.0).points[0].value == 0.1);
 }
 
-TEST_CASE("a distributed load without elements acts on all, another on those it names") {
+TEST_CASE(
+    "a distributed load without a list of elements acts on all elements, and otherwise on those of its "
+    "list") {
   const load l{{}, {{{1.0}, {}}, {{2.0, 3.0}, {2, 0}}}};
   std::vector<int> elements;
   std::vector<double> constants;
@@ -85,7 +87,8 @@ TEST_CASE("a distributed load without elements acts on all, another on those it 
   CHECK(constants == std::vector<double>{1, 1, 1, 2, 2});
 }
 
-TEST_CASE("n points integrate every polynomial up to degree 2 n - 1, and not beyond") {
+TEST_CASE(
+    "the Gauss rule of n points integrates every polynomial up to degree 2 n - 1, but not of degree 2 n") {
   for (int n = 1; n <= 13; ++n) {
     const auto integral = [&](int degree) {
       double sum = 0.0;
@@ -100,14 +103,14 @@ TEST_CASE("n points integrate every polynomial up to degree 2 n - 1, and not bey
   }
 }
 
-TEST_CASE("a prescribed displacement of a dof that no support fixes names the dof, counted from 1") {
+TEST_CASE("a settlement of a dof without a fixed support is refused, and the message counts the dof from 1") {
   linear_structure s = four_dofs();
   s.settles = {0, 0, 0, 1};
   std::vector<double> f(4);
   CHECK_THROWS_WITH(add_settlements(s, {{}, {}, {{1, 0, 0.5}}}, f), "dof 3 was not built to settle");
 }
 
-TEST_CASE("a support that settles has a finite pivot even beside the largest stiffness in doubles") {
+TEST_CASE("a support that settles has a finite pivot even next to the largest stiffness in doubles") {
   constexpr double largest = std::numeric_limits<double>::max();
   linear_structure s = four_dofs();
   s.stiffness.add_to_diagonal(s.row_of(0), largest);

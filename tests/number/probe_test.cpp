@@ -17,7 +17,7 @@ TEST_CASE("this build has strict floating point") {
   CHECK(describe(found) == "strict");
 }
 
-TEST_CASE("the probe detects another rounding mode") {
+TEST_CASE("the floating-point probe detects a rounding mode other than to nearest") {
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(mode);
     const floating_point found = probe_floating_point();
@@ -29,7 +29,7 @@ TEST_CASE("the probe detects another rounding mode") {
 }
 
 #ifdef __SSE2__
-TEST_CASE("the probe detects that subnormals are flushed to zero, which some fast-math libraries switch on") {
+TEST_CASE("the floating-point probe detects that subnormals are flushed to zero") {
   const unsigned before = _mm_getcsr();
   _mm_setcsr(before | 0x8000);  // FTZ
   const floating_point flushed = probe_floating_point();

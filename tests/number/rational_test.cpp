@@ -45,7 +45,7 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
   CHECK(rounded(rational(integer(-1), huge)) == 0.0);
 }
 
-TEST_CASE("a rational is rounded to the nearest double, and a tie to the even one") {
+TEST_CASE("a rational is rounded to the nearest double, and a tie to the even double") {
   // Halfway between a double and the next one up; a little less; a little more, by a bit that is far off.
   const double least = std::numeric_limits<double>::denorm_min();
   const rational hair(integer(1), integer(1) << 2000U);
@@ -70,7 +70,7 @@ TEST_CASE("a rational is rounded to the nearest double, and a tie to the even on
   CHECK(rounded(binary_value(least) / 2 + hair) == least);
 }
 
-TEST_CASE("fractions are written while they are short, decimals beyond") {
+TEST_CASE("a short fraction is written as a fraction, and a longer one as a decimal") {
   CHECK(fraction_words(rational(-208, 58875)) == "-208/58875");
   CHECK(fraction_words(7) == "7");
   CHECK(short_words(rational(-208, 58875), 8) == "-208/58875");

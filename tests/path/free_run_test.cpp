@@ -18,7 +18,7 @@ path_record free_run(const beam_problem& p, const char* kernel) {
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ in free run arrive at the same bits") {
+TEST_CASE("FORTRAN and C++ end with the same bits in a free run") {
   const path_record fortran = free_run(cantilever_over_a_stop(), "fortran");
   const path_record cpp = free_run(cantilever_over_a_stop(), "cpp");
   const free_run_difference d = compare_paths(fortran, cpp, 1e-9, 2);
@@ -29,7 +29,8 @@ TEST_CASE("FORTRAN and C++ in free run arrive at the same bits") {
   CHECK(fortran.displacement.size() == 4);
 }
 
-TEST_CASE("single precision stays within its own bound, and not within double's") {
+TEST_CASE(
+    "in a free run, single precision is within its own bound, but not within the bound of double precision") {
   const path_record r8 = free_run(cantilever_over_a_stop(), "fortran");
   const path_record r4 = free_run(cantilever_over_a_stop(), "fortran-r4");
   const double bound = free_run_bound(make_kernel("cpp")->facts(), make_kernel("cpp-r4")->facts());
@@ -38,7 +39,7 @@ TEST_CASE("single precision stays within its own bound, and not within double's"
   CHECK_FALSE(compare_paths(r8, r4, 1e-9, 2).within_bound());
 }
 
-TEST_CASE("a different event, a different order and a different end are each named") {
+TEST_CASE("in a free run, a different event, a different order and a different end are each named") {
   const path_record leader = free_run(cantilever_over_a_stop(), "fortran");
   path_record other = leader;
   other.events[1].what.what = change::make;
@@ -61,8 +62,7 @@ TEST_CASE("a different event, a different order and a different end are each nam
 }
 
 TEST_CASE(
-    "the difference in a step that removes all load is relative to the D of the whole path, not to its "
-    "rounding") {
+    "in a free run, the difference in an unloaded step is relative to the largest D of the whole path") {
   beam_problem p = cantilever_over_a_stop();
   p.steps = {tip_load(2, -60), tip_load(2, 0)};
   const path_record r8 = free_run(p, "fortran");

@@ -44,7 +44,7 @@ load from_zero(load l) {
 
 }  // namespace
 
-TEST_CASE("a step from zero has the same path to the bit, whatever steps come before it") {
+TEST_CASE("the path of a step from zero is the same to the bit, whatever steps come before it") {
   for (const char* kernel : {"fortran", "cpp", "corrected"}) {
     beam_problem p = between_stops();
     const recorder both = seen(p, "refactor", kernel);
@@ -63,7 +63,7 @@ TEST_CASE("a step from zero has the same path to the bit, whatever steps come be
   }
 }
 
-TEST_CASE("engines that keep factors restart at a step from zero, too") {
+TEST_CASE("engines that keep factors also restart at a step from zero") {
   for (const char* engine : {"updated", "condensed"}) {
     beam_problem p = between_stops();
     const recorder both = seen(p, engine, "cpp");
@@ -75,7 +75,7 @@ TEST_CASE("engines that keep factors restart at a step from zero, too") {
   }
 }
 
-TEST_CASE("steps after a mechanism are followed only if they start from zero, or continue one that does") {
+TEST_CASE("after a mechanism, a step is followed only if it starts from zero or continues a step that does") {
   const load up = from_zero(tip_load(1, 7.0));
   const load down = tip_load(2, -8.0);
   const beam_problem p = lying({up, down, from_zero(down), tip_load(2, -4.0), up, from_zero(down)});

@@ -44,7 +44,7 @@ void call_with(observer& o, double d, double d_star, double c, double smin, int 
 
 }  // namespace
 
-TEST_CASE("every increment of PB1 is explained, with the second kernel's answer") {
+TEST_CASE("every increment of PB1 is explained, and compared with the second kernel's answer") {
   const explained_pb1 all({"cpp"});
   REQUIRE(all.increments.size() == 6);
   CHECK(all.path.calls() == 6);
@@ -76,8 +76,7 @@ TEST_CASE("a single increment of a single kernel can be explained") {
 }
 
 TEST_CASE(
-    "a toggle farther from the face than rounding is early, and its distance is relative to the largest "
-    "deflection") {
+    "a toggle before its face counts as early, and its distance is relative to the largest deflection") {
   early_toggles early;
   const event makes{0, change::make};
   const std::vector<event> events = {makes};
@@ -97,7 +96,7 @@ TEST_CASE(
   CHECK(early.all()[0].share == 0.25);
 }
 
-TEST_CASE("a recorded path is a trace that its kernel answers in the same way") {
+TEST_CASE("a kernel answers the trace of its own recorded path as it was recorded") {
   std::string text;
   const kernel_facts leader = facts_of_kernel("fortran");
   trace_recorder recorder(header_for(leader, "a checksum"), [&text](std::string_view part) { text += part; });

@@ -10,7 +10,7 @@
 
 using namespace contct;
 
-TEST_CASE("a cycle of any length is found, whatever precedes it") {
+TEST_CASE("a cycle of statuses of any length is found, whatever precedes it") {
   for (int lead : {0, 1, 5, 17}) {
     for (int loop : {1, 2, 3, 7, 20}) {
       cycle_detector watch;
@@ -35,7 +35,7 @@ TEST_CASE("statuses that recur after some movement are not a cycle") {
   CHECK(watch.repeats(false, std::vector<int>{1}, {}));
 }
 
-TEST_CASE("pairs that toggled once do not belong to a cycle, and old toggles are forgotten") {
+TEST_CASE("pairs that toggled once do not belong to a cycle, and toggles 200 increments ago do not count") {
   cycle_detector watch;
   const std::vector<int> status = {1, 1, 1};
   const std::vector<event> both = {{0, change::make}, {1, change::make}};

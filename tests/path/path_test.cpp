@@ -9,7 +9,7 @@
 
 using namespace contct;
 
-TEST_CASE("PB1: the stop makes contact at F = -15, and its force is that of the hand calculation") {
+TEST_CASE("in PB1 the stop makes contact at F = -15, and its force is that of the hand calculation") {
   for (const char* kernel : {"fortran", "cpp"}) {
     recorder r;
     const path_end end = cantilever_over_a_stop().run(kernel, {&r});
@@ -31,7 +31,7 @@ TEST_CASE("PB1: the stop makes contact at F = -15, and its force is that of the 
   }
 }
 
-TEST_CASE("a face above stops the beam on its way up") {
+TEST_CASE("a face above stops a beam that moves up") {
   beam_problem p = cantilever_over_a_stop();
   p.pairs = {{2, 1, 0.002, 5e4, false}, {2, -1, -0.004, 5e4, false}};  // two pairs at one node
   p.steps = {tip_load(2, 30), tip_load(2, -30)};
@@ -53,7 +53,7 @@ TEST_CASE("a pair on a fixed dof does not change the path") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(with.steps[i].u == without.steps[i].u);
 }
 
-TEST_CASE("the state reported at a step's end is in equilibrium") {
+TEST_CASE("the state at a step's end is in equilibrium") {
   beam_problem p = free_beam_on_springs(6.0, 24, 1.0, 4.0);
   p.steps = {{{{10, 0, -1.0}}, {}}, {{{12, 0, -2.0}, {20, 0, -0.2}}, {}}};
   recorder r;
@@ -70,7 +70,7 @@ TEST_CASE("the state reported at a step's end is in equilibrium") {
   }
 }
 
-TEST_CASE("at the end of a step a support is where the step moves it, and the beam with it") {
+TEST_CASE("at the end of a step a support has its prescribed settlement, and the beam moves with it") {
   problem p;
   p.geometry = {even_beam(2.0, 2, 1e4)};
   p.supports = {{0, 0, true}, {2, 0, true}};

@@ -37,7 +37,7 @@ full_load_state made_up_rest() {
 
 }  // namespace
 
-TEST_CASE("a free beam dropped onto stops moves as a rigid body at constant load until it lies on them") {
+TEST_CASE("a free beam above its stops moves as a rigid body at constant load until it lies on them") {
   const beam_problem p = beam_above_stops();
   recorder r;
   const path_end end = p.run("corrected", {&r});
@@ -56,7 +56,7 @@ TEST_CASE("a free beam dropped onto stops moves as a rigid body at constant load
   CHECK_FALSE(r.steps[0].from_fallback);
 }
 
-TEST_CASE("a beam thrown from the stops below it to the stops above it, and back") {
+TEST_CASE("a free beam moves from the stops below it to the stops above it, and back, as its load reverses") {
   beam_problem p = beam_above_stops();
   p.pairs.push_back({0, face_above, 0.2, 50.0, false});
   p.pairs.push_back({4, face_above, 0.2, 50.0, false});
@@ -95,7 +95,8 @@ TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
   CHECK(r.steps[0].rcond > 0.0);  // with the spring that it leans on
 }
 
-TEST_CASE("a beam balanced on its one pair ends early without a fallback, and is not called a mechanism") {
+TEST_CASE(
+    "a beam that balances on its only pair ends early without a fallback, and is not called a mechanism") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, 0.0, 50.0, true}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   const path_end end = p.run("corrected", {});
@@ -104,7 +105,7 @@ TEST_CASE("a beam balanced on its one pair ends early without a fallback, and is
 }
 
 TEST_CASE(
-    "a beam that falls on one pair and turns for ever ends at the contact with that pair, without a force") {
+    "a beam that falls on its only pair and rotates without limit ends at the contact, without a force") {
   beam_problem p{even_beam(2.0, 2, 1e3), {}, {{1, face_below, -0.5, 1e4, false}}, {}};
   p.steps = {tip_load(2, -1.0)};
   recorder r;
@@ -118,7 +119,7 @@ TEST_CASE(
   CHECK(r.steps[0].u[4] == Approx(-1.0).epsilon(1e-15));
 }
 
-TEST_CASE("a beam lifted off its stops for good: the last state is reported with its load") {
+TEST_CASE("the last state of a beam lifted off its stops is reported with the share at which it separates") {
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, -8.0), tip_load(2, 8.0)};
   recorder r;
@@ -134,7 +135,8 @@ TEST_CASE("a beam lifted off its stops for good: the last state is reported with
 }
 
 TEST_CASE(
-    "a balanced beam that is lifted off its one pair ends in the state of the separation, not of the start") {
+    "a balanced beam lifted off its pair ends in the state of the separation, not in the step's first "
+    "state") {
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}, {{}, {{{2.0}, {}}}}};
@@ -148,7 +150,7 @@ TEST_CASE(
   CHECK(r.steps[1].u[4] == Approx(-0.1).epsilon(1e-10));
 }
 
-TEST_CASE("a free beam that is driven away from its stops at once is a mechanism that has not moved") {
+TEST_CASE("a free beam that its load drives away from its stops is a mechanism at share 0") {
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, 8.0)};
   recorder r;
@@ -159,8 +161,7 @@ TEST_CASE("a free beam that is driven away from its stops at once is a mechanism
   CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
 }
 
-TEST_CASE(
-    "the 1989 rule has no rigid-body motion: the path of a free beam above its stops ends at the start") {
+TEST_CASE("the path of the 1989 rule ends at its start if a free beam is above its stops") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
     const path_limits limits{0, [&](int, const full_load_state*) {
@@ -212,8 +213,7 @@ beam_problem cantilever_on_two() {
 }  // namespace
 
 TEST_CASE(
-    "a pair that toggles twice in a row without progress of the load stays in contact until the load "
-    "advances") {
+    "a pair that toggles twice without progress of the load stays in contact until the load increases") {
   restless_first_pair restless;
   made_kernel k([&restless](call<double>& c) { restless(c); });
   const beam_problem p = cantilever_on_two();
@@ -243,7 +243,9 @@ void hasty(call<double>& c) {
 
 }  // namespace
 
-TEST_CASE("D at a step's end follows the law of the springs, whatever the path") {
+TEST_CASE(
+    "D at a step's end follows from load and pairs in contact under the corrected rule, also after early "
+    "toggles") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty);
   recorder r;
@@ -255,7 +257,7 @@ TEST_CASE("D at a step's end follows the law of the springs, whatever the path")
   CHECK(r.steps[3].u[4] == Approx(20 * f).epsilon(1e-12));
 }
 
-TEST_CASE("an early toggle under the 1989 rule leaves its error in the displacements, as in 1989") {
+TEST_CASE("an early toggle under the 1989 rule leaves an error in the displacements") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty, contact_rule::listing);
   recorder r;
@@ -282,7 +284,7 @@ made_kernel endless(contact_rule rule = contact_rule::corrected) {
 
 }  // namespace
 
-TEST_CASE("a path that cannot go on ends in the reference solution, which is reported") {
+TEST_CASE("a path that cannot continue ends in the reference solution, and the state is marked as such") {
   made_kernel k = endless();
   const beam_problem p = cantilever_on_two();
   full_load_state rest{{0, 0, -1, -2, -3, -4}, {in_contact, separated}};
@@ -331,7 +333,9 @@ TEST_CASE(
   CHECK(makes_again);  // its pair separated in the answer
 }
 
-TEST_CASE("the reference solution can show that there is no equilibrium") {
+TEST_CASE(
+    "a path that cannot continue is a mechanism if the reference solution shows that there is no "
+    "equilibrium") {
   made_kernel k = endless();
   const path_limits limits{0, [](int, const full_load_state*) { return found_end{std::nullopt, false}; }};
   recorder r;
@@ -345,7 +349,7 @@ TEST_CASE("the reference solution can show that there is no equilibrium") {
   CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule goes its own way
 }
 
-TEST_CASE("a path under the 1989 rule has no fallback, nor has a path without an equilibrium") {
+TEST_CASE("a path has no fallback under the 1989 rule or if the reference solution finds no state") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;
   const path_limits none{0, [&](int, const full_load_state*) {
@@ -363,7 +367,7 @@ TEST_CASE("a path under the 1989 rule has no fallback, nor has a path without an
   CHECK(asked == 1);
 }
 
-TEST_CASE("a lost path continues from the reference solution") {
+TEST_CASE("a path that cannot continue in one step continues from the reference solution in the next step") {
   // The first step never ends, and later steps follow the corrected rule. Both pairs press after the first
   // step, and separate in the second.
   bool is_found = false;
@@ -394,7 +398,7 @@ TEST_CASE("a lost path continues from the reference solution") {
 }
 
 TEST_CASE(
-    "the reference solution replaces a path at its limit or without a factor, but not a certain mechanism") {
+    "the reference solution replaces a path without a factor or at its limit, but not a certain mechanism") {
   const path_limits any{0, [](int, const full_load_state* reached) {
                           return found_end{reached != nullptr ? *reached : made_up_rest(), true};
                         }};
@@ -415,8 +419,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "the kernel chooses among pairs at rest 20 times plus 4 a pair, and then the least index is taken") {
+TEST_CASE("after 20 + 4 n toggles of n pairs at constant load, the pair with the least index is toggled") {
   // It toggles the second pair and the third in turn, though the first one is at its face as well.
   made_kernel k([calls = 0](call<double>& c) mutable {
     c.smin = 0.0;

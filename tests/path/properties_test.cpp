@@ -85,7 +85,7 @@ void check_same_path(std::uint64_t seed, double factor,
 
 }  // namespace
 
-TEST_CASE("the last state is the same in many steps as in one") {
+TEST_CASE("a path of several steps ends in the same state as a path of its last step alone") {
   int compared = 0;
   for (std::uint64_t number = 0; number < problems; ++number) {
     random_problem p = make_random_problem(4, number);
@@ -102,7 +102,7 @@ TEST_CASE("the last state is the same in many steps as in one") {
   CHECK(compared > 500);
 }
 
-TEST_CASE("a held structure that is loaded and unloaded returns to its start") {
+TEST_CASE("a structure held by supports returns to its start after loading and unloading") {
   random_problem_kind kind;
   kind.free_share = 0.0;
   int loaded = 0;
@@ -130,7 +130,7 @@ TEST_CASE("a problem turned upside down gives the same numbers to the bit, with 
   check_same_path(8, -1.0, upside_down);
 }
 
-TEST_CASE("a mirrored problem has mirrored deflections") {
+TEST_CASE("the path of a mirrored problem has mirrored deflections") {
   random_problem_kind kind;
   kind.plate_share = 0.0;
   int compared = 0;

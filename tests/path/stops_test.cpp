@@ -9,7 +9,7 @@
 
 using namespace contct;
 
-TEST_CASE("a mechanism names the pair whose separation led to it, with the load at that moment") {
+TEST_CASE("a mechanism names the pair whose separation caused it, and the share of the step") {
   // A beam on two springs; a force that moves outside them lifts the other end off.
   beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, 0.0, 10.0, true}, {3, -1, 0.0, 10.0, true}}, {}};
   p.steps = {{{{2, 0, -4.0}}, {}}, {{{2, 0, -4.0}, {4, 0, -6.0}}, {}}};
@@ -28,9 +28,7 @@ TEST_CASE("a mechanism names the pair whose separation led to it, with the load 
   CHECK(r.steps[1].isep == std::vector<int>{separated, in_contact});
 }
 
-TEST_CASE(
-    "a free beam on a bed can be unloaded and loaded again: lift-off exactly at full load is not a "
-    "mechanism") {
+TEST_CASE("a free beam on a bed can be unloaded and loaded again, although all pairs separate at zero load") {
   // PB8: its middle, or a part next to it, lifts off. Then all load goes.
   for (const double force : {4.0, -50.0, -100.0}) {
     beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
@@ -49,7 +47,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a beam on one pair and a hinge is held, and the same beam on a rotational spring alone is not") {
+TEST_CASE("a beam on one pair and a hinge is held, but a beam on a rotational spring is not") {
   beam_problem hinged{
       even_beam(2.0, 2, 10.0), {{0, 0, true}}, {{2, -1, 0.0, 5.0, true}}, {tip_load(1, -1.0)}};
   CHECK(hinged.run("fortran", {}).status == path_status::solved);
@@ -66,7 +64,7 @@ TEST_CASE("a long span with a large condition number is not reported as a mechan
   CHECK(r.steps[0].rcond < 1e-13);
 }
 
-TEST_CASE("a cycle of statuses without progress is found, and its pairs are named") {
+TEST_CASE("a cycle of statuses without progress ends the path, and its pairs are named") {
   // Toggles pairs 1 and 3 in turn without any progress.
   int calls = 0;
   made_kernel k([&calls](call<double>& c) {
@@ -114,7 +112,7 @@ class failing_engine final : public stiffness_engine {
 
 }  // namespace
 
-TEST_CASE("a path whose factorisation fails on the way reports the share that was reached") {
+TEST_CASE("a path whose factorisation fails ends with the share of the step that was reached") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   failing_engine engine(s, 2);
@@ -125,7 +123,7 @@ TEST_CASE("a path whose factorisation fails on the way reports the share that wa
   CHECK(end.fraction == Approx(0.25).epsilon(1e-12));  // contact at -15 of -60
 }
 
-TEST_CASE("after a solve that failed, the next step has the springs of the pairs that are in contact") {
+TEST_CASE("after a failed solve, the next step has the springs of the pairs in contact") {
   // A beam balanced on its first pair: the second one's spring holds it for a solve.
   const beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, -1, 0.0, 50.0, true}, {0, -1, -9.0, 1e3, false}}, {}};
   const linear_structure s = p.structure();
@@ -146,7 +144,7 @@ TEST_CASE("the limit of increments grows with the number of pairs, and does not 
   CHECK(increments_allowed({7}, 50'000'000) == 7);
 }
 
-TEST_CASE("slow progress is not called a cycle, and ends at the limit of increments") {
+TEST_CASE("slow progress does not count as a cycle, and ends at the limit of increments") {
   made_kernel k([](call<double>& c) {
     c.smin = 0.001;
     c.isep[0] = -c.isep[0];
@@ -158,7 +156,7 @@ TEST_CASE("slow progress is not called a cycle, and ends at the limit of increme
   CHECK(end.fraction == Approx(1 - std::pow(0.999, 300)).epsilon(1e-12));
 }
 
-TEST_CASE("loads beyond the range of double precision end the path without numbers") {
+TEST_CASE("loads beyond the range of doubles end the path, and no state has an infinite number") {
   beam_problem p = cantilever_over_a_stop();
   p.steps = {tip_load(2, -1e308), tip_load(2, 1e308)};
   recorder r;

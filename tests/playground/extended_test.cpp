@@ -49,7 +49,7 @@ bool same(long double expected, quad found) {
 
 }  // namespace
 
-TEST_CASE("the page's long double rounds sums, products, quotients and roots as x86-64's does") {
+TEST_CASE("the playground's long double rounds sums, products, quotients and roots as x86-64 does") {
   static_assert(std::numeric_limits<long double>::digits == 64);
   random_numbers random(1989);
   int compared = 0, different = 0;
@@ -70,7 +70,7 @@ TEST_CASE("the page's long double rounds sums, products, quotients and roots as 
   CHECK(different == 0);
 }
 
-TEST_CASE("a literal of more than 64 bits is rounded to them before the page's long double uses it") {
+TEST_CASE("the playground's long double rounds a literal of more than 64 bits to 64 bits before use") {
   const quad tenth = static_cast<quad>(1) / 10;
   CHECK(same(0.1L * 1.0L, page_product(tenth, 1)));
   CHECK(static_cast<quad>(0.1L) != tenth);

@@ -63,7 +63,8 @@ std::string grid_text(int side) {
 
 }  // namespace
 
-TEST_CASE("a Matrix Market file is read: comments, blank lines, any case, any order, signs and tabs") {
+TEST_CASE(
+    "a Matrix Market file is read with comments, blank lines, tabs, any case and any order of entries") {
   const std::vector<std::vector<double>> expected = {{4, -1, 0}, {-1, 4.5, -0.2}, {0, -0.2, 1}};
   CHECK(full(parse_symmetric(good_matrix, "K.mtx")) == expected);
   CHECK(full(parse_symmetric(
@@ -72,14 +73,14 @@ TEST_CASE("a Matrix Market file is read: comments, blank lines, any case, any or
             "K.mtx")) == expected);
 }
 
-TEST_CASE("a load vector is read in the formats array and coordinate") {
+TEST_CASE("a load vector is read in Matrix Market's formats array and coordinate") {
   CHECK(parse_vector(good_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
   CHECK(parse_vector(sparse_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
   CHECK(parse_vector("%%MatrixMarket matrix coordinate real general\n3 1 0\n", "f.mtx", 3) ==
         std::vector<double>{0, 0, 0});
 }
 
-TEST_CASE("CalculiX's matrix is read: the upper triangle, whose zeros are left out") {
+TEST_CASE("the upper triangle of CalculiX's matrix is read, and its zeros are omitted") {
   CHECK(full(parse_calculix_stiffness(good_job, "job.sti", 2)) ==
         std::vector<std::vector<double>>{{4, 0}, {0, 1.5}});
   CHECK(parse_calculix_stiffness(good_job, "job.sti", 2).entries.size() == 2);
@@ -137,7 +138,7 @@ TEST_CASE(
       of_matrix);
 }
 
-TEST_CASE("entries are sorted by column and row, whatever their order in the file") {
+TEST_CASE("entries of a matrix file are sorted by column and row, whatever their order in the file") {
   const sparse_matrix a = parse_symmetric(header + "3 3 5\n3 3 9\n3 1 7\n1 1 5\n2 2 8\n2 1 6\n", "K.mtx");
   std::vector<double> values;
   for (const matrix_entry& e : a.entries) values.push_back(e.value);
@@ -177,7 +178,7 @@ TEST_CASE("every mistake in CalculiX's matrix is refused with its line, what was
       of_job);
 }
 
-TEST_CASE("a matrix file that is cut anywhere is refused") {
+TEST_CASE("a Matrix Market file that is cut anywhere is refused") {
   for (const std::string& text : {good_matrix, good_vector, sparse_vector}) {
     for (std::size_t length = 0; length < text.size(); ++length) {
       const std::string cut = text.substr(0, length);
@@ -187,7 +188,7 @@ TEST_CASE("a matrix file that is cut anywhere is refused") {
   }
 }
 
-TEST_CASE("a million entries are read and ordered, and the band is as narrow as the grid") {
+TEST_CASE("a matrix of a million entries is read and reordered to a band as narrow as its grid") {
   const std::string text = grid_text(600);
   const sparse_matrix a = parse_symmetric(text, "K.mtx");  // quadratic work would exceed the time limit
   const std::vector<int> rows = rows_for_small_band(a);
@@ -203,7 +204,7 @@ std::string of_labels(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("labels are read, one a line, without blank lines and the blanks around them") {
+TEST_CASE("labels of dofs are read one a line, without blank lines and surrounding blanks") {
   CHECK(parse_labels("5.1\n5.2 \r\n\n185.3\n", "job.dof") == std::vector<std::string>{"5.1", "5.2", "185.3"});
 }
 
@@ -219,7 +220,8 @@ TEST_CASE("every mistake in a list of labels is refused with its line, what was 
       of_labels);
 }
 
-TEST_CASE("a file of matrices or vectors gives one warning for all numbers that are not exact in doubles") {
+TEST_CASE(
+    "a matrix or vector file gives one warning for all numbers that are not shortest decimals of doubles") {
   std::vector<std::string> warnings;
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
   const sparse_matrix m =

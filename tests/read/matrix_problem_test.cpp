@@ -156,7 +156,9 @@ std::string small_with(const std::string& piece, const std::string& mistake) {
 
 }  // namespace
 
-TEST_CASE("a structure given by its matrix has the same events, the same D and the same certificate") {
+TEST_CASE(
+    "a structure given by its matrix has the same events, displacements and certificates as the native "
+    "structure") {
   std::size_t events = 0;
   const auto compare = [&events](const std::string& name, bool without_supports) {
     INFO(name);
@@ -184,7 +186,7 @@ TEST_CASE("a structure given by its matrix has the same events, the same D and t
   CHECK(compare("pp03a-corner-supported-plate-n4", false));
 }
 
-TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its matrix too") {
+TEST_CASE("a beam that is lifted off its two faces is also a mechanism if it is given by its matrix") {
   problem p;
   p.geometry.kind = beam{{0, 1, 2, 3}, {5, 5, 5}};
   p.pairs = {{0, face_below, 0.0, 10.0, true}, {3, face_below, 0.0, 10.0, true}};
@@ -195,7 +197,7 @@ TEST_CASE("a beam on two faces that is lifted off them is a mechanism by its mat
   check_same(native, followed(read_problem(exported(p, here))));
 }
 
-TEST_CASE("the reference frame has the files that its script writes, and every state of it is certified") {
+TEST_CASE("frame.py writes the files of the reference frame, whose states are all certified") {
   const fs::path frame = reference / "structures";
   const scratch_folder here;
   const std::string command =
@@ -226,7 +228,7 @@ TEST_CASE("the reference frame has the files that its script writes, and every s
   CHECK(held[1] + held[4] + pressed(0) == Approx(20000).epsilon(1e-9));
 }
 
-TEST_CASE("a frame read from CalculiX's files equals the one read from Matrix Market files") {
+TEST_CASE("a frame read from CalculiX's files equals the frame read from Matrix Market files") {
   const fs::path frame = reference / "structures";
   const scratch_folder here;
   const problem p = read_problem((frame / "frame.toml").string());
@@ -245,7 +247,7 @@ TEST_CASE("a frame read from CalculiX's files equals the one read from Matrix Ma
   check_same(followed(p), followed(read_problem(here.write("c.toml", toml))));
 }
 
-TEST_CASE("springs, lists of dofs, and loads from files and points together are read on a matrix") {
+TEST_CASE("a matrix may have springs, lists of dofs, and loads from files and points together") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
@@ -268,7 +270,7 @@ TEST_CASE("springs, lists of dofs, and loads from files and points together are 
   CHECK(f == std::vector<double>{0, 5, -2});
 }
 
-TEST_CASE("the listing addresses the dofs of a matrix themselves: NDOFPN and INDOF are 1, ID is the dof") {
+TEST_CASE("the listing gets the dofs of a matrix with NDOFPN = INDOF = 1, so that ID is the dof") {
   struct watcher final : observer {
     void called(const answered_call& c) override {
       id.assign(c.c.id.begin(), c.c.id.end());
@@ -288,7 +290,7 @@ TEST_CASE("the listing addresses the dofs of a matrix themselves: NDOFPN and IND
   CHECK(watches.dofs == 33);
 }
 
-TEST_CASE("a result on a matrix names dofs by their labels, and its w is its displacement") {
+TEST_CASE("a result on a matrix names dofs by their labels, and w has all its displacements") {
   const followed r(read_problem((reference / "structures" / "frame.toml").string()));
   std::string text;
   output_file file(&text);
@@ -376,7 +378,7 @@ TEST_CASE(
       Catch::Matchers::Contains("none.dof: cannot be read"));
 }
 
-TEST_CASE("a label that no dof has is refused with the one that is nearest to it") {
+TEST_CASE("a label that no dof has is refused, and the message suggests the nearest label") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "185.1\n185.2\n212.3\n");
@@ -387,9 +389,7 @@ TEST_CASE("a label that no dof has is refused with the one that is nearest to it
   CHECK_THAT(message, Catch::Matchers::Contains("found \"212.33\" (did you mean \"212.3\"?)"));
 }
 
-TEST_CASE(
-    "a matrix that is not a stiffness matrix is refused when it is factored, with its file and what was "
-    "found") {
+TEST_CASE("a matrix that is not positive semidefinite is refused, and the message names its file") {
   const scratch_folder here;
   (void)here.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
   const std::string message = message_of_structure(here.write(
@@ -398,7 +398,8 @@ TEST_CASE(
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: none below -1e-10"));
 }
 
-TEST_CASE("a matrix is not certified if half a unit in its last digits decides whether it is held") {
+TEST_CASE(
+    "a matrix is not certified if half a unit in the last digits of its file decides whether it is held") {
   const scratch_folder to;
   const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
     (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +
@@ -424,7 +425,7 @@ TEST_CASE("a matrix is not certified if half a unit in its last digits decides w
   CHECK(certificate_of("1", "").certified);  // whole numbers are not rounded
 }
 
-TEST_CASE("the last digits of a matrix's entries are those of the file, even if the file omits zeros") {
+TEST_CASE("the last digits of a matrix's entries are those of the file, also of entries with omitted zeros") {
   const auto digits = [](const std::string& a, const std::string& b, const std::string& c) {
     return parse_symmetric("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 " + a + "\n2 1 " + b +
                                "\n2 2 " + c + "\n",

@@ -27,7 +27,8 @@ double longest(const std::vector<double>& x) {
 
 }  // namespace
 
-TEST_CASE("a coordinate means a node if the two are equal as decimals, whatever the rounding of the mesh") {
+TEST_CASE(
+    "a coordinate refers to a node if the two are equal as decimals, whatever the rounding of the mesh") {
   for (const auto& [length, elements] : {std::pair(1.0, 10), {0.7, 7}, {1.1, 11}, {2.3, 23}, {12.3, 123}}) {
     std::vector<double> x;
     for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
@@ -44,12 +45,12 @@ TEST_CASE("a coordinate means a node if the two are equal as decimals, whatever 
   CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);  // by the larger end
 }
 
-TEST_CASE("a coordinate among nodes closer together than rounding means the nearest one") {
+TEST_CASE("a coordinate refers to the nearest node if nodes are closer together than rounding") {
   const std::vector<double> x = {0.0, 1.0 - 2e-16, 1.0, 1.0 + 4e-16};
   for (int i = 0; i < 4; ++i) CHECK(find_coordinate(x, x[i]) == i);
 }
 
-TEST_CASE("element_size divides a length into equal elements, as many as fit exactly") {
+TEST_CASE("element_size divides a length into the fewest equal elements that are not longer than it") {
   const std::vector<double> x = nodes_of("length = 10\nelement_size = 0.25\nEI = 1");
   REQUIRE(x.size() == 41);
   for (int i = 0; i <= 40; ++i) CHECK(x[i] == 0.25 * i);
@@ -60,7 +61,7 @@ TEST_CASE("element_size divides a length into equal elements, as many as fit exa
   CHECK(nodes_of("length = 1\nelement_size = 5\nEI = 1") == std::vector<double>{0, 1});
 }
 
-TEST_CASE("element_size makes a node at every x that the file names, in whatever table") {
+TEST_CASE("element_size makes a node at every x that the problem file names, in any table") {
   const std::vector<double> x = nodes_of(
       "length = 10.0\nelement_size = 2.5\nEI = [ { to = 4.1, value = 1 }, { to = 10, value = 2 } ]",
       "[[support]]\nx = [0, 0.3]\nfix = \"w\"\n[[contact]]\nx = [7.77, 0.3]\nsurface = \"below\"\nface = "
@@ -75,18 +76,18 @@ TEST_CASE("element_size makes a node at every x that the file names, in whatever
   CHECK(x.size() == 10);  // these, and one between 0.3 and 4.1
 }
 
-TEST_CASE("element_size beside x keeps the given nodes and divides what is between") {
+TEST_CASE("element_size keeps the nodes listed in x, and divides the lengths between them") {
   CHECK(nodes_of("x = [-1, 0, 0.5, 3]\nelement_size = 1\nEI = 1", "[[support]]\nx = 2\nfix = \"w\"\n") ==
         std::vector<double>{-1, 0, 0.5, 1.25, 2, 3});
 }
 
-TEST_CASE("a coordinate named twice, in two spellings or up to rounding, is one node") {
+TEST_CASE("a coordinate named twice, in two spellings or with rounding, becomes one node") {
   CHECK(nodes_of("length = 1\nelement_size = 1\nEI = 1",
                  "[[support]]\nx = [0.3, 1.0]\nfix = \"w\"\n[[support]]\nx = [0.30000000000000004, 0]\nfix = "
                  "\"theta\"\n") == std::vector<double>{0, 0.3, 1});
 }
 
-TEST_CASE("node numbers beside element_size are those of the mesh that it makes") {
+TEST_CASE("with element_size, node numbers are those of the finished mesh") {
   const problem p =
       of("[beam]\nlength = 1\nelement_size = 0.5\nEI = 1\n[[support]]\nx = 0.7\nfix = \"w\"\n"
          "[[support]]\nnode = 3\nspring = { w = 1 }\n");
@@ -94,7 +95,7 @@ TEST_CASE("node numbers beside element_size are those of the mesh that it makes"
   CHECK(p.supports[0].node == p.supports[1].node);
 }
 
-TEST_CASE("as many elements as are allowed are made, and one more is refused") {
+TEST_CASE("element_size makes at most 2,000,000 elements, and one more is refused") {
   const auto sized = [](const std::string& size) {
     return verdict([&] { (void)nodes_of("length = 2000000\nelement_size = " + size + "\nEI = 1"); });
   };

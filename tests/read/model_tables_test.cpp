@@ -36,7 +36,7 @@ TEST_CASE("node i of a beam of n equal elements is at length * i / n, to the bit
   CHECK(b.EI == std::vector<double>{2, 2, 2});
 }
 
-TEST_CASE("a plate's D is E t^3 / 12 (1 - nu^2), or what is written") {
+TEST_CASE("a plate's D is E t^3 / 12 (1 - nu^2), or the D of the file") {
   const std::string grid = "[plate]\nsize = [2, 1]\nelements = [2, 1]\nnu = 0.5\n";
   const plate p = std::get<plate>(model_in(grid + "E = 9\nthickness = 2\n").kind);
   CHECK(p.D == Approx(8.0).epsilon(1e-15));
@@ -45,7 +45,7 @@ TEST_CASE("a plate's D is E t^3 / 12 (1 - nu^2), or what is written") {
   CHECK(std::get<plate>(model_in(grid + "D = 3\n").kind).D == 3.0);
 }
 
-TEST_CASE("the largest plate that is allowed takes 4 GB") {
+TEST_CASE("the largest plate that is accepted has a stiffness matrix of 4 GB") {
   const auto square = [](int n) {
     const std::string text = std::to_string(n);
     return refusal("[plate]\nsize = [1, 1]\nelements = [" + text + ", " + text + "]\nD = 1\nnu = 0\n");
@@ -69,7 +69,7 @@ const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
 }  // namespace
 
 TEST_CASE(
-    "a matrix without labels has its dofs' numbers, and free_motions and storage are those of the file") {
+    "a matrix without labels has its dofs' numbers as labels, and storage and free_motions of the file") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   const auto read = [&](const std::string& keys) {
@@ -87,7 +87,8 @@ TEST_CASE(
   if (sparse_factor::available()) CHECK_FALSE(read("storage = \"sparse\"\n").as_band);
 }
 
-TEST_CASE("CalculiX's mesh is read from the file that is named, or else from the file beside the matrix") {
+TEST_CASE(
+    "CalculiX's mesh is read from the named file, or else from the job's .inp file next to the matrix") {
   const scratch_folder here;
   (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
   (void)here.write("job.dof", "2.3\n3.3\n");
@@ -124,7 +125,7 @@ TEST_CASE("CalculiX's mesh is read from the file that is named, or else from the
   CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
 }
 
-TEST_CASE("a band larger than the memory is refused before it is allocated, or stored by its entries") {
+TEST_CASE("a band larger than the memory is refused before it is allocated, but sparse storage is accepted") {
   const scratch_folder here;
   // An arrow: the last row is full, whatever the order.
   constexpr int n = 400'000;
@@ -148,7 +149,7 @@ TEST_CASE("a band larger than the memory is refused before it is allocated, or s
     is_refused("");
 }
 
-TEST_CASE("each piece of EI reaches from the end of the one before it to its own end") {
+TEST_CASE("each piece of EI extends from the end of the piece before it to its own end") {
   const auto of = [](const std::string& lines) {
     return std::get<beam>(
         parse_problem("[beam]\n" + lines + "[[step]]\nuniform = 1\n", "pb.toml").geometry.kind);

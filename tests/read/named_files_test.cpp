@@ -32,7 +32,8 @@ TEST_CASE("a named file is relative to the folder of the problem file") {
 }
 
 TEST_CASE(
-    "a file outside the problem's folder is refused under any name, and the message tells how to allow it") {
+    "a file outside the problem's folder is refused under any name, and the message names the option to "
+    "allow it") {
   const scratch_folder here;
   fs::create_directories(here.path() / "own/below");
   fs::create_directories(here.path() / "own-beside");
@@ -62,7 +63,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a problem file that is reached through a link has the folder of the link") {
+TEST_CASE("a problem file reached through a link belongs to the folder of the link") {
   const scratch_folder here;
   fs::create_directories(here.path() / "data");
   fs::create_directory_symlink("data", here.path() / "current");

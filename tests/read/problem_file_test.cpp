@@ -48,7 +48,7 @@ TEST_CASE("every kind of bad input is refused with its place, the key, what was 
   }
 }
 
-TEST_CASE("a pair touches from the start where its face is at 0, unless told otherwise") {
+TEST_CASE("a pair is in contact before any load if its face is at 0, except with the state separated") {
   const auto state = [](const std::string& lines) {
     return parse_problem(with("face = -0.004\n", lines), "pb.toml").pairs[0].closed;
   };
@@ -59,8 +59,8 @@ TEST_CASE("a pair touches from the start where its face is at 0, unless told oth
 }
 
 TEST_CASE(
-    "a bed is a pair at every free node, modulus times tributary length, and limiting a bed to some nodes "
-    "changes no tributary length") {
+    "a bed makes a pair at every free node with modulus times tributary length, whichever nodes it is "
+    "limited to") {
   const std::string head = "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n";
   const std::string tail = "[[step]]\nuniform = -1\n";
   const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
@@ -77,7 +77,7 @@ TEST_CASE(
   CHECK_FALSE(part.pairs[0].closed);
 }
 
-TEST_CASE("contacts come before beds, both in file order") {
+TEST_CASE("pairs of contact tables come before pairs of bed tables, each in the order of the file") {
   const problem p =
       parse_problem(with("[[step]]",
                          "[[bed]]\nmodulus = 1\nface = 0\n[[contact]]\nnode = 2\nsurface = \"above\"\n"
@@ -89,7 +89,7 @@ TEST_CASE("contacts come before beds, both in file order") {
   CHECK(p.pairs[2].node == 1);
 }
 
-TEST_CASE("loads on the same elements are one load, their sum, and a list of all elements is all") {
+TEST_CASE("loads on the same elements are added to one load, and a list of all elements equals no list") {
   const problem p = parse_problem(
       with("point = [ { node = 3, w = -60.0 } ]",
            "uniform = [ { value = -3, elements = [2] }, { value = -1 }, { polynomial = [1, 2], elements = "
@@ -109,7 +109,7 @@ TEST_CASE("a pair on a fixed dof is accepted with a warning, since the listing m
   CHECK_THAT(p.warnings[0], Catch::Matchers::StartsWith("pb.toml:7: contact[1]: node 1 is fixed in w"));
 }
 
-TEST_CASE("a hostile file gives an error message: binary, deeply nested or empty") {
+TEST_CASE("a binary, deeply nested or empty file gives an error message") {
   for (const std::string& text : {std::string("\x7f"
                                               "ELF\x02\x01\x01\x00\x00\x00\x00",
                                               11),
@@ -123,7 +123,9 @@ TEST_CASE("a hostile file gives an error message: binary, deeply nested or empty
   }
 }
 
-TEST_CASE("a correct plate is accepted: grid, stiffness from E, nu and thickness, loads on every dof") {
+TEST_CASE(
+    "a correct plate is accepted with its grid, its stiffness from E, nu and thickness, and loads on every "
+    "dof") {
   const problem p = parse_problem(good_plate, "pb.toml");
   const auto& it = std::get<plate>(p.geometry.kind);
   CHECK(it.x == std::vector<double>{0, 0.5, 1});
@@ -146,7 +148,9 @@ TEST_CASE("a correct plate is accepted: grid, stiffness from E, nu and thickness
   CHECK(l.points[2].value == -0.5);
 }
 
-TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at both ends of its range") {
+TEST_CASE(
+    "a plate is accepted by its size, with D, with springs on every dof, and with nu at both ends of its "
+    "range") {
   const problem p = parse_problem(
       "[plate]\nsize = [3, 1]\nelements = [3, 2]\nD = 2\nnu = 0.5\n[[support]]\nnode = 12\n"
       "spring = { w = 1, wx = 2, wy = 3 }\n[[step]]\nuniform = 0\n",
@@ -161,7 +165,7 @@ TEST_CASE("an even plate by its size, D as it is, springs on every dof, nu at bo
   CHECK(message_of_text(plate_with("0.3", "0")) == "accepted");
 }
 
-TEST_CASE("a plate's bed is a pair at every free node, modulus times tributary area") {
+TEST_CASE("a plate's bed makes a pair at every free node, with modulus times tributary area") {
   const std::string head =
       "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
       "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";
@@ -173,7 +177,8 @@ TEST_CASE("a plate's bed is a pair at every free node, modulus times tributary a
   CHECK(whole.pairs[3].node == 4);
 }
 
-TEST_CASE("a polynomial face below is accepted though its terms cancel in doubles to a value above 0") {
+TEST_CASE(
+    "a face below 0 is accepted even if its polynomial's terms cancel to a positive number in doubles") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1.1, 2.2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n[[bed]]\nmodulus = "
       "1\n"
@@ -183,7 +188,7 @@ TEST_CASE("a polynomial face below is accepted though its terms cancel in double
   CHECK(p.pairs[0].face == -0.001);
 }
 
-TEST_CASE("units are labels, both or neither") {
+TEST_CASE("the units of length and force are labels, and both or neither are given") {
   CHECK(parse_problem(good_problem, "pb.toml").units.length.empty());
   const problem p =
       parse_problem("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem), "pb.toml");
@@ -191,14 +196,14 @@ TEST_CASE("units are labels, both or neither") {
   CHECK(p.units.force == "kN");
 }
 
-TEST_CASE("a single fixed dof needs no brackets") {
+TEST_CASE("a support with a single fixed dof needs no brackets") {
   const problem p = parse_problem(with("[\"w\", \"theta\"]", "\"theta\""), "pb.toml");
   REQUIRE(p.supports.size() == 1);
   CHECK(p.supports[0].dof == 1);
 }
 
 TEST_CASE(
-    "one table makes a pair at each of its nodes, in their order, with faces and springs of their own") {
+    "one contact table makes a pair at each of its nodes, in their order, with a face and a stiffness each") {
   const auto pairs_of = [](const std::string& lines) {
     return parse_problem(with("node = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n",
                               "surface = \"below\"\n" + lines),
@@ -214,7 +219,7 @@ TEST_CASE(
   for (const contact_pair& pair : common) CHECK((pair.face == 0 && pair.stiffness == 7 && !pair.closed));
 }
 
-TEST_CASE("a bed's face: one for all nodes, one for each, fixed or not, or a polynomial in x") {
+TEST_CASE("a bed has one face for all nodes, one for each node, or a polynomial in x") {
   const std::string head =
       "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[bed]]\nmodulus = 2\n";
   const auto bed_of = [&](const std::string& lines) {
@@ -229,7 +234,7 @@ TEST_CASE("a bed's face: one for all nodes, one for each, fixed or not, or a pol
   CHECK(bed_of("face = [-4]\nx = 3\n").pairs.at(0).face == -4);
 }
 
-TEST_CASE("a bed keeps its modulus, its pairs and the share of each") {
+TEST_CASE("a bed keeps its modulus, its pairs and the tributary length of each pair") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[contact]]\nnode = 3\nsurface = "
       "\"above\"\nface = 1\nstiffness = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[bed]]\nmodulus = 8\nface = "
@@ -244,9 +249,7 @@ TEST_CASE("a bed keeps its modulus, its pairs and the share of each") {
   CHECK(p.pairs[2].stiffness == 4);
 }
 
-TEST_CASE(
-    "a mesh too coarse for its bed gives one warning for each bed, with an element_size that is fine "
-    "enough") {
+TEST_CASE("a mesh too coarse for a bed gives one warning with a suitable element_size for each bed") {
   const auto warnings_of = [](const std::string& mesh, const std::string& beds) {
     return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
         .warnings;

@@ -21,7 +21,7 @@ const beam& beam_in(const problem& p) {
 
 }  // namespace
 
-TEST_CASE("Sections in pieces give the same EI as pieces of EI, and a node at the end of each piece") {
+TEST_CASE("Pieces of a section give the same EI as pieces of EI, and a node at the end of each piece") {
   const problem by_EI = on_two_supports(
       "length = 10\nelement_size = 4\nEI = [ { to = 2.5, value = 5 }, { to = 10.0, value = 7 } ]\n");
   const problem by_section = on_two_supports(
@@ -31,14 +31,14 @@ TEST_CASE("Sections in pieces give the same EI as pieces of EI, and a node at th
   CHECK(beam_in(by_section).x == beam_in(by_EI).x);
 }
 
-TEST_CASE("EI of a section is the product of its decimals, rounded once") {
+TEST_CASE("EI of a section is the product of the decimals of E and I, rounded once") {
   const problem p =
       on_two_supports("x = [0, 10]\nsection = { E = 0.1, I = 0.7 }\n");  // 0.1 * 0.7 in doubles is below 0.07
   CHECK(beam_in(p).EI == std::vector<double>{0.07});
   CHECK(elements_of<rational>(beam_in(p)).EI(0) == rational(7, 100));
 }
 
-TEST_CASE("The self-weight of a beam acts in pieces of equal weight and area") {
+TEST_CASE("The self-weight of a beam is one load for each weight and area") {
   const problem p = on_two_supports(
       "length = 10\nelement_size = 2.5\nsection = [ { to = 5, E = 1, I = 1, A = 0.5, weight = 80 }, "
       "{ to = 7.5, E = 2, I = 1, A = 0.5, weight = 80 }, { to = 10, E = 1, I = 1, A = 0.25, weight = 80 } "
@@ -52,7 +52,7 @@ TEST_CASE("The self-weight of a beam acts in pieces of equal weight and area") {
   CHECK(resultant_of(p.geometry, l).force == -350);
 }
 
-TEST_CASE("The self-weight of a simple beam bends it by q L^2 / 8, with q = weight * A, beside other loads") {
+TEST_CASE("A self-weight of weight * A bends a simple beam like a uniform load, in addition to other loads") {
   const problem p =
       on_two_supports("length = 10\nelements = 2\nsection = { E = 1, I = 1, A = 0.2, weight = 40 }\n",
                       "self_weight = true\nuniform = -2\n");
@@ -61,7 +61,7 @@ TEST_CASE("The self-weight of a simple beam bends it by q L^2 / 8, with q = weig
   CHECK(results_in_elements(p.geometry, l, u).at(0, 1)[1] == Approx((40 * 0.2 + 2) * 100 / 8).epsilon(1e-12));
 }
 
-TEST_CASE("self_weight = false removes the self-weight of the step before") {
+TEST_CASE("self_weight = false removes the self-weight of the previous step") {
   const problem p = on_two_supports("x = [0, 10]\nsection = { E = 1, I = 1, A = 0.2, weight = 40 }\n",
                                     "self_weight = true\n[[step]]\nself_weight = false\n");
   CHECK(p.steps.at(1).distributed.empty());
@@ -76,7 +76,7 @@ TEST_CASE("The self-weight of a plate is a pressure of weight times thickness") 
   CHECK(coefficients_of<rational>(p.steps.at(0).distributed[0]) == std::vector<rational>{rational(-3, 100)});
 }
 
-TEST_CASE("Hinges are nodes in rising order, and element_size makes a node of each") {
+TEST_CASE("Hinges are sorted by their nodes, and element_size makes a node at each hinge") {
   const problem p = on_two_supports("length = 10\nelement_size = 5\nEI = 1\n[[hinge]]\nx = [7, 3]\n");
   CHECK(beam_in(p).x == std::vector<double>{0, 3, 7, 10});
   CHECK(beam_in(p).hinges == std::vector<int>{1, 2});

@@ -63,7 +63,7 @@ void late_kernel(const double dd[], const double dtest[], const double cc[], dou
 
 }  // namespace
 
-TEST_CASE("the answer to a run is a result, with every other output that was requested") {
+TEST_CASE("contct_run returns the result and every other requested output") {
   const json plain = run(problem_text("pb07-three-gap-supports"));
   CHECK(plain.at("exit") == 0);
   CHECK(plain.at("error").is_null());
@@ -91,7 +91,7 @@ TEST_CASE("the answer to a run is a result, with every other output that was req
   CHECK(replayed.at("result").at("mismatches") == 0);
 }
 
-TEST_CASE("errors are data with file, line and column") {
+TEST_CASE("an error is returned as data with file, line and column") {
   std::string text = problem_text("pb07-three-gap-supports");
   text.replace(text.find("surface"), 7, "surfase");
   const json wrong = run(text, {{"file", "beam.toml"}});
@@ -102,7 +102,7 @@ TEST_CASE("errors are data with file, line and column") {
   CHECK_THAT(error_of(wrong), Contains("did you mean \"surface\"?"));
 }
 
-TEST_CASE("options that are not known, of another type, or too deep are refused by name") {
+TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the message names the option") {
   const std::pair<const char*, const char*> wrong[] = {
       {R"({"kernel": "cpp"})", "found \"kernel\""},
       {R"({"kernels": "cpp"})", "kernels: found \"cpp\""},
@@ -129,7 +129,7 @@ TEST_CASE("options that are not known, of another type, or too deep are refused 
              Contains("more than 16 deep; allowed: at most 16"));
 }
 
-TEST_CASE("a correct external state is certified, and a wrong one is not") {
+TEST_CASE("a correct external state is certified, but a state with an error of 1e-4 is not") {
   const std::string text = problem_text("pb07-three-gap-supports");
   std::vector<json> states = displacements(run(text, {{"kernels", {"corrected"}}}).at("result"));
   const json right = certified(text, {{"displacement", states}});
@@ -156,7 +156,7 @@ TEST_CASE("a correct external state is certified, and a wrong one is not") {
   }
 }
 
-TEST_CASE("every number of a problem has its place in the text, and pairs have the places of their keys") {
+TEST_CASE("contct_check returns the place of every number in the text, and the places of a pair's keys") {
   const std::string text =
       "title = \"\u00e4\"  # two bytes\n[beam]\nlength = 4.0\nelements = 4\nEI = 1e3\n"
       "[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
@@ -183,7 +183,7 @@ TEST_CASE("every number of a problem has its place in the text, and pairs have t
   CHECK_FALSE(taken(contct_check(text.c_str(), nullptr)).at("result").contains("numbers"));
 }
 
-TEST_CASE("the calls check, exact, explain and about answer like the program's commands") {
+TEST_CASE("contct_check, contct_exact, contct_explain and contct_about answer like the program's commands") {
   const std::string text = problem_text("pb07-three-gap-supports");
   const json checked = taken(contct_check(text.c_str(), "{}"));
   CHECK(checked.at("result").at("kind") == "beam");
@@ -204,7 +204,7 @@ TEST_CASE("the calls check, exact, explain and about answer like the program's c
   CHECK(about.at("result").at("kernels").size() >= 5);
 }
 
-TEST_CASE("a single call of a kernel returns its text of unit 26, and refuses a dof that does not exist") {
+TEST_CASE("contct_call returns a kernel's text of unit 26, and refuses a dof that does not exist") {
   const double dd[] = {0.0, 0.0}, dtest[] = {-2.0, 0.0}, cc[] = {-1.0};
   const int id[] = {1}, isurf[] = {-1};
   for (const char* name : {"fortran", "cpp", "fortran-r4", "corrected"}) {
@@ -232,7 +232,7 @@ TEST_CASE("a single call of a kernel returns its text of unit 26, and refuses a 
   CHECK(smin == 7.0);
 }
 
-TEST_CASE("a kernel of the caller's is judged: equal to the bit, or not") {
+TEST_CASE("contct_judge compares a caller's kernel, and reports its mismatches") {
   const json right =
       taken(contct_judge(right_kernel, R"({"leader": "fortran", "calls": 3000, "problems": 4})"));
   CHECK(right.at("exit") == 0);
@@ -246,7 +246,7 @@ TEST_CASE("a kernel of the caller's is judged: equal to the bit, or not") {
   CHECK(taken(contct_judge(right_kernel, R"({"name": "cpp"})")).at("exit") == 2);
 }
 
-TEST_CASE("each thread gets its own answers") {
+TEST_CASE("each thread that calls contct_run gets its own answers") {
   const std::string names[] = {"pb01-cantilever-tip-stop", "pb07-three-gap-supports",
                                "pb10-cantilever-gapped-spring"};
   std::vector<std::string> texts;

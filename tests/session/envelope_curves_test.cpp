@@ -30,7 +30,7 @@ double deflection_at(double x, double a) {
 
 }  // namespace
 
-TEST_CASE("Envelope curves of a load in two places have the larger moment and deflection at each place") {
+TEST_CASE("Envelope curves of a load in two places have the larger moment and deflection at each point") {
   const a_run run(load_in_two_places, "corrected");
   const envelope_curves all = curves_of(run.result);
   REQUIRE(all.curves.size() == 3);
@@ -48,7 +48,7 @@ TEST_CASE("Envelope curves of a load in two places have the larger moment and de
   }
 }
 
-TEST_CASE("Envelope curves have both sides of a jump of the shear, each with its step") {
+TEST_CASE("Envelope curves have both values at a jump of the shear, each with its step") {
   const a_run run(load_in_two_places, "corrected");
   const envelope_curves all = curves_of(run.result);
   const auto at_node = std::find(all.x.begin(), all.x.end(), 2.0);

@@ -46,7 +46,7 @@ const mesh_change& change_of(const std::vector<mesh_change>& all, std::string_vi
 
 }  // namespace
 
-TEST_CASE("A reference problem on half the element size equals the one written with twice the elements") {
+TEST_CASE("A refined reference problem equals the reference problem with twice the elements") {
   for (const auto& [coarse, fine] :
        {std::pair("pb11a-strip-footing-n20", "pb11b-strip-footing-n40"),
         {"pp01a-simply-supported-plate-n4", "pp01b-simply-supported-plate-n8"},
@@ -63,7 +63,8 @@ TEST_CASE("A reference problem on half the element size equals the one written w
   }
 }
 
-TEST_CASE("The change on half the element size is the difference of the two reference problems' extremes") {
+TEST_CASE(
+    "The reported change by refinement is the difference between the extremes of two reference problems") {
   const a_run coarse(reference_problem("pb11a-strip-footing-n20"), "corrected");
   const a_run fine(refined(coarse.what), "corrected");
   const auto changes = changes_between(coarse.result, fine.result);
@@ -72,7 +73,7 @@ TEST_CASE("The change on half the element size is the difference of the two refe
   CHECK(change_of(changes, "pressure").change == Approx(3.327786 - 3.312101).epsilon(1e-2));
 }
 
-TEST_CASE("A beam without a bed is exact between nodes: half the element size changes nothing but rounding") {
+TEST_CASE("Refinement of a beam without a bed changes results only by rounding") {
   const std::string parts =
       "[beam]\nx = [0, 0.1, 0.7, 2]\nEI = [100, 200, 100]\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n"
       "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.001\nstiffness = 1e4\n[[step]]\n"
@@ -92,7 +93,8 @@ TEST_CASE("A beam without a bed is exact between nodes: half the element size ch
   CHECK(line<rational>(b.x, b.runs).at(3) == rational(2) / 5);
 }
 
-TEST_CASE("A line of fixed nodes of a plate gets fixed nodes between, which settle by their mean") {
+TEST_CASE(
+    "Refinement of a plate adds fixed nodes in a line of fixed nodes, with the mean of their settlements") {
   const problem coarse = reference_problem("pp06-plate-over-settling-line");
   const problem fine = refined(coarse);  // 9 by 5 nodes
   CHECK(fine.supports.size() == coarse.supports.size() + 6);
@@ -105,7 +107,8 @@ TEST_CASE("A line of fixed nodes of a plate gets fixed nodes between, which sett
   }
 }
 
-TEST_CASE("The bed between two nodes has the mean of their faces, or the value of the polynomial") {
+TEST_CASE(
+    "Refinement gives a new node of a bed the mean of its neighbours' faces, or the polynomial's value") {
   const std::string on_bed =
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[bed]]\nmodulus = "
       "8\nface = ";
@@ -120,7 +123,9 @@ TEST_CASE("The bed between two nodes has the mean of their faces, or the value o
   CHECK(curve.pairs[2].face == -3.25);
 }
 
-TEST_CASE("A matrix has no elements to halve, and the message says what to do instead") {
+TEST_CASE(
+    "Refinement of a matrix is refused, and the message suggests a finer mesh from the program of the "
+    "matrix") {
   CHECK_THROWS_WITH(refined(parse_problem(portal_frame(), "frame.toml", reach::anywhere)),
                     Catch::Matchers::Contains("finer mesh with the program that it is from"));
 }

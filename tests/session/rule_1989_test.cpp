@@ -48,7 +48,7 @@ std::string square(int elements) {
 
 }  // namespace
 
-TEST_CASE("events at one share in another order count as equal, and the states are those of the answer") {
+TEST_CASE("events of the 1989 rule at one share in another order count as equal events") {
   const both_rules pb7(read_input(CONTCT_REFERENCE "/problems/pb07-three-gap-supports.toml"));
   CHECK(pb7.run.result.kernels == std::vector<std::string>{"corrected", "fortran", "cpp"});
   CHECK(pb7.beside().same_events);
@@ -59,7 +59,7 @@ TEST_CASE("events at one share in another order count as equal, and the states a
   CHECK_THAT(rule_1989_words(pb7.run.result).at(0), Contains("comes to the same states: every number"));
 }
 
-TEST_CASE("an offset that survives unloading is a wrong step: k gap L^3 / 3 EI with nothing on the beam") {
+TEST_CASE("an error of the 1989 rule that remains after unloading is reported as a wrong step") {
   const both_rules near(divergence("near-tie"));
   REQUIRE(near.wrong().size() == 2);
   const state_difference& unloaded = near.wrong()[1];
@@ -72,7 +72,7 @@ TEST_CASE("an offset that survives unloading is a wrong step: k gap L^3 / 3 EI w
   CHECK(near.run.exit() == exit_status::solved);
 }
 
-TEST_CASE("an event at a different share under the 1989 rule is reported with that share") {
+TEST_CASE("an event that the 1989 rule has at a different share is reported with this share") {
   const both_rules near(divergence("near-tie"));
   const std::vector<row_of_1989>& first = near.beside().rows.at(0);
   CHECK(first.at(0).otherwise.empty());
@@ -94,7 +94,7 @@ TEST_CASE("an event that only the 1989 rule has is reported in the increment tha
   CHECK(marked.wrong()[0].right == 0.0);
 }
 
-TEST_CASE("a path of the 1989 rule that is lost does not change the answer, and is reported in words") {
+TEST_CASE("a lost path of the 1989 rule does not change the answer, and is reported") {
   const both_rules lost(divergence("standstill"));
   CHECK(lost.run.exit() == exit_status::solved);
   CHECK(lost.beside().end.status == path_status::path_ended);
@@ -105,7 +105,7 @@ TEST_CASE("a path of the 1989 rule that is lost does not change the answer, and 
                         !Contains("--kernels"));
 }
 
-TEST_CASE("the 1989 rule factors at each increment, except on a long path whose calls are not kept") {
+TEST_CASE("the 1989 rule uses the engine refactor, except on a large problem whose calls are not kept") {
   CHECK(both_rules(square(4)).beside().engine == "refactor");
   const std::string large = square(40);
   CHECK(both_rules(large).beside().engine == "updated");

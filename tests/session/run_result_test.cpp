@@ -19,7 +19,7 @@ void tell_call(run_recorder& r, std::vector<double> ss, std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("the first calls are kept with the s of their first pairs, and all calls are counted") {
+TEST_CASE("the first calls of a run are kept with the s of their first pairs, and all calls are counted") {
   run_recorder r(nullptr, {.calls = true});
   for (int i = 0; i < 1205; ++i) tell_call(r, std::vector<double>(10, i), "x");
   CHECK(r.all_calls == 1205);
@@ -29,7 +29,7 @@ TEST_CASE("the first calls are kept with the s of their first pairs, and all cal
   CHECK(r.calls[7].followers.empty());
 }
 
-TEST_CASE("the text of unit 26 is kept for whole calls, and for none after the first omitted call") {
+TEST_CASE("the text of unit 26 is kept up to the first call that exceeds the limit") {
   run_recorder r(nullptr, {.calls = true});
   const std::string most(150'000, 'a');
   tell_call(r, {1.0}, most);
@@ -39,7 +39,7 @@ TEST_CASE("the text of unit 26 is kept for whole calls, and for none after the f
   CHECK(r.all_log == 300'005);
 }
 
-TEST_CASE("a call has the increment it led to, or none") {
+TEST_CASE("a recorded call has the increment that it led to, or none") {
   run_recorder r(nullptr, {.calls = true});
   tell_call(r, {1.0}, "");
   r.incremented({1, 1, 0.5, 0.5, {}});
@@ -53,14 +53,14 @@ TEST_CASE("a call has the increment it led to, or none") {
   CHECK(r.calls[2].step == 2);
 }
 
-TEST_CASE("calls are recorded only on request") {
+TEST_CASE("calls of a run are recorded only on request") {
   run_recorder r;
   tell_call(r, {1.0}, "text");
   CHECK(r.calls.empty());
   CHECK(r.log.empty());
 }
 
-TEST_CASE("a step has its increments with their events, and its end as the path reported it") {
+TEST_CASE("a recorded step has its increments with their events, and its end as the path reported it") {
   run_recorder r;
   const event make{3, change::make};
   const std::vector<double> u = {0.0, 1.0};
@@ -79,7 +79,7 @@ TEST_CASE("a step has its increments with their events, and its end as the path 
   CHECK(r.steps[1].from_fallback);
 }
 
-TEST_CASE("a run without a title has the file's name as its title") {
+TEST_CASE("the title of a run without a title is the name of its file") {
   const auto title = [](const std::string& text, const std::string& file) {
     return title_of(parse_problem(text, "pb.toml"), file);
   };

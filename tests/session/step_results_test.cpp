@@ -43,8 +43,7 @@ struct ended {
 
 }  // namespace
 
-TEST_CASE(
-    "The hardest pressed pair and support have the largest force, and the first is taken if two are equal") {
+TEST_CASE("The hardest pressed pair and support have the largest force, and of two equal forces the first") {
   const ended e(beam_over_stops(-0.001, -10.0));
   REQUIRE(e.read.pairs.size() == 2);
   CHECK(e.read.hardest_pair() == 0);  // both press with the same force up to rounding
@@ -54,7 +53,7 @@ TEST_CASE(
   CHECK_FALSE(free.read.hardest_pair());
 }
 
-TEST_CASE("Forces, reactions and loads of a step's end balance, and its moments are the exact ones") {
+TEST_CASE("Forces, reactions and loads of a step's end balance, and its extreme moment is exact") {
   const ended e(beam_over_stops(-0.001, -10.0));
   double sum = -10.0 * 12;
   for (const double r : e.read.reactions) sum += r;
@@ -100,8 +99,7 @@ TEST_CASE("The contact force of a face above counts downwards in the balance") {
   CHECK(sums->reactions == Approx(-60.0 - sums->contact).epsilon(1e-12));
 }
 
-TEST_CASE(
-    "A half-lifted footing has the bearing pressure of a rigid body on the springs that are in contact") {
+TEST_CASE("The bearing pressure of a half-lifted footing is that of a rigid body on the springs in contact") {
   const a_run run(read_problem(CONTCT_REFERENCE "/problems/pb11a-strip-footing-n20.toml"), "corrected");
   const structure_state& end = run.result.record.steps[0].end;
   const std::vector<bed_reading> beds = beds_in(run.what, results_of(run.what, run.what.steps[0], end), end);
@@ -124,7 +122,7 @@ TEST_CASE(
   CHECK(beds[0].contact == Approx(0.625).epsilon(1e-12));
 }
 
-TEST_CASE("A beam that sags through a face between two pairs is reported, and a flatter one is not") {
+TEST_CASE("A beam that sags through a face between two pairs is reported, but a flatter beam is not") {
   const ended soft(beam_over_stops(0.0, -500.0));
   REQUIRE(soft.through);
   CHECK(soft.through->first == 0);
@@ -144,7 +142,7 @@ TEST_CASE("A beam that sags through a face between two pairs is reported, and a 
   CHECK_FALSE(ended(other_face).through);
 }
 
-TEST_CASE("An envelope has the largest of each quantity over all increments, with the increment") {
+TEST_CASE("An envelope has the largest value of each quantity over all increments, and its increment") {
   const a_run run(loaded_and_freed, "corrected");
   const envelope all = envelope_of(run.result);
   const std::vector<structure_state> states = pictures_of(run.result);
@@ -169,7 +167,7 @@ TEST_CASE("An envelope has the largest of each quantity over all increments, wit
   CHECK(all.reactions[0].least.step == 2);
 }
 
-TEST_CASE("Places and units are in words: nodes with coordinates, places between nodes, labels") {
+TEST_CASE("Places are described by nodes with coordinates or by labels, and values have units") {
   problem p = parse_problem(good_problem, "pb.toml");
   CHECK(place_words(p.geometry, placed_value{1.0, 2.0, 0.0, 2}) == "node 3, x = 2");
   CHECK(place_words(p.geometry, placed_value{1.0, 0.5, 0.0, -1}) == "x = 0.5");
@@ -185,14 +183,13 @@ TEST_CASE("Places and units are in words: nodes with coordinates, places between
   CHECK(ranges_are_at(plate.geometry) == "nodes and corners of elements");
 }
 
-TEST_CASE(
-    "the warning about a beam that sags through a face names both pairs, counted from 1, and the step") {
+TEST_CASE("the warning about a beam that sags through a face names the step and both pairs, counted from 1") {
   const a_run run(beam_over_stops(0.0, -500.0));
   CHECK_THAT(passage_warning(run.what, run.result.record.steps),
              Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
 }
 
-TEST_CASE("a pair's deflection gives a gap or a force, never both") {
+TEST_CASE("a pair's deflection gives either a gap or a force") {
   const problem p = parse_problem(good_problem, "pb.toml");  // face -0.004, stiffness 5e4
   const pair_reading open = reading_of(p.pairs[0], -0.001, false);
   CHECK(open.gap == Approx(0.003));
@@ -205,7 +202,7 @@ TEST_CASE("a pair's deflection gives a gap or a force, never both") {
   CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
 }
 
-TEST_CASE("only dofs known to be lengths are deflections: those of a matrix's pairs, or along an axis") {
+TEST_CASE("only dofs known to be lengths are deflections: a matrix's pairs, and dofs along an axis") {
   const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
   const std::vector<int> dofs = deflecting_nodes(placed);
   CHECK(dofs.size() == 22);
@@ -216,7 +213,7 @@ TEST_CASE("only dofs known to be lengths are deflections: those of a matrix's pa
   CHECK(deflecting_nodes(bare).size() == 33);
 }
 
-TEST_CASE("a plate's nodes go along x first, and w is the first of a node's dofs") {
+TEST_CASE("a plate's nodes are numbered along x first, and w is the first dof of a node") {
   const problem p = parse_problem(good_plate, "pb.toml");
   CHECK(place_of_node(p.geometry, 4).x == 0.5);
   CHECK(place_of_node(p.geometry, 4).y == 1.0);

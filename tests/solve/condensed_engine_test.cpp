@@ -7,7 +7,7 @@
 
 using namespace contct;
 
-TEST_CASE("beams with pairs can be condensed, and beams without pairs and plates cannot") {
+TEST_CASE("beams with pairs can be condensed, but plates and beams without pairs cannot") {
   CHECK(can_be_condensed(cantilever_over_stops(3)));
   linear_structure bare = cantilever_over_stops(3);
   bare.pairs.clear();
@@ -18,8 +18,7 @@ TEST_CASE("beams with pairs can be condensed, and beams without pairs and plates
   CHECK_THROWS_AS(make_engine("condensed", p), std::invalid_argument);
 }
 
-TEST_CASE(
-    "nodes without pairs are eliminated at any position, and the response equals that of a factorisation") {
+TEST_CASE("the condensed engine responds as a factorisation does, whichever nodes have no pairs") {
   const linear_structure all = cantilever_over_stops(12);
   for (const std::vector<int>& kept :
        std::vector<std::vector<int>>{{0, 5, 11}, {3}, {10, 11}, {0, 1, 2, 8}}) {
@@ -49,7 +48,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a pair at a fixed dof causes no displacement") {
+TEST_CASE("a pair at a fixed dof has no response in the condensed engine") {
   linear_structure s = cantilever_over_stops(4);
   s.pairs.push_back({0, -1, 0.0, 1e6, false});
   const auto engine = make_engine("condensed", s);
@@ -63,7 +62,7 @@ TEST_CASE("a pair at a fixed dof causes no displacement") {
   CHECK(after[4] == 0.0);
 }
 
-TEST_CASE("a free beam gets all springs before its first response, since one alone does not hold it") {
+TEST_CASE("the condensed engine adds all springs to a free beam before its first response") {
   const linear_structure s =
       build(beam{{0, 1, 2}, {605, 605}}, {}, {{0, -1, -1e-4, 300.0, false}, {2, -1, -5e-5, 250.0, false}});
   const auto engine = make_engine("condensed", s);
@@ -76,7 +75,7 @@ TEST_CASE("a free beam gets all springs before its first response, since one alo
   CHECK(d_star[1] == Approx(-1.0 / 250).epsilon(1e-12));
 }
 
-TEST_CASE("removing a spring that is 1e18 times as stiff restores the response before it") {
+TEST_CASE("in the condensed engine, removing a spring 1e18 times as stiff restores the response before it") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[2].stiffness = 1e18 * s.pairs[2].stiffness;
   const auto engine = make_engine("condensed", s);
@@ -95,7 +94,7 @@ TEST_CASE("removing a spring that is 1e18 times as stiff restores the response b
   CHECK(counts.solves == counts.factors + counts.checks);  // each response by a factor, and each check of one
 }
 
-TEST_CASE("a beam too ill-conditioned to be condensed has an engine, and no factor at its first response") {
+TEST_CASE("for a beam too ill-conditioned to be condensed, an engine is made but its first response fails") {
   // Elements of length 1 next to elements of length 1e7, as a mechanism: its path needs no response.
   beam b;
   b.x = {-1, 0, 1, 2, 3, 4, 10000004, 20000004, 30000004};

@@ -101,7 +101,7 @@ toggled toggle_back_and_forth(const random_problem& p, const std::string& engine
 
 }  // namespace
 
-TEST_CASE("every engine responds as refactor does while pairs toggle back and forth, hundreds of times") {
+TEST_CASE("every engine responds as refactor does while pairs toggle hundreds of times") {
   for (const std::string& engine : engine_names()) {
     if (engine == "refactor") continue;
     random_numbers random(5);
@@ -119,7 +119,7 @@ TEST_CASE("every engine responds as refactor does while pairs toggle back and fo
   }
 }
 
-TEST_CASE("on every engine the corrected kernel's paths of held structures are certified") {
+TEST_CASE("with every engine, the corrected kernel's paths of structures with supports are certified") {
   for (const std::string& engine : engine_names()) {
     const auto kernel = make_kernel("corrected");
     int certified = 0;
@@ -142,7 +142,7 @@ TEST_CASE("on every engine the corrected kernel's paths of held structures are c
   }
 }
 
-TEST_CASE("free structures end in the same state on every engine") {
+TEST_CASE("structures without supports end in the same state with every engine") {
   random_problem_kind kind;
   kind.free_share = 1.0;
   int same = 0;
@@ -160,14 +160,14 @@ TEST_CASE("free structures end in the same state on every engine") {
   CHECK(same >= 250);
 }
 
-TEST_CASE("engines are made by name, and an unknown one is refused with the known names") {
+TEST_CASE("engines are made by name, and the message about an unknown name lists the known names") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   for (const std::string& name : engine_names()) CHECK(make_engine(name, s) != nullptr);
   CHECK_THROWS_WITH(make_engine("warp", s), Catch::Matchers::Contains("refactor"));
 }
 
-TEST_CASE("the response is proportional to the residual load, and the springs in it can be switched") {
+TEST_CASE("the response is proportional to the residual load, and changes when springs are switched") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   const auto engine = make_engine("refactor", s);
@@ -187,7 +187,7 @@ TEST_CASE("the response is proportional to the residual load, and the springs in
   CHECK(d_star[0] == Approx(f).epsilon(1e-13));
 }
 
-TEST_CASE("recovery gives every dof from the load and the pairs' forces") {
+TEST_CASE("the engine recovers the displacement of every dof from the load and the pairs' forces") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   const auto engine = make_engine("refactor", s);
@@ -199,7 +199,7 @@ TEST_CASE("recovery gives every dof from the load and the pairs' forces") {
   CHECK(u[1] == 0.0);
 }
 
-TEST_CASE("dofs, supports, pairs and forces keep their numbers for any internal numbering of a plate") {
+TEST_CASE("a plate's internal numbering does not change the numbers of dofs, supports, pairs and forces") {
   // The same plate lying and standing: 5 by 2 elements numbered along y, 2 by 5 in its own order.
   const plate lying{{0, 1, 2, 3, 4, 5}, {0, 0.5, 1.5}, 2.0, 0.3};
   const plate standing{lying.y, lying.x, lying.D, lying.nu};

@@ -21,7 +21,7 @@ linear_structure wide_plate() {
 
 }  // namespace
 
-TEST_CASE("one spring under the tip of a cantilever: w = F / (3 EI / L^3 + k)") {
+TEST_CASE("a cantilever with a spring k under its tip deflects by F / (3 EI / L^3 + k)") {
   const linear_structure s = cantilever_over_stops(4);  // L = 2, EI = 1e4; the tip's k is 100
   factored_stiffness k(s);
   std::vector<double> u(s.dofs());
@@ -33,7 +33,7 @@ TEST_CASE("one spring under the tip of a cantilever: w = F / (3 EI / L^3 + k)") 
   CHECK(u[0] == 0.0);
 }
 
-TEST_CASE("columns of the inverse at the pairs equal the solutions for unit right-hand sides") {
+TEST_CASE("the inverse's columns at the pairs equal the solutions for unit right-hand sides") {
   for (const factored_by how : {factored_by::storage, factored_by::cholmod}) {
     if (how == factored_by::cholmod && !sparse_factor::available()) continue;
     for (linear_structure s : {cantilever_over_stops(5), wide_plate()}) {
@@ -56,7 +56,7 @@ TEST_CASE("columns of the inverse at the pairs equal the solutions for unit righ
   }
 }
 
-TEST_CASE("a refined solution satisfies the equations to rounding") {
+TEST_CASE("the residual of a refined solution is only rounding") {
   const linear_structure s = wide_plate();
   const std::vector<char> closed = {1, 0};
   factored_stiffness k(s);
@@ -71,7 +71,7 @@ TEST_CASE("a refined solution satisfies the equations to rounding") {
   for (const double entry : left) CHECK(std::abs(entry) <= 2e-14);
 }
 
-TEST_CASE("a held structure whose matrix has no factor is refused") {
+TEST_CASE("a structure with supports whose matrix has no factor is refused") {
   linear_structure s = cantilever_over_stops(3);
   s.stiffness.band().at(4, 4) = -1.0;
   factored_stiffness k(s);
@@ -98,14 +98,16 @@ linear_structure three_dofs() {
 
 }  // namespace
 
-TEST_CASE("springs of pairs in contact are at the rows of their dofs, and not at fixed ones") {
+TEST_CASE("the springs of pairs in contact act at the rows of their dofs, except at fixed dofs") {
   const std::vector<spring_at> springs = springs_of(three_dofs(), std::vector<char>{1, 0, 1});
   REQUIRE(springs.size() == 1);
   CHECK(springs[0].row == 0);
   CHECK(springs[0].stiffness == 12.0);
 }
 
-TEST_CASE("loads go from dofs to rows, displacements from dofs to pairs, forces from pairs to dofs") {
+TEST_CASE(
+    "loads are converted from dofs to rows, displacements from dofs to pairs, and forces from pairs to "
+    "dofs") {
   const linear_structure s = three_dofs();
   const std::vector<double> load = {5, 6, 7};
   CHECK(in_rows(s, load) == std::vector<double>{7, 6, 0});
@@ -115,7 +117,7 @@ TEST_CASE("loads go from dofs to rows, displacements from dofs to pairs, forces 
   CHECK(with_pair_forces(s, load, std::vector<double>{1, -1, 0.5}) == std::vector<double>{5, 5, 7.5});
 }
 
-TEST_CASE("the residual is b - K x less the springs' forces") {
+TEST_CASE("the residual is b - K x minus the springs' forces") {
   const linear_structure s = three_dofs();
   const std::vector<spring_at> springs = {{0, 12.0}};
   const std::vector<double> left =
@@ -124,7 +126,7 @@ TEST_CASE("the residual is b - K x less the springs' forces") {
 }
 
 TEST_CASE(
-    "a solver with small errors is corrected to full precision, and growing corrections are not applied") {
+    "a solver with small errors is corrected to full precision, but growing corrections are not applied") {
   const linear_structure s = three_dofs();
   const std::vector<spring_at> springs = {{0, 12.0}};
   std::vector<double> u(3);

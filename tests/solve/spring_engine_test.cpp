@@ -40,7 +40,7 @@ void respond(recording_engine& e) {
 
 }  // namespace
 
-TEST_CASE("springs are added before others are removed, each once") {
+TEST_CASE("the engine adds springs before it removes others, each spring once") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(2, true);
@@ -57,7 +57,7 @@ TEST_CASE("springs are added before others are removed, each once") {
   CHECK(e.order.empty());
 }
 
-TEST_CASE("a spring that is switched twice is not applied at all") {
+TEST_CASE("the engine does not apply a spring that was switched on and off again") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(3, true);
@@ -66,7 +66,7 @@ TEST_CASE("a spring that is switched twice is not applied at all") {
   CHECK(e.order.empty());
 }
 
-TEST_CASE("springs of pairs in contact at the start are in the first factor") {
+TEST_CASE("the first factor includes the springs of pairs in contact at the start") {
   const linear_structure s = with_pairs({true, false, true, false});
   recording_engine e(s);
   e.refused = 1;
@@ -98,7 +98,8 @@ drift of(double correction) {
 
 }  // namespace
 
-TEST_CASE("the interval doubles while the drift is negligible, up to 16 times the first") {
+TEST_CASE(
+    "the interval between drift checks doubles while the drift is negligible, up to 16 times the first") {
   drift_monitor m(first_check);
   for (const int interval : {8, 16, 32, 64, 128, 128}) {
     CHECK(responses_until_due(m) == interval);
@@ -106,9 +107,7 @@ TEST_CASE("the interval doubles while the drift is negligible, up to 16 times th
   }
 }
 
-TEST_CASE(
-    "the interval halves when the drift is too large, down to four, and is unchanged for a drift in "
-    "between") {
+TEST_CASE("the interval between drift checks halves down to four when the drift is too large") {
   drift_monitor m(first_check);
   for (const int interval : {8, 4, 4}) {
     CHECK(responses_until_due(m) == interval);
@@ -118,7 +117,7 @@ TEST_CASE(
   CHECK(responses_until_due(m) == 4);
 }
 
-TEST_CASE("a check can be requested, and an interval can be restarted") {
+TEST_CASE("a drift check can be requested, and its interval can be restarted") {
   drift_monitor m(first_check);
   m.check_next();
   CHECK(m.is_due());
@@ -126,7 +125,7 @@ TEST_CASE("a check can be requested, and an interval can be restarted") {
   CHECK(responses_until_due(m) == 8);
 }
 
-TEST_CASE("drift is relative to the largest response, whichever pair has it") {
+TEST_CASE("drift is relative to the largest response of any pair") {
   drift d;
   CHECK(drift_monitor(first_check).accepts(d));
   d.include(-4.0, 0.0);

@@ -4,7 +4,7 @@
 
 using namespace contct;
 
-TEST_CASE("toggles are taken in without a factor, and the response is that of a new one") {
+TEST_CASE("the updated engine toggles pairs without a new factor, and responds as with one") {
   const linear_structure s = cantilever_over_stops(12);
   const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs());
@@ -24,7 +24,7 @@ TEST_CASE("toggles are taken in without a factor, and the response is that of a 
   CHECK(engine->counts().solves == 1 + 5);  // the load, and a column a toggle
 }
 
-TEST_CASE("the response is checked after 16 responses to one increment, and then after 32") {
+TEST_CASE("the updated engine checks its response after 16 responses, and then after 32") {
   const linear_structure s = cantilever_over_stops(6);
   const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs(), 1.0);
@@ -42,7 +42,9 @@ TEST_CASE("the response is checked after 16 responses to one increment, and then
   CHECK(respond(1) == 2);
 }
 
-TEST_CASE("removing a much stiffer spring takes a new factor, since too many digits would cancel") {
+TEST_CASE(
+    "the updated engine takes a new factor after removing a much stiffer spring, since too many digits "
+    "cancel") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[5].stiffness = 1e9;
   const auto engine = make_engine("updated", s);

@@ -27,7 +27,7 @@ std::string refusal_of_real(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a file is read to its last byte, whatever its bytes are") {
+TEST_CASE("an input file is read to its last byte, whatever its bytes are") {
   const scratch_folder here;
   CHECK(read_input(here.write("empty", "")).empty());
   std::string all;
@@ -35,7 +35,7 @@ TEST_CASE("a file is read to its last byte, whatever its bytes are") {
   CHECK(read_input(here.write("all", all)) == all);
 }
 
-TEST_CASE("a file that is not there, a folder, and a file that is too large are refused by name") {
+TEST_CASE("a missing file, a folder and a file that is too large are refused, with their names") {
   const scratch_folder here;
   CHECK_THROWS_WITH(read_input(here.at("none")), Contains("none: cannot be read: No such file"));
   CHECK_THROWS_WITH(read_input(here.path().string(), "mesh"),
@@ -48,13 +48,13 @@ TEST_CASE("a file that is not there, a folder, and a file that is too large are 
                     Contains("large: found 1 MiB or more; allowed: a mesh below that size"));
 }
 
-TEST_CASE("an error message names the file and the line, or the file alone") {
+TEST_CASE("an error message names the file and the line, or only the file") {
   CHECK_THROWS_WITH(refuse_line("K.mtx", 12, "x", "y"), "K.mtx:12: found x; allowed: y");
   CHECK_THROWS_WITH(refuse_line("K.mtx", 0, "x", "y"), "K.mtx: found x; allowed: y");
   CHECK_THROWS_AS(refuse_line("K.mtx", 1, "", ""), input_error);
 }
 
-TEST_CASE("text is split at line feeds, and every line is counted") {
+TEST_CASE("text is split at line feeds, and empty lines are counted") {
   text_lines lines("one\n\n three \r\nlast", "f");
   CHECK(lines.line() == 0);
   std::vector<std::string> found;
@@ -65,7 +65,7 @@ TEST_CASE("text is split at line feeds, and every line is counted") {
   CHECK_FALSE(text_lines("", "f").next());
 }
 
-TEST_CASE("only a last line without a line end is refused as cut") {
+TEST_CASE("a last line without a line end is refused as cut") {
   text_lines lines("one\n2", "f");
   REQUIRE(lines.next());
   CHECK_NOTHROW(lines.refuse_unended());
@@ -73,7 +73,7 @@ TEST_CASE("only a last line without a line end is refused as cut") {
   CHECK_THROWS_WITH(lines.refuse_unended(), Contains("f:2: found \"2\" without a line's end"));
 }
 
-TEST_CASE("fields are separated by any blanks, blank lines are skipped, and lines keep their numbers") {
+TEST_CASE("fields are separated by blanks of any kind, and blank lines are skipped but counted") {
   field_lines lines("\n  a\tb  c\r\n \v\f\n1 2 3 4 5 6 7 8 9 10\n", "f");
   REQUIRE(lines.next());
   CHECK(lines.line() == 2);
@@ -89,7 +89,7 @@ TEST_CASE("fields are separated by any blanks, blank lines are skipped, and line
   CHECK(lines.fields() == 0);
 }
 
-TEST_CASE("a line of fields that is cut is refused, and blanks after the last line are accepted") {
+TEST_CASE("a line of fields without a line end is refused, but blanks after the last line are accepted") {
   field_lines cut("1 2\n3 4", "f");
   REQUIRE(cut.next());
   CHECK_THROWS_WITH(cut.next(), Contains("f:2: found \"3 4\" without a line's end"));
@@ -98,7 +98,7 @@ TEST_CASE("a line of fields that is cut is refused, and blanks after the last li
   CHECK_FALSE(whole.next());
 }
 
-TEST_CASE("whole numbers are read within their bounds, with a plus sign or without") {
+TEST_CASE("whole numbers are read within their bounds, with or without a plus sign") {
   field_lines lines("+7 -3 8 7.0 7x +-7 99999999999999999999\n", "f");
   REQUIRE(lines.next());
   CHECK(lines.whole(0, -3, 7, "n") == 7);
@@ -110,7 +110,7 @@ TEST_CASE("whole numbers are read within their bounds, with a plus sign or witho
   }
 }
 
-TEST_CASE("reals are finite decimals, with FORTRAN's D only where it is asked for") {
+TEST_CASE("a real must be a finite decimal, with FORTRAN's exponent D only if requested") {
   field_lines lines("+1.5 -2e-3 .5 5.\n", "f");
   REQUIRE(lines.next());
   CHECK(lines.real(0, "x") == 1.5);
@@ -124,7 +124,7 @@ TEST_CASE("reals are finite decimals, with FORTRAN's D only where it is asked fo
   CHECK_THROWS_WITH(lines.text_lines::real("1D999", "x", true), Contains("\"1D999\" for x"));
 }
 
-TEST_CASE("a number must fill its whole text") {
+TEST_CASE("a number must be the whole text") {
   CHECK(number_in<int>("-12") == -12);
   CHECK(number_in<double>("1e3") == 1000.0);
   CHECK(number_in<double>("1.8p1", std::chars_format::hex) == 3.0);

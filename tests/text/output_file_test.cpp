@@ -14,7 +14,7 @@
 using namespace contct;
 namespace fs = std::filesystem;
 
-TEST_CASE("a file appears only when it is finished, and not earlier under a temporary name") {
+TEST_CASE("an output file appears only when it is finished") {
   const scratch_folder dir;
   output_file out(dir.at("out.json"));
   out.write("half");
@@ -25,7 +25,7 @@ TEST_CASE("a file appears only when it is finished, and not earlier under a temp
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("a new file has the permissions that the umask allows") {
+TEST_CASE("a new output file has the permissions that the umask allows") {
   const scratch_folder dir;
   const mode_t before = umask(0027);
   for (int time = 0; time < 2; ++time) {  // made, then replaced
@@ -38,7 +38,7 @@ TEST_CASE("a new file has the permissions that the umask allows") {
   umask(before);
 }
 
-TEST_CASE("an existing file is replaced at once, so that its name always has a complete file") {
+TEST_CASE("an existing output file is replaced at once, so that its name always has a complete file") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   output_file out(dir.at("out.json"));
@@ -49,7 +49,7 @@ TEST_CASE("an existing file is replaced at once, so that its name always has a c
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("an unfinished file is removed, and an older file stays unchanged") {
+TEST_CASE("an unfinished output file is removed, and an older file of this name stays unchanged") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   {
@@ -60,7 +60,7 @@ TEST_CASE("an unfinished file is removed, and an older file stays unchanged") {
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("whatever signal ends the process, no unfinished file remains") {
+TEST_CASE("no unfinished output file remains, whatever signal ends the process") {
   for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
     const scratch_folder dir;
     const pid_t child = fork();
@@ -78,7 +78,7 @@ TEST_CASE("whatever signal ends the process, no unfinished file remains") {
   }
 }
 
-TEST_CASE("a symbolic link is written through, whether its target is there or not") {
+TEST_CASE("an output through a symbolic link is written to its target, whether the target exists or not") {
   const scratch_folder dir;
   fs::create_directory(dir.path() / "there");
   fs::create_symlink("there/out.json", dir.path() / "link");  // relative to the link, not to us
@@ -91,14 +91,14 @@ TEST_CASE("a symbolic link is written through, whether its target is there or no
   }
 }
 
-TEST_CASE("a circle of links is refused, not followed for ever") {
+TEST_CASE("an output through a circle of links is refused") {
   const scratch_folder dir;
   fs::create_symlink("b", dir.path() / "a");
   fs::create_symlink("a", dir.path() / "b");
   CHECK_THROWS_WITH(output_file(dir.at("a")), Catch::Matchers::Contains("cannot be written"));
 }
 
-TEST_CASE("one file under two names is recognised as one") {
+TEST_CASE("two names of the same file are recognised as one file") {
   const scratch_folder dir;
   const auto at = [&](const char* name) { return dir.at(name); };
   dir.write("old", "old");
@@ -117,21 +117,21 @@ TEST_CASE("one file under two names is recognised as one") {
   CHECK_FALSE(same_file("/dev/null", "/dev/null"));  // two may well write there
 }
 
-TEST_CASE("an output file that cannot be written is refused at once, by name") {
+TEST_CASE("an output file that cannot be written is refused at once, with its name") {
   CHECK_THROWS_WITH(output_file("/no/such/place/out.json"),
                     Catch::Matchers::Contains("/no/such/place/out.json"));
   const scratch_folder dir;
   CHECK_THROWS_AS(output_file(dir.path().string()), output_error);
 }
 
-TEST_CASE("a device is written directly") {
+TEST_CASE("output to a device is written directly") {
   output_file out("/dev/null");
   out.write("gone");
   CHECK_NOTHROW(out.finish());
   CHECK(fs::is_character_file("/dev/null"));
 }
 
-TEST_CASE("a full device is an error, not a short file") {
+TEST_CASE("output to a full device is an error") {
   output_file out("/dev/full");
   CHECK_THROWS_AS((out.write(std::string(1 << 20, 'x')), out.finish()), output_error);
 }

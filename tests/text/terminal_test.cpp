@@ -20,7 +20,7 @@ int width_with(const char* columns) {
 
 }  // namespace
 
-TEST_CASE("COLUMNS sets the width, between 40 and 160, and nonsense gives 80") {
+TEST_CASE("COLUMNS sets the width of a table between 40 and 160, and an invalid COLUMNS gives 80") {
   CHECK(width_with("100") == 100);
   CHECK(width_with("10") == 40);
   CHECK(width_with("1000") == 160);
@@ -37,7 +37,7 @@ TEST_CASE("a text is coloured only if colour is requested") {
   CHECK(painted({80, true}, paint::strong, "so") == "\033[1mso\033[0m");
 }
 
-TEST_CASE("items share lines, and a text is broken only at blanks") {
+TEST_CASE("several items share a line, and a long text is broken only at blanks") {
   CHECK(wrap({"a", "b", "c"}, 4) == lines{"a; b", "c"});
   CHECK(wrap({"one two three"}, 7) == lines{"one two", "three"});
   CHECK(wrap({"one two three"}, 6) == lines{"one", "two", "three"});

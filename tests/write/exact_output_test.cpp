@@ -44,7 +44,7 @@ const std::string falling =
 
 }  // namespace
 
-TEST_CASE("the printed text has every event with its exact share and load") {
+TEST_CASE("the text of an exact path has every event with its exact share and load") {
   const std::string text =
       exact_text(followed_exactly(reference("pb07-three-gap-supports")).result(), 20, {});
   CHECK_THAT(text, Contains("\nstep 2\n  share 3/38, load -2400/19: pair 1 (node 5, below) makes, "
@@ -54,13 +54,14 @@ TEST_CASE("the printed text has every event with its exact share and load") {
   CHECK_THAT(text, Contains("  pair 2 (node 9, below): w -2/375, gap 7/1500\n"));
 }
 
-TEST_CASE("fractions of more digits than requested become decimals, and many pairs are only counted") {
+TEST_CASE("the text of an exact path has decimals for long fractions, and only counts many pairs") {
   const followed_exactly run(reference("pb03a-point-load-on-bed-l4"));
   const std::string text = exact_text(run.result(), 6, {});
   CHECK_THAT(text, Contains(" of 41 pairs in contact\n") && !Contains("/"));
 }
 
-TEST_CASE("a kernel has a line with its digits and the first event that differs") {
+TEST_CASE(
+    "the text of an exact path has a line for each kernel with its digits and its first different event") {
   followed_exactly run(reference("pb01-cantilever-tip-stop"));
   run.kernels = {{"fortran", true, "", 15.4, 15.1, 14.0, 2},
                  {"mine", false, "exactly, so; here otherwise", 3, 2, 1, 1},
@@ -84,7 +85,7 @@ TEST_CASE("a kernel has a line with its digits and the first event that differs"
   CHECK(kernels[2]["force_digits"].is_null());
 }
 
-TEST_CASE("the JSON document has every number as a fraction") {
+TEST_CASE("the JSON document of an exact path has every number as a fraction") {
   const exact_json d = followed_exactly(reference("pb01-cantilever-tip-stop")).document();
   CHECK(d["format"] == "contct-exact-1");
   CHECK(d["status"] == "solved");
@@ -104,7 +105,7 @@ TEST_CASE("the JSON document has every number as a fraction") {
   CHECK_FALSE(d.contains("mechanism"));
 }
 
-TEST_CASE("a mechanism is written with the motion and the work that prove it") {
+TEST_CASE("the output of an exact path has the motion and the work that prove a mechanism") {
   const followed_exactly run(contct::parse_problem(falling, "falling.toml"));
   CHECK_THAT(exact_text(run.result(), 20, {}),
              Contains("share 0, load 0: a rigid-body motion at constant load\n") &&

@@ -73,7 +73,8 @@ nlohmann::json explained_json(const std::string& text, int pair = 0) {
 
 }  // namespace
 
-TEST_CASE("the explanation of a pair cites the lines that it went through, with the paper's equations") {
+TEST_CASE(
+    "the explanation of a pair cites the lines of the listing that it took, with the paper's equations") {
   const nlohmann::json calls = explained_json(two_pairs)["increments"];
   REQUIRE(calls.size() == 2);
   const nlohmann::json& pairs = calls[0]["pairs"];
@@ -87,7 +88,7 @@ TEST_CASE("the explanation of a pair cites the lines that it went through, with 
   CHECK(pairs[1]["why"] == "not toggled");
 }
 
-TEST_CASE("two numbers are equal to the bit, or some ULP apart, or one is NaN") {
+TEST_CASE("two kernels' numbers are described as equal to the bit, as ULPs apart, or as different with NaN") {
   const double next = std::nextafter(0.25, 1.0);
   const problem p = parse_problem(two_pairs, "pb.toml");
   const explained_kernels of{p, {"a", "b"}, 8, 0};
@@ -99,7 +100,7 @@ TEST_CASE("two numbers are equal to the bit, or some ULP apart, or one is NaN") 
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
 }
 
-TEST_CASE("more than twenty increments take one line each, unless all are requested") {
+TEST_CASE("an explanation of more than 20 increments has one line each, unless all are requested") {
   const std::string few = explained_text(0, 80, two_pairs_and(18), false);
   CHECK(few == explained_text(0, 80, two_pairs_and(18)));
   CHECK_THAT(few, Contains("Step 19, increment 1\n"));
@@ -114,7 +115,8 @@ TEST_CASE("more than twenty increments take one line each, unless all are reques
 }
 
 TEST_CASE(
-    "a summary has the title once, names the pairs toggled too early, and counts events beyond twelve") {
+    "the summary of an explanation has the title once, names early toggles, and counts events beyond "
+    "twelve") {
   std::string toml = "title = \"Stops\"\n" + two_pairs_and(20);
   const std::string stop = "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n";
   for (int i = 0; i < 13; ++i) toml += stop;
@@ -124,7 +126,8 @@ TEST_CASE(
   CHECK_THAT(text, Contains("\n                   make 7") && Contains("make 13, 3 more; too early: 16\n"));
 }
 
-TEST_CASE("each increment has its numbers, the winner and every pair with the reasons") {
+TEST_CASE(
+    "the JSON explanation of an increment has its numbers, its winner, and every pair with its reasons") {
   const nlohmann::json j = explained_json(two_pairs);
   CHECK(j["format"] == "contct-explain-1");
   CHECK(j["real_bytes"] == 8);
@@ -156,7 +159,7 @@ TEST_CASE("each increment has its numbers, the winner and every pair with the re
   CHECK(j["status"] == "solved");
 }
 
-TEST_CASE("a single pair is written if only that pair is requested") {
+TEST_CASE("the explanation has a single pair if only this pair is requested") {
   const nlohmann::json j = explained_json(two_pairs, 2);
   for (const auto& i : j["increments"]) {
     REQUIRE(i["pairs"].size() == 1);
@@ -164,7 +167,7 @@ TEST_CASE("a single pair is written if only that pair is requested") {
   }
 }
 
-TEST_CASE("an event exactly at full load does not count for the listing, and the explanation says so") {
+TEST_CASE("the explanation says that an event exactly at full load does not count for the listing") {
   // The face is where the tip sinks to, to the last bit.
   problem p = parse_problem(two_pairs, "pb.toml");
   p.pairs[0].face = -10.0;
@@ -183,7 +186,8 @@ TEST_CASE("an event exactly at full load does not count for the listing, and the
 }
 
 TEST_CASE(
-    "a value in which the second kernel differs is shown under its name, and a line of unit 26 in full") {
+    "the explanation shows the second kernel's different value under its name, and a differing line in "
+    "full") {
   const problem p = parse_problem(two_pairs, "pb.toml");
   const auto told = [&](const mismatch& apart) {
     std::string written;

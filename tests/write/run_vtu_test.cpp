@@ -15,7 +15,7 @@
 using namespace contct;
 using Catch::Matchers::Contains;
 
-TEST_CASE("grids have as many points and cells as the structure and its pairs have") {
+TEST_CASE("a VTU grid has as many points and cells as the structure and its pairs") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
     const a_run r(text);
     const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
@@ -25,13 +25,13 @@ TEST_CASE("grids have as many points and cells as the structure and its pairs ha
   }
 }
 
-TEST_CASE("a collection names its files in their order, relative to itself") {
+TEST_CASE("a collection of VTU files names its files in their order, relative to itself") {
   const std::string pvd = pvd_of_states("a&b", 11);
   CHECK_THAT(pvd, Contains("timestep=\"0\" part=\"0\" file=\"a&amp;b.000.vtu\""));
   CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
 }
 
-TEST_CASE("grids of structures given by matrices have points at nodes, edges, and pairs that have a node") {
+TEST_CASE("the VTU grid of a matrix has points at nodes, and cells for edges and for pairs with a node") {
   const a_run r(structure_problem("", "frame", {{"dof       = \"8.x\"", "dof = \"8.r\""}}));
   const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
   CHECK_THAT(vtu, Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
@@ -44,7 +44,7 @@ TEST_CASE("grids of structures given by matrices have points at nodes, edges, an
   CHECK_THAT(bricks, Contains("NumberOfPoints=\"54\" NumberOfCells=\"114\"") && !Contains("rotation"));
 }
 
-TEST_CASE("points of grids have the reactions of supports and a bed's pressure") {
+TEST_CASE("the points of a VTU grid have the reactions of supports and a bed's pressure") {
   problem p = parse_problem(good_problem, "pb.toml");
   p.beds = {{4.0, {0.5}, 0}};
   const a_run r(p);
@@ -59,7 +59,7 @@ TEST_CASE("points of grids have the reactions of supports and a bed's pressure")
                                   results_of(r.what, r.what.steps[0], s).pairs[0].force / 0.5)));
 }
 
-TEST_CASE("only one of the states at the very start of a step's load is drawn") {
+TEST_CASE("only one of the states at the very start of a step's load becomes a picture") {
   // Each end of a beam that lies on springs lets go by itself, before any load.
   const a_run r(
       "[beam]\nlength = 10.0\nelements = 40\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\n"

@@ -62,7 +62,7 @@ double number(const std::string& field) {
 
 }  // namespace
 
-TEST_CASE("a path that is lost before any call has a table, with the state of the reference solution") {
+TEST_CASE("a path that is lost before any call has a table with the reference solution's state") {
   // The stiffness of the corner's slope is 0 in doubles.
   const a_run r(
       "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
@@ -77,7 +77,7 @@ TEST_CASE("a path that is lost before any call has a table, with the state of th
   CHECK(t.pairs.size() == 2);
 }
 
-TEST_CASE("a share takes nine columns at most, and is printed as 1 only if it is exactly 1") {
+TEST_CASE("a share of the step is printed in at most nine columns, and as 1 only if it is exactly 1") {
   CHECK(share_words(1.0) == "1");
   CHECK(share_words(0.25) == "0.25");
   CHECK(share_words(0.0789473684210526) == "0.0789474");
@@ -91,7 +91,7 @@ TEST_CASE("a share takes nine columns at most, and is printed as 1 only if it is
   }
 }
 
-TEST_CASE("a field is quoted where a comma, a quote or a line end is in it") {
+TEST_CASE("a CSV field with a comma, a quote or a line end is quoted") {
   CHECK(csv_field("plain words") == "plain words");
   CHECK(csv_field("a,b") == "\"a,b\"");
   CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
@@ -99,7 +99,7 @@ TEST_CASE("a field is quoted where a comma, a quote or a line end is in it") {
   CHECK(csv_field("a\x1b[31m") == "a\\x1b[31m");
 }
 
-TEST_CASE("no text cell begins like a formula, with or without leading blanks") {
+TEST_CASE("no text cell of a CSV file begins like a formula, with or without leading blanks") {
   for (const std::string formula : {"=1+1", "+1", "-2.x", "@SUM(1)", "\t=1", "\r=1", " =1", "\n=1", "\uff1d1",
                                     "\uff0b1", "\uff0d1", "\uff20x"}) {
     const std::string field = csv_field(formula);
@@ -150,7 +150,7 @@ TEST_CASE("the table of pairs has a row for each pair in each increment, with th
   CHECK(pressed);
 }
 
-TEST_CASE("a step without movement still has a row") {
+TEST_CASE("a step without movement has a row in the table of increments") {
   const tables t = tables_of(a_run(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]")));
   REQUIRE(t.increments.size() == 2);
   CHECK(t.increments[1][2] == "end");
@@ -158,7 +158,7 @@ TEST_CASE("a step without movement still has a row") {
   CHECK(t.increments[1][11].empty());
 }
 
-TEST_CASE("tables of structures given by matrices name dofs by their labels, with coordinates or without") {
+TEST_CASE("the table of pairs of a matrix names dofs by their labels, with or without coordinates") {
   for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
     std::string increments;
     std::string pairs;
@@ -186,12 +186,13 @@ run_table rows_for(const std::string& text, const std::string& leads = "fortran"
 }  // namespace
 
 TEST_CASE(
-    "many pairs that separate as the load begins to act share one row, and a few are named one by one") {
+    "many pairs that separate at the start of the load have one row in the table, and a few pairs one row "
+    "each") {
   CHECK_THAT(rows_for(lying_beam(40)).text, Contains(" at first load"));
   CHECK_THAT(rows_for(lying_beam(3)).text, Contains("break 4: node 4 below") && !Contains(" at first load"));
 }
 
-TEST_CASE("the column of kernels is explained if there is one, that is, if several kernels run") {
+TEST_CASE("the legend explains the column of kernels if several kernels run") {
   const auto legend_of = [](const std::string& leads) {
     std::string all;
     for (const std::string& words : rows_for(good_problem, leads).legend) all += words + "\n";
@@ -201,14 +202,14 @@ TEST_CASE("the column of kernels is explained if there is one, that is, if sever
   CHECK_THAT(legend_of("cpp"), !Contains("kernels:") && Contains("share:"));
 }
 
-TEST_CASE("The largest of each quantity has its unit, and moves to the left if the line is too long") {
+TEST_CASE("The table's largest values have their units, and move to the left if the line is too long") {
   const a_run r("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem));
   CHECK_THAT(table_of(r.result, {100, false}, false).text,
              Contains("moment        -36.2791 kN m     node 1, x = 0\n"));
   CHECK_THAT(table_of(r.result, {44, false}, false).text, Contains("moment -36.2791 kN m, node 1, x = 0\n"));
 }
 
-TEST_CASE("The lines below a step's end give the position of each face that moved, and of no other") {
+TEST_CASE("The table gives the position of each face that moved, below the step's end") {
   const std::string text =
       table_of(
           a_run("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", "
@@ -234,12 +235,13 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
     CHECK(end - at <= 80);
 }
 
-TEST_CASE("A value that is only rounding of larger earlier numbers is printed as 0, without a place") {
+TEST_CASE("A value that is only rounding of earlier larger values is printed as 0, without a place") {
   CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
              Contains("        moment        0\n") && Contains("        reaction      0\n"));
 }
 
-TEST_CASE("more than 12 combinations have one row each with their names, and the largest of all below") {
+TEST_CASE(
+    "the table of more than 12 combinations has one row each with its name, and the largest values below") {
   const std::string train =
       "[beam]\nlength = 24\nelements = 24\nEI = 1e4\n[[support]]\nx = [0, 24]\nfix = \"w\"\n"
       "[[train]]\nname = \"HL-93\"\naxles = [ { at = 0, w = -10 } ]\nfrom = 0\nto = 24\nby = ";
@@ -254,7 +256,7 @@ TEST_CASE("more than 12 combinations have one row each with their names, and the
   CHECK_THAT(few, Contains("end  HL-93 at 8;"));
 }
 
-TEST_CASE("a row of --csv ends with the name of its step") {
+TEST_CASE("a row of the --csv table ends with the name of its step") {
   std::string text;
   output_file out(&text);
   write_csv(a_run("[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
@@ -266,7 +268,8 @@ TEST_CASE("a row of --csv ends with the name of its step") {
 }
 
 TEST_CASE(
-    "extremes of more than six steps are printed in a table for each quantity, with one row for each step") {
+    "the extremes of more than six steps are printed in a table for each quantity, with one row for each "
+    "step") {
   std::string text = propped_cantilever;
   for (int step = 2; step <= 7; ++step) text += "[[step]]\nuniform = -" + std::to_string(8 * step) + "\n";
   const std::string shown = rows_for(text).text;
@@ -277,7 +280,7 @@ TEST_CASE(
                  Contains("step 7             -28  node 1, x = 0                    15.75  x = 1.25\n"));
 }
 
-TEST_CASE("a matrix has units for dofs that are known to be lengths or rotations") {
+TEST_CASE("the table of a matrix has units for dofs that are known to be lengths") {
   const a_run r(portal_frame() + "[units]\nlength = \"m\"\nforce = \"N\"\n", "cpp");
   const std::string shown = table_of(r.result, {100, false}, false).text;
   CHECK_THAT(shown, Contains("-0.00123118 m     dof 6.y") &&
@@ -293,7 +296,7 @@ TEST_CASE("a matrix has units for dofs that are known to be lengths or rotations
   CHECK(unit_words(placed, "w", 2).empty());
 }
 
-TEST_CASE("sums have units, and are 0 if they are only rounding") {
+TEST_CASE("the table's sums of forces have units, and are 0 if they are only rounding") {
   // The reactions of the second step, 0.45 kN and less, cancel.
   const a_run r(read_problem(CONTCT_REFERENCE "/problems/pp06-plate-over-settling-line.toml"), "corrected");
   const std::string shown = table_of(r.result, {100, false}, false).text;

@@ -14,7 +14,7 @@ using namespace contct;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
-TEST_CASE("a path that does not reach its load has one of three statuses, each with its own reason") {
+TEST_CASE("a path that does not reach its load has one of three statuses, and a separate reason") {
   CHECK(status_name(path_status::solved) == "solved");
   CHECK(status_name(path_status::mechanism) == "mechanism");
   CHECK(status_name(path_status::path_ended) == "path-ended");
@@ -26,7 +26,7 @@ TEST_CASE("a path that does not reach its load has one of three statuses, each w
   CHECK(end_reason(path_status::path_ended) == "path ended");
 }
 
-TEST_CASE("a certified run gives the number of certified steps, and no complaint") {
+TEST_CASE("a certified run prints the number of certified steps, and no complaint") {
   const a_run one(good_problem);
   CHECK(certificate_summary(one.result, true)[0] == "the final state is certified");
   CHECK(certificate_complaints(one.result).empty());
@@ -34,7 +34,7 @@ TEST_CASE("a certified run gives the number of certified steps, and no complaint
   CHECK(certificate_summary(two.result, true)[0] == "both final states are certified");
 }
 
-TEST_CASE("a path that ended before its full load is not certified, even if all its steps are") {
+TEST_CASE("a path that ended before its full load is not certified, even if all its steps are certified") {
   const a_run one(good_problem);
   const std::vector<std::string> items = certificate_summary(one.result, false);
   REQUIRE(items.size() == 2);
@@ -42,7 +42,7 @@ TEST_CASE("a path that ended before its full load is not certified, even if all 
   CHECK(items[1] == "step 1 is certified");
 }
 
-TEST_CASE("if the 1989 rule leaves a pair that pulls, the complaint has the pair and the amount") {
+TEST_CASE("if a pair in contact pulls under the 1989 rule, the complaint has the pair and the force") {
   const a_run r(  // exactly the forces are 2.75e-4 and 0
       "[beam]\nlength = 128\nelements = 128\nEI = 1e4\n"
       "[[support]]\nnodes = [1, 129]\nfix = \"w\"\n"
@@ -68,7 +68,7 @@ TEST_CASE(
   CHECK_THAT(complaints_of(r.result).back(), Contains("contct run ") && Contains(" --kernels corrected"));
 }
 
-TEST_CASE("a message about an error has its size in units first, then in per cent") {
+TEST_CASE("a message about an error has its size in units first, and then in per cent") {
   problem p = parse_problem(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"), "pb.toml");
   p.units = {"m", "kN"};
   const a_run r(std::move(p));
@@ -93,7 +93,7 @@ TEST_CASE("the proved digits of a run are those of its worst step") {
   CHECK(certificate_summary(two.result, true)[1] == "proved: " + said + " of every number");
 }
 
-TEST_CASE("a toggle that is early only by rounding of the step's deflections is not named as the cause") {
+TEST_CASE("a complaint does not name a toggle as the cause if it is early only by rounding") {
   a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"));
   REQUIRE_FALSE(r.result.judged.all_certified());
   CHECK_THAT(certificate_complaints(r.result).at(0), Contains("; in increment 1."));
@@ -128,7 +128,8 @@ std::string warned_of(const std::string& tables) {
 
 }  // namespace
 
-TEST_CASE("a plate's largest stress under a point load is warned of, one under a load of an area is not") {
+TEST_CASE(
+    "a warning is given if a plate's largest stress is under a point load, but not under a load of an area") {
   CHECK_THAT(warned_of("[[step]]\npoint = [ { node = 13, w = -1 } ]\n"),
              StartsWith("step 1: largest von Mises at node 13, (0.5, 0.5), under a point load: "));
   CHECK(warned_of("[[step]]\nuniform = [ { value = -16, from = [0.375, 0.375], to = [0.625, 0.625] } ]\n")
@@ -136,7 +137,9 @@ TEST_CASE("a plate's largest stress under a point load is warned of, one under a
   CHECK(warned_of("[[step]]\nuniform = -1\npoint = [ { node = 13, w = 0 } ]\n").empty());
 }
 
-TEST_CASE("a force at a free corner of a plate is not warned of: its twisting moments are half of it") {
+TEST_CASE(
+    "no warning is given for a force at a free corner of a plate, whose twisting moment is half of the "
+    "force") {
   const a_run r(
       "[plate]\nsize = [1, 1]\nelements = [4, 4]\nE = 10.92\nnu = 0.3\nthickness = 1\n[[support]]\n"
       "nodes = [5, 21, 25]\nfix = \"w\"\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",
@@ -146,7 +149,7 @@ TEST_CASE("a force at a free corner of a plate is not warned of: its twisting mo
   CHECK(concentration_warning(r.what, r.result.record.steps).empty());
 }
 
-TEST_CASE("a plate's largest stress at a pair is warned of where the pair is in contact") {
+TEST_CASE("a warning is given if a plate's largest stress is at a pair in contact") {
   const auto stop = [](const char* face) {
     return fmt::format(
         "[[contact]]\nnode = 13\nsurface = \"below\"\nface = {}\nstiffness = 1e4\n[[step]]\nuniform = -1\n",
