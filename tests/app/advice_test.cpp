@@ -1,4 +1,4 @@
-// The advice of a run whose states are not certified.
+// Tests the advice that a run prints if its states are not certified.
 #include "app/process.hpp"
 #include "catch.hpp"
 

@@ -1,4 +1,4 @@
-// Whatever is wrong: exit 2, one clear message with file, line and column, and no output file.
+// Tests that wrong input gives exit status 2, one message with file, line and column, and no output file.
 #include <algorithm>
 #include <string>
 
@@ -12,7 +12,8 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// Run `file` in `dir` with an output asked for; nothing but the refusal may come of it.
+/// Runs `file` with an output option, checks that the run is refused and writes no file, and returns the
+/// message.
 std::string refusal(const scratch_folder& dir, const std::string& file, const process_options& options = {}) {
   const auto before = dir.files();
   const finished f =
@@ -69,7 +70,7 @@ TEST_CASE("wrong usage gives exit status 2, and a message with the allowed names
   refused({}, "--help");
   refused({"run", "good.toml", "--kernels", "fortran,basic"}, "fortran-r4");
   refused({"run", "good.toml", "--kernels", "fortran,cpp,fortran"}, "named twice");
-  // The message is about precision, whichever kernel is FORTRAN, and comes before unit 26 is opened twice.
+  // This message must come before the error that unit 26 is already open.
   for (const char* pair : {"fortran,fortran-r4", "fortran-r4,fortran", "cpp,fortran-r4", "cpp-r4,fortran"})
     refused(
         {"run", "good.toml", "--kernels", pair},

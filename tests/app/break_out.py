@@ -103,7 +103,7 @@ def shape_of_html(data: bytes) -> list:
         try:
             values.append(json.loads(script))
         except ValueError:
-            values.append(script)  # the page's own code
+            values.append(script)  # the page's own script
     return [page.tags, [shape_of_json(v) if isinstance(v, (dict, list)) else v for v in values]]
 
 

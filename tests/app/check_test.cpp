@@ -1,4 +1,4 @@
-// contct check: the description of a problem, without solving it.
+// Tests `contct check`, which describes a problem without solving it.
 #include <string>
 
 #include "app/process.hpp"

@@ -1,5 +1,5 @@
-// reference/cookbook: every kind that `contct new` writes runs and is certified, and a number of each agrees
-// with the hand check that reference/cookbook.md shows.
+// Tests that every kind of `contct new` runs and is certified, and that one number of each agrees with the
+// hand calculation in reference/cookbook.md.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The result of a kind's unchanged file.
+/// Returns the result of running the unchanged file of a kind.
 json solved(const std::string& kind) {
   const scratch_folder dir;
   REQUIRE(contct_program(dir.path(), {"new", kind}).exit == 0);
@@ -26,7 +26,7 @@ json solved(const std::string& kind) {
   return json::parse(dir.read("out.json"));
 }
 
-/// The sum of the contact forces on this side.
+/// Returns the sum of the contact forces of the pairs with this surface, "above" or "below".
 double force_of(const json& step, const std::string& surface) {
   double sum = 0.0;
   for (const json& pair : step["pairs"])
@@ -34,7 +34,7 @@ double force_of(const json& step, const std::string& surface) {
   return sum;
 }
 
-/// (modulus / 4 EI)^(1/4), of Winkler's beam.
+/// Returns (modulus / 4 EI)^(1/4), the decay constant of Winkler's beam.
 double decay(double modulus, double EI) {
   return std::pow(modulus / (4 * EI), 0.25);
 }

@@ -1,4 +1,4 @@
-// The statements of reference/DIVERGENCES.md about faults of the 1989 code hold for its problem files.
+// Tests the numbers that reference/DIVERGENCES.md gives for its problem files.
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -21,7 +21,7 @@ std::string file_text(const char* name) {
   return text.str();
 }
 
-/// The page from a heading to the next one.
+/// Returns the page's text from a heading to the next heading.
 std::string section(const std::string& heading) {
   const std::string page = file_text("DIVERGENCES.md");
   const std::size_t from = page.find("\n### " + heading);
@@ -29,7 +29,7 @@ std::string section(const std::string& heading) {
   return page.substr(from, page.find("\n#", from + 5) - from);
 }
 
-/// The section has this number, and it is what was measured, to its last digit.
+/// Checks that the section contains this number, and that the measured value rounds to it.
 void says(const std::string& text, const std::string& number, double measured) {
   INFO(number << " is said, " << measured << " measured, in" << text);
   CHECK(text.find(number) != std::string::npos);
@@ -41,7 +41,7 @@ void says(const std::string& text, const std::string& number, double measured) {
   CHECK(std::abs(std::strtod(number.c_str(), nullptr) - measured) <= 0.51 * unit);
 }
 
-/// A run of a file of reference/problems/divergences with one kernel.
+/// Runs a problem of reference/problems/divergences with one kernel.
 json run(const std::string& file, const char* kernel, int exit) {
   const scratch_folder dir;
   const std::string problem = (root / "reference/problems/divergences" / file).string();

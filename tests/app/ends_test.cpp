@@ -1,4 +1,4 @@
-// The end of runs that do not reach an equilibrium, and its messages.
+// Tests the messages and exit statuses of runs that do not reach an equilibrium.
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,7 +18,7 @@ std::string over_one_pair(int loaded) {
          std::to_string(loaded) + ", w = -1 } ]\n";
 }
 
-/// A beam on a pivot lies on a stop, and is lifted onto one above it.
+/// A beam on a pivot that lies on a stop below and is then lifted onto a stop above.
 const char* const lifted =
     "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[support]]\nnode = 1\nfix = \"w\"\n"
     "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e4\n"
@@ -32,7 +32,7 @@ const char* const stiff_stop =
 
 const std::string mtx = "%%MatrixMarket matrix coordinate real symmetric\n3 3 6\n";
 
-/// A matrix with a rigid-body motion, held by a spring that is lost to rounding.
+/// Writes a problem whose matrix has a rigid-body motion, held by a spring that is lost to rounding.
 void write_soft_matrix(const scratch_folder& dir) {
   dir.write("K.mtx", mtx + "1 1 13\n2 1 2\n2 2 1\n3 1 4\n3 2 -1\n3 3 5\n");
   dir.write(

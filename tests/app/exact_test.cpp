@@ -1,4 +1,4 @@
-// contct exact: the path in fractions, and the digits of kernels.
+// Tests `contct exact`: the path in fractions, and the digits of kernels.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -120,7 +120,7 @@ TEST_CASE("contct exact solves a nearly singular matrix, and refuses a barely in
   CHECK(refused.exit == 2);
   CHECK_THAT(refused.err,
              Contains("k.mtx: not positive semidefinite: found work -1e-16, in exact arithmetic"));
-  CHECK(with("1").exit == 4);  // semidefinite, and the load drives the rigid-body motion
+  CHECK(with("1").exit == 4);  // exactly semidefinite, and the load does work on the rigid-body motion
 }
 
 TEST_CASE(

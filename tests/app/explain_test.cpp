@@ -1,4 +1,4 @@
-// contct explain: the text for a reader at a terminal, and the data for a program.
+// Tests the text and the JSON of `contct explain`.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -34,7 +34,7 @@ finished explained(const std::vector<std::string>& more, const char* columns = "
   return contct_program(root, arguments, {"", {{"COLUMNS", columns}}});
 }
 
-/// The listing's answer without rounding, from the exact values of a call's numbers.
+/// Returns the 1989 rule's answer in exact arithmetic for the values of a call.
 listing_answer answer_of(const json& pairs) {
   const auto number = [](const json& x) { return binary_value(x.get<double>()); };
   std::vector<listing_pair> all;
@@ -44,7 +44,7 @@ listing_answer answer_of(const json& pairs) {
   return answer_exactly(all);
 }
 
-/// The distance to the next number.
+/// Returns the distance from x to the next larger number.
 template <class Real>
 Real ulp_of(Real x) {
   return std::nextafter(std::abs(x), std::numeric_limits<Real>::infinity()) - std::abs(x);
@@ -158,7 +158,7 @@ TEST_CASE(
   refused({pb7, "--kernels", "cpp,fortran,cpp"}, "found 3; allowed: one or two");
   refused({pb7, "--kernels", "pipe:cat"}, "is an external kernel and cannot lead");
   refused({pb7, "--engine", "warp"}, "allowed: auto, refactor, ");
-  CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // which it takes, as contct run does
+  CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // explain accepts auto as run does
 }
 
 TEST_CASE("contct explain reports a second kernel that rounds differently in ULPs, with exit status 1") {
@@ -168,7 +168,7 @@ TEST_CASE("contct explain reports a second kernel that rounds differently in ULP
       explained({pb7, "--kernels", "fortran," + plugin, "--json", (dir.path() / "out.json").string()});
   INFO(f.err);
   CHECK(f.exit == 1);
-  CHECK_THAT(f.out, Contains("ULP") && Contains("NOT"));  // long paths are wrapped
+  CHECK_THAT(f.out, Contains("ULP") && Contains("NOT"));  // the message may be wrapped elsewhere
   CHECK_THAT(f.err, Contains("differs in"));
   const json all = json::parse(dir.read("out.json"));
   CHECK(all["status"] == "kernels-disagree");
@@ -197,12 +197,12 @@ TEST_CASE("contct explain writes a long run while it follows the path, so that m
   CHECK(all.exit == 0);
   CHECK(all.out.empty());
 #if !defined(__SANITIZE_ADDRESS__)
-  CHECK(all.peak_kib < narrow.peak_kib + 8L * 1024);  // some 30 MB of JSON are written
+  CHECK(all.peak_kib < narrow.peak_kib + 8L * 1024);  // the run writes about 30 MB of JSON
 #endif
 }
 
 TEST_CASE("contct explain reports an event caused only by rounding near full load, which the driver undoes") {
-  // Unloading to zero separates the pairs exactly at the end, or by rounding just before it.
+  // When the load is removed, the pairs separate at full load, or by rounding just before it.
   const scratch_folder dir;
   int undone = 0;
   for (int elements = 4; elements <= 30; elements += 2) {
@@ -255,7 +255,7 @@ TEST_CASE("every s of PB1 to PB11 has an error of at most 2 ULP in single and do
           for (const json& kernel : all["kernels"]) {
             const double s = std::strtod(p["bits"][kernel].get<std::string>().c_str(), nullptr);
             const rational error = binary_value(s) - exactly.s[pair];
-            // A difference and a quotient, or a quotient and a product.
+            // s is computed by two operations, each of which rounds once.
             CHECK(abs(error) < 2 * binary_value(is_long ? ulp_of(s) : ulp_of(static_cast<float>(s))));
             ++compared;
           }

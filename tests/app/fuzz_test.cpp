@@ -1,4 +1,4 @@
-// contct fuzz: its output for kernels that agree, and for plug-ins with a fault.
+// Tests `contct fuzz` with kernels that agree and with plug-ins that have a fault.
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The plug-in of tests/kernel/plugins/variant.c with a fault.
+/// Returns the name of the plug-in tests/kernel/plugins/variant.c with this fault.
 std::string variant(const char* fault) {
   return "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_" + fault + ".so";
 }
@@ -74,7 +74,7 @@ TEST_CASE(
   CHECK(its.at("rung") == "certificate");
   CHECK(its.at("mismatches") > 0);
 
-  const std::string trace = "found/plugin-libvariant-less-equal-so-seed1989.trace";  // it tells the two apart
+  const std::string trace = "found/plugin-libvariant-less-equal-so-seed1989.trace";
   CHECK(contct_program(dir.path(), {"replay", trace, "--kernel", "fortran,cpp"}).exit == 0);
   CHECK(contct_program(dir.path(), {"replay", trace, "--kernel", variant("less_equal")}).exit == 1);
 }
@@ -103,7 +103,7 @@ TEST_CASE("contct fuzz has exit status 2 if it compares nothing") {
   CHECK(fuzz(dir, {"--kernels", "fortran"}).exit == 2);
   CHECK(fuzz(dir, {"--shard", "3/2"}).exit == 2);
   CHECK(fuzz(dir, {"--shard", "1/2x"}).exit == 2);
-  // Shard 5 of 9 has no call when there are four.
+  // Of four calls, shard 5 of 9 gets none.
   const finished f = fuzz(dir, {"--calls", "4", "--problems", "0", "--shard", "5/9"});
   CHECK(f.exit == 2);
   CHECK_THAT(f.err, Contains("nothing was compared"));

@@ -1,4 +1,4 @@
-// contct verify --results: another program's numbers for the reference problems.
+// Tests `contct verify --results`, which judges another program's numbers.
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
@@ -9,7 +9,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// PB1's first two steps by its closed form, w at the tip and the stop's force; `force` is that in step 2.
+/// Returns PB1's first two steps by closed form: w at the tip and the stop's force, with `force` as the force
+/// in step 2.
 std::string answers(const std::string& force) {
   return R"({ "format": "contct-answers-1", "program": "By hand", "version": "1", "tolerance": 1e-6,
   "problems": { "pb01-cantilever-tip-stop": [

@@ -1,5 +1,5 @@
-// Large structures: memory goes with the band and its factor, of a plate with the square of the shorter side,
-// whichever way it lies, and nothing is quadratic.
+// Tests that large structures take linear time and little memory. A plate's memory must depend on its shorter
+// side, in either orientation.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,7 +12,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A strip on line supports at every tenth grid line of its long way, sagging onto a stop in each span.
+/// Returns a plate of 3000 by 2 elements that is supported at every tenth line across it and sags onto a stop
+/// in each span.
 std::string strip(bool along_x) {
   const int lines = 3001;
   const auto node = [&](int along, int across) {
@@ -29,7 +30,7 @@ std::string strip(bool along_x) {
   return text + "[[step]]\nuniform = -0.001\n";
 }
 
-/// A beam of 100,000 nodes on many spans, every node written out, with stops between some supports.
+/// Returns a beam with 100,000 explicit nodes, many supports, and stops between some of them.
 std::string hundred_thousand_nodes() {
   std::string text = "[beam]\nEI = 1.0\nx = [";
   for (int i = 0; i < 100000; ++i) text += std::to_string(i) + ".0, ";
@@ -87,7 +88,8 @@ TEST_CASE("a run of a plate of 100 by 100 elements takes under 462 MB") {
                            "[[support]]\nnodes = \"10101..10201\"\nfix = [\"w\", \"wx\"]\n"
                            "[[step]]\nuniform = -1\n",
                            462'000);
-  // Two edges simply supported, two free: a strip that bends along y, 0.01309 q a^4 / D in the middle.
+  // The plate has two simply supported and two free edges, so it bends along y with 0.01309 q a^4 / D in the
+  // middle.
   CHECK(r["steps"][0]["w"][5100].get<double>() == Approx(-0.01309).epsilon(1e-3));
   CHECK(r["steps"][0]["elements"].size() == 10000);
 }
@@ -101,12 +103,12 @@ TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB")
   int closed = 0;
   for (const auto& pair : result["steps"][0]["pairs"]) closed += pair["state"] == "contact" ? 1 : 0;
   CHECK(closed == 12);
-  // Unloaded, everything is back where it was.
+  // After unloading, all pairs are separated.
   for (const auto& pair : result["steps"][1]["pairs"]) CHECK(pair["state"] == "separated");
 }
 
 TEST_CASE("200,000 beds of one node each take no longer than one bed of 200,000 nodes") {
-  // Something done for every node, for every bed, would take minutes.
+  // Work for every node of every bed would take minutes.
   const scratch_folder dir;
   std::string text = "[beam]\nlength = 200000\nelements = 200000\nEI = 1\n";
   for (int node = 1; node <= 200001; ++node)

@@ -1,4 +1,4 @@
-// Help for users: help with examples, suggestions for misspelt words, a file to start from.
+// Tests the help texts, the suggestions for misspelt words, and `contct new`.
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ words split(const std::string& text, char at) {
   return parts;
 }
 
-/// The commands that `contct --help` lists.
+/// Returns the commands that `contct --help` lists.
 words commands() {
   const std::string help = contct_program(".", {"--help"}).out;
   const std::size_t from = help.find("Subcommands:\n");
@@ -35,7 +35,7 @@ words commands() {
   return names;
 }
 
-/// The command lines under "Examples:", each as arguments.
+/// Returns the command lines under "Examples:", each as a list of arguments.
 std::vector<words> examples_in(const std::string& help) {
   const std::size_t from = help.find("Examples:\n");
   REQUIRE(from != std::string::npos);
@@ -49,7 +49,7 @@ std::vector<words> examples_in(const std::string& help) {
   return found;
 }
 
-/// The files that the examples name.
+/// Writes the files that the examples name.
 void prepare(const scratch_folder& dir, bool with_problems) {
   if (!with_problems) return;
   REQUIRE(contct_program(dir.path(), {"new", "beam", "beam.toml"}).exit == 0);
@@ -73,7 +73,7 @@ TEST_CASE("every command has help with examples, and every example runs as it is
     CHECK_FALSE(examples.empty());
     for (const words& arguments : examples) {
       if (command == "prove")
-        continue;  // tests/prove runs them: they take a minute, and sanitizers change the machine code
+        continue;  // tests/prove runs these examples, which take a minute and fail with sanitizers
       CHECK(arguments.at(0) == command);
       const scratch_folder dir;
       prepare(dir, command != "new");

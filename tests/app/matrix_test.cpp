@@ -1,4 +1,4 @@
-// An external matrix, run as a person would.
+// Tests runs with an external stiffness matrix.
 #include "app/process.hpp"
 #include "catch.hpp"
 

@@ -1,4 +1,4 @@
-// The options of both programs, as data parsed from a command line.
+// Tests the options of contct and contct-replay as parsed from a command line.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -26,7 +26,7 @@ command_options parse(words line) {
   return parse_contct(static_cast<int>(line.size()), arguments_of(line).data(), engines);
 }
 
-/// The options of one command; the test fails where the line asks for something else.
+/// Returns the parsed options; the test fails if the line parses as another command.
 template <class Options>
 Options parsed(const words& line) {
   const command_options asked = parse(line);
@@ -34,7 +34,7 @@ Options parsed(const words& line) {
   return std::get<Options>(asked);
 }
 
-/// The message for an invalid command line.
+/// Returns the message for an invalid command line.
 std::string refusal(const words& line) {
   try {
     (void)parse(line);

@@ -1,5 +1,5 @@
-// Where results go: never onto one another, never half, and never lost without a word. Reports for machines:
-// JUnit that is well-formed whatever it contains, Markdown that shows in a table.
+// Tests output files: a run never overwrites its input or another output, never leaves half a file, and
+// reports every failure. Also tests the JUnit and Markdown reports.
 #include "app/outputs.hpp"
 
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace {
 
 using words = std::vector<std::string>;
 
-/// A run that must be refused, and leave every file unchanged.
+/// Runs a command that must be refused, checks that no file changed, and returns the message.
 std::string refusal(const scratch_folder& dir, const words& arguments, const process_options& options = {}) {
   const auto before = dir.files();
   const finished f = contct_program(dir.path(), arguments, options);
@@ -205,7 +205,7 @@ TEST_CASE("contct run writes the whole page of --html, even if a pipe to head cu
 }
 
 TEST_CASE("a run whose stiffness is too ill-conditioned has exit status 2 and writes no files") {
-  // PB9, so stiff that the springs vanish in the rounding of the beam's own stiffness.
+  // PB9 with so large an EI that the bed's springs are lost to rounding.
   const scratch_folder dir;
   dir.write("stiff.toml",
             "[beam]\nlength = 2.0\nelements = 40\nEI = 1e16\n[[bed]]\nmodulus = 5000.0\nface = 0.0\n"

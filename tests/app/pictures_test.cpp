@@ -1,4 +1,4 @@
-// contct run's pictures and tables, as a person asks for them.
+// Tests the page, the tables and the grids of `contct run`.
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -27,7 +27,7 @@ nlohmann::json data_of(const std::string& page) {
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
-/// The result without the additional data of a page.
+/// Returns the result without the data that only a page has.
 nlohmann::json ends_of(nlohmann::json result) {
   for (const char* more : {"file", "date", "words", "structure", "calls", "calls_made", "log", "log_bytes"})
     CHECK(result.erase(more) == 1);
@@ -41,7 +41,7 @@ nlohmann::json ends_of(nlohmann::json result) {
   return result;
 }
 
-/// States in which the slider of a page stops.
+/// Returns the number of states that the page's slider can show.
 std::size_t states_in(const nlohmann::json& result) {
   std::size_t n = 1;
   for (const auto& step : result["steps"]) {
@@ -82,7 +82,7 @@ TEST_CASE(
     CHECK(data["structure"]["pairs"].size() == result["steps"][0]["pairs"].size());
     std::size_t increments = 0;
     for (const auto& step : result["steps"]) increments += step["increments"].size();
-    CHECK(states_in(data) == 1 + increments);  // the last one of a step ends it
+    CHECK(states_in(data) == 1 + increments);  // the start, and a state for each increment
     for (const auto& step : data["steps"]) {
       for (std::size_t i = 0; i + 1 < step["increments"].size(); ++i) {
         CHECK(step["increments"][i]["displacement"].size() == step["displacement"].size());
@@ -120,7 +120,7 @@ TEST_CASE("if an output is -, only this output is written to standard output") {
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
   const std::string csv = contct_program(dir.path(), run_of({"--csv", "-"})).out;
   CHECK(csv.rfind("step,increment,", 0) == 0);
-  CHECK(dir.files() == words{"pb.toml"});  // and no table of pairs
+  CHECK(dir.files() == words{"pb.toml"});  // no table of pairs is written
 }
 
 TEST_CASE("the page has the date of the run, or the date in SOURCE_DATE_EPOCH") {

@@ -1,4 +1,4 @@
-// The end of a path in words and as an exit status, without running the program.
+// Tests the messages and exit statuses for the end of a path, without running the program.
 #include "app/problem_runs.hpp"
 
 #include <string>
@@ -14,7 +14,7 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// A beam with ten pairs, at nodes 2 to 11, below and above in turn.
+/// Returns a beam with ten pairs at nodes 2 to 11, alternately below and above.
 problem ten_pairs() {
   std::string text =
       "[beam]\nlength = 10.0\nelements = 10\nEI = 1.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";

@@ -12,7 +12,8 @@
 namespace contct {
 namespace {
 
-/// In the child: become the program. Streams that are files keep clear of pipes that fill up.
+/// Replaces the child process by the program. Output goes to files, because a pipe could fill up and block
+/// the program.
 [[noreturn]] void become(const std::filesystem::path& directory, std::vector<std::string> arguments,
                          const process_options& options, const std::filesystem::path& streams, int terminal) {
   dup2(open((streams / "in").c_str(), O_RDONLY), STDIN_FILENO);
@@ -34,13 +35,13 @@ namespace {
   _exit(127);
 }
 
-/// Everything that the program writes to its terminal.
+/// Returns everything that the program writes to its terminal.
 std::string drain(int terminal) {
   std::string text;
   char block[4096];
   ssize_t got = 0;
   while ((got = ::read(terminal, block, sizeof block)) > 0) text.append(block, static_cast<std::size_t>(got));
-  return text;  // reading from a terminal whose last writer is gone fails: that is its end
+  return text;  // reading fails after the last writer has closed the terminal
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Progress: on a terminal that waits, gone in the end, and nowhere else.
+// Tests that progress is shown only on a terminal, and erased at the end.
 #include <string>
 
 #include "app/process.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 const char* const erased = "\r\033[K";
 
-/// Work of each command that would take long if there were more of it.
+/// A command that shows progress, and a text that it must show.
 struct long_work {
   const char* name;
   std::vector<std::string> arguments;
@@ -28,7 +28,8 @@ std::vector<long_work> long_works() {
           {"replay", {"replay", CONTCT_ROOT "/reference/traces/ties.trace"}, "ties.trace: 1 call"}};
 }
 
-/// At a terminal whose owner waits for so many seconds before he wonders.
+/// Runs contct on a terminal, with CONTCT_PROGRESS_AFTER = `seconds`. `both`: standard output is the terminal
+/// too.
 finished at_terminal(const scratch_folder& dir, const std::vector<std::string>& arguments,
                      const std::string& seconds, bool both = false) {
   process_options o;
@@ -38,7 +39,7 @@ finished at_terminal(const scratch_folder& dir, const std::vector<std::string>& 
   return contct_program(dir.path(), arguments, o);
 }
 
-/// With a plate.toml in it.
+/// A scratch folder with the file plate.toml.
 class plate_directory : public scratch_folder {
  public:
   plate_directory() { REQUIRE(contct_program(path(), {"new", "plate"}).exit == 0); }
@@ -81,7 +82,7 @@ TEST_CASE("if table and progress share a terminal, every row of the table begins
   const finished plain = contct_program(dir.path(), run);
   std::string seen = at_terminal(dir, run, "0", true).out;
   CHECK_THAT(seen, Contains("step 2 of 2, increment "));
-  // The text that remains on the screen: a line up to where it was last erased is gone.
+  // The text that remains visible: an erase sequence removes the line up to its position.
   std::string screen;
   for (std::size_t from = 0; from < seen.size();) {
     const std::size_t end = std::min(seen.find('\n', from), seen.size());

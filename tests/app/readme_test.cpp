@@ -1,4 +1,4 @@
-// The README's examples are the program's real output.
+// Tests that the examples in README.md and the trace in trace-format.md are the program's real output.
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -20,7 +20,7 @@ std::string readme() {
   return page("README.md");
 }
 
-/// The text between `from` and `to`.
+/// Returns the text between `from` and `to`.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const std::size_t begin = text.find(from);
   REQUIRE(begin != std::string::npos);

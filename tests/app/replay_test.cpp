@@ -1,4 +1,4 @@
-// contct run --trace, contct replay and contct-replay: recorded calls, and who answers them otherwise.
+// Tests `contct run --trace`, `contct replay` and contct-replay.
 #include <algorithm>
 #include <filesystem>
 
@@ -15,7 +15,7 @@ std::string reference_problem(const char* name) {
   return (root / "reference/problems" / name).string();
 }
 
-/// Record a problem's path in `dir`.
+/// Records a problem's path as t.trace in `dir`, and returns the trace.
 std::string recorded(const scratch_folder& dir, const char* problem) {
   const finished f =
       contct_program(dir.path(), {"run", reference_problem(problem), "--trace", "t.trace", "--quiet"});
@@ -103,7 +103,8 @@ TEST_CASE("contct-replay prints the same as contct replay, and needs neither LAP
   CHECK(out == f.out);
   const std::string libraries = shell("ldd " + program).out;
   CHECK_THAT(libraries, Contains("libc.so") && !Contains("lapack") && !Contains("blas"));
-  CHECK_THAT(shell("ldd " + std::string(CONTCT_PROGRAM)).out, Contains("lapack"));  // the look would see it
+  // In a program that is linked with LAPACK, ldd names it.
+  CHECK_THAT(shell("ldd " + std::string(CONTCT_PROGRAM)).out, Contains("lapack"));
 }
 
 TEST_CASE("the JUnit report of a run has one test each for kernels, path and certificate") {

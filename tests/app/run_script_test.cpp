@@ -1,5 +1,5 @@
-// cpp/run.sh: builds at its own place, runs at the caller's. The build itself is left out here: a cmake
-// that does nothing stands in for it, and the program built already takes the place of the one to build.
+// Tests cpp/run.sh, which builds in its project and runs in the caller's folder. A cmake without effect
+// replaces the build, and the built program is linked to its place.
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A project whose scripts are ours and whose program is built.
+/// A project folder with links to the scripts and the built program.
 class built_project {
  public:
   built_project() {
@@ -27,20 +27,20 @@ class built_project {
       fs::copy_file(fs::path(CONTCT_ROOT) / script, root() / script);
     fs::create_directory_symlink(fs::path(CONTCT_ROOT) / "reference/problems", root() / "reference/problems");
     fs::create_symlink(CONTCT_PROGRAM, root() / "build/release/contct");
-    tool("cmake", "test -f cpp/run.sh");  // succeeds where the project is, and only there
+    tool("cmake", "test -f cpp/run.sh");  // fails in any folder other than the project's
     tool("dpkg-query", "echo install ok installed");
   }
 
   [[nodiscard]] fs::path root() const { return dir_.path() / "the project"; }
 
-  /// Put a program of this name before all others.
+  /// Puts a program of this name first in PATH.
   void tool(const std::string& name, const std::string& does) const {
     const std::string path = "tools/" + name;
     dir_.write(path, "#!/bin/sh\n" + does + "\n");
     fs::permissions(dir_.path() / path, fs::perms::owner_all);
   }
 
-  /// The output of `sh .../cpp/run.sh ARGUMENTS` in `folder`, and its exit status.
+  /// Runs `sh .../cpp/run.sh ARGUMENTS` in `folder`, and returns its exit status and its output.
   [[nodiscard]] std::pair<int, std::string> run(const fs::path& folder, const std::string& arguments) const {
     const std::string out = (dir_.path() / "out").string();
     const std::string line = "cd '" + folder.string() + "' && PATH='" + (dir_.path() / "tools").string() +

@@ -1,4 +1,4 @@
-// contct run, as a person at the terminal meets it.
+// Tests `contct run`: its output, files and exit status.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -45,7 +45,7 @@ TEST_CASE("the table shows share, s, load, event, node and side, and whether the
                              "        sums          loads -60, reactions 18.1395, contact 41.8605\n"));
   CHECK_THAT(f.out,
              Contains("fortran and cpp are equal to the bit; 2 calls, 8 values compared, 0 mismatches"));
-  CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // and no fort.26
+  CHECK(dir.files() == std::vector<std::string>{"pb.toml"});  // no fort.26
 }
 
 TEST_CASE(
@@ -241,7 +241,7 @@ TEST_CASE("a mechanism gives exit status 4, and the message names the pair that 
                         Contains("when pair 1 (node 2, below) separated, the structure became a mechanism"));
   const auto result = nlohmann::json::parse(dir.read("out.json"));
   CHECK(result["status"] == "mechanism");
-  // Moments about pair 2: the load at node 5 lifts pair 1 as soon as 6 f > 4 f. At once, then.
+  // About pair 2 the moment 6 f of the load at node 5 exceeds 4 f at node 3, so pair 1 lifts at any share f.
   CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
 }
 
@@ -282,8 +282,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a free run has exit status 1 if the share of an event differs by more than the bound") {
-  // The node ends 1e-5 before its face, and then 1e-5 beyond it: single precision cannot tell at which share
-  // it meets the face.
+  // The node ends 1e-5 before its face and in the next step 1e-5 beyond it. Single precision cannot resolve
+  // the share at which it reaches the face.
   const scratch_folder dir;
   dir.write("near.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
@@ -325,7 +325,7 @@ TEST_CASE("with --strict an uncertified state gives exit status 3, and the messa
              Contains("step 4 is NOT certified: the deflections are off by 1.2e-08, 0.00012 % of the"));
   CHECK_THAT(strict.err, Contains("in increment 4.2 pair 1 (node 41, below) broke contact"));
   CHECK_THAT(strict.err,
-             Contains("contct run " + pb5 + " --kernels corrected"));  // which is what certifies it
+             Contains("contct run " + pb5 + " --kernels corrected"));  // the remedy
   const auto r = nlohmann::json::parse(dir.read("s.json"));
   CHECK(r["status"] == "solved");
   CHECK(r["steps"][0]["certificate"]["exact"] == true);
@@ -385,7 +385,7 @@ TEST_CASE("the option --final-only gives certified final states without followin
     const auto& b = at_once["steps"][step];
     CHECK(b["increments"].empty());
     CHECK(b["certificate"]["exact"] == true);
-    CHECK(b["certificate"]["independent"] == false);  // it is the reference solution
+    CHECK(b["certificate"]["independent"] == false);  // the state is the reference solution itself
     CHECK(a["certificate"]["independent"] == true);
     for (std::size_t node = 0; node < a["w"].size(); ++node) {
       CHECK(a["w"][node].get<double>() == Approx(b["w"][node].get<double>()).epsilon(1e-9).margin(1e-11));
@@ -395,7 +395,7 @@ TEST_CASE("the option --final-only gives certified final states without followin
       CHECK(a["pairs"][pair]["state"] == b["pairs"][pair]["state"]);
   }
   CHECK(compared == 6 * 41);
-  CHECK(at_once["engine_work"]["factors"] <= 40);  // 55 increments on the path
+  CHECK(at_once["engine_work"]["factors"] <= 40);  // the path has 55 increments
   CHECK_THAT(contct_program(dir.path(), {"run", pb5, "--final-only"}).out,
              Contains("all 6 final states are certified") && Contains("proved: 10 digits or more"));
 

@@ -1,5 +1,5 @@
-// Files from strangers: whatever their texts hold, a terminal is shown characters and no commands, and they
-// open no files but their own.
+// Tests that texts of a problem's files send no control characters to a terminal, and that a problem opens
+// only files below its folder.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -26,8 +26,8 @@ const std::string hostile = "\x1b[31m\x07\x7f\u009b31m\u202e\u2067";
 const std::string hostile_bytes = hostile + "\xff\xc0\x9b";
 const std::string hostile_in_toml = R"(\u001b[31m\u0007\u007f\u009b31m\u202e\u2067)";
 
-/// Runs the program and checks that a terminal shows every character that it prints; a carriage return may
-/// end a line of CSV. How many of its texts have an escaped ESC: the hostile text did come to them.
+/// Runs the program and checks that its output has no control characters except a CR before LF. Returns the
+/// number of outputs with an escaped ESC, which must not be 0 if the hostile text was printed.
 int escapes_shown(const scratch_folder& dir, const words& arguments) {
   const finished f = contct_program(dir.path(), arguments);
   int escaped = 0;
@@ -42,7 +42,7 @@ int escapes_shown(const scratch_folder& dir, const words& arguments) {
   return escaped;
 }
 
-/// Everything that can be asked of a problem, each output in turn to standard output.
+/// Returns the command lines for every output that a problem can have, each to standard output.
 std::vector<words> questions(const std::string& file) {
   std::vector<words> all = {{"check", file},
                             {"run", file},
@@ -72,20 +72,21 @@ const std::string beam_problem =
     "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n"
     "[[step]]\nname = \"load @\"\npoint = [ { node = 3, w = -60.0 } ]\n";
 
-/// `text` with `by` for every "@".
+/// Returns `text` with every "@" replaced by `by`.
 std::string filled(std::string text, const std::string& by) {
   for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + by.size()))
     text.replace(at, 1, by);
   return text;
 }
 
-/// A spring at a wall, whose three dofs and nodes are named as `name` says.
+/// Writes a matrix problem, a spring at a wall, in which the names of the three dofs and nodes begin with
+/// `name`.
 void write_matrix_problem(const scratch_folder& dir, const std::string& name) {
   dir.write("K.mtx",
             "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n");
   dir.write("K.dof", name + "1.x\n" + name + "2.x\n" + name + "3.x\n");
   dir.write("K.xyz", name + "1 0 0\n" + name + "2 1 0\n" + name + "3 2 0\n");
-  std::string label;  // in a problem's TOML
+  std::string label;  // the name with TOML's escapes
   for (const char c : name) {
     constexpr std::string_view digits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(c);

@@ -1,4 +1,3 @@
-// contct verify: the numbers of the verification table.
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -42,13 +41,13 @@ TEST_CASE(
   }
   CHECK(calls > 300);
   CHECK(v["cases"].size() >= 45);
-  CHECK(uncertified > 0);  // PB5 after its early toggle, PB11 with 6 digits: said, not hidden
+  CHECK(uncertified > 0);  // PB5 after its early toggle and PB11 with 6 digits are reported as uncertified
   CHECK(uncertified <= 68);
 }
 
 namespace {
 
-/// contct verify with one text of the table replaced.
+/// Runs `contct verify` after one text of verification.toml is replaced.
 finished verify_with(const scratch_folder& dir, const std::string& right, const std::string& wrong) {
   const fs::path reference = fs::path(CONTCT_ROOT) / "reference";
   fs::create_directory(dir.path() / "reference");

@@ -1,4 +1,4 @@
-// contct_bench: the engines compared, in one process, on one thread.
+// contct_bench compares the engines in one process on one thread.
 #include "bench/bench.hpp"
 
 #include <dlfcn.h>
@@ -24,7 +24,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct options {
-  std::vector<std::string> problems;  // none: the usual ones
+  std::vector<std::string> problems;  // the usual problems if empty
   std::vector<std::string> engines = contct::engine_names();
   int events = 0;
   int rounds = 3;
@@ -33,7 +33,7 @@ struct options {
   bool print = false;
 };
 
-/// One thread on one processor: so that ratios are meaningful.
+/// Pins the thread to one processor, so that ratios of times are meaningful.
 void pin() {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -44,20 +44,20 @@ void pin() {
     threads(1);
 }
 
-/// OpenBLAS says which kernels it chose; others have none to choose.
+/// Returns the name of the kernels that OpenBLAS chose; other libraries have no choice.
 std::string core_type() {
   using getter = char* (*)();
   const auto name = reinterpret_cast<getter>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
   return name != nullptr ? name() : "no choice of its own";
 }
 
-/// The median run of several; the first one's certificate.
+/// Returns the median run of several, with the certificate of the first run.
 bench::run_of_engine measured(const options& o, const contct::problem& p, const contct::linear_structure& s,
                               const std::string& engine, int events) {
   std::vector<bench::run_of_engine> runs;
   for (int round = 0; round < o.rounds; ++round) {
     runs.push_back(bench::run_engine(p, s, engine, events, round == 0));
-    constexpr double long_enough = 20.0;  // seconds: then one run is enough
+    constexpr double long_enough = 20.0;  // in seconds, for which one run is enough
     if (runs.back().seconds > long_enough) break;
   }
   const bench::run_of_engine first = runs.front();
@@ -72,13 +72,14 @@ double ms_per_event(const bench::run_of_engine& r) {
   return 1e3 * r.seconds / static_cast<double>(std::max<std::size_t>(r.events.size(), 1));
 }
 
-/// The 1989 way on the large plates takes an hour: this many of its events give the cost of one.
+/// Returns the number of events to time. The engine refactor takes an hour on the large plates, so the cost
+/// of an event comes from their first events.
 int events_of_refactor(const options& o, const std::string& problem) {
   constexpr int enough = 60;
   return o.events == 0 && (problem == "mat-100" || problem == "grid-100") ? enough : o.events;
 }
 
-/// C++ against FORTRAN, one call; a ratio above 1 means that C++ is the quicker.
+/// Times one call of the C++ kernel and of FORTRAN; a ratio above 1 means that C++ is faster.
 json bench_kernels(int rounds) {
   json rows = json::array();
   for (const std::size_t pairs : std::to_array<std::size_t>({10, 100, 1000, 10'000, 100'000, 1'000'000})) {
@@ -147,7 +148,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   }
 }
 
-/// The cost of the final states alone, in factorisations.
+/// Times the final states without a path, in factorisations.
 json bench_final_states(const std::string& name) {
   const contct::problem p = bench::make_problem(name);
   const contct::linear_structure s = contct::structure_of(p);
@@ -162,7 +163,7 @@ json bench_final_states(const std::string& name) {
           {"ratio", ratio}};
 }
 
-/// CHOLMOD alone, where it was found, on a problem of one load step.
+/// Times CHOLMOD without this project's engines, if it is found, on a problem of one load step.
 void bench_peers(const options& o, const std::string& name, json& rows) {
   const contct::problem p = bench::make_problem(name);
   if (p.steps.size() > 1) return;

@@ -12,8 +12,8 @@
 namespace bench {
 namespace {
 
-/// Pairs of every kind that has no event ahead: receding, too far away, without response, at rest on the
-/// face and pressed there.
+/// Pairs of every kind without an event: moving away, too far away, without response, and pressed on the
+/// face.
 struct quiet_pairs {
   explicit quiet_pairs(std::size_t n)
       : dd(2 * n), dtest(2 * n), cc(n), ss(n), id(n), isep(n), isurf(n), events(n) {

@@ -17,7 +17,7 @@ namespace {
 
 using clock = cpu_clock;
 
-/// Peak memory of the process since the last call of forget_peak.
+/// Returns the peak memory of the process since the last call of forget_peak.
 long peak_kib() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -147,7 +147,7 @@ difference difference_of(const run_of_engine& reference, const run_of_engine& ot
   for (std::size_t i = 0; i < n; ++i) {
     d.load = std::max(d.load, std::abs(reference.events[i].load - other.events[i].load));
     if (reference.events[i].pair == other.events[i].pair) continue;
-    // Another pair: is it among the reference's events at the same load?
+    // The pairs differ, which is allowed if the reference has the other run's pair at the same load, a tie.
     bool tied = false;
     for (std::size_t j = i; j-- > 0 && reference.events[i].load - reference.events[j].load <= tie;)
       tied = tied || reference.events[j].pair == other.events[i].pair;

@@ -19,7 +19,7 @@ namespace {
 using namespace contct;
 using contct::sparse_columns;
 
-/// Newton's method on K and the springs that press: K u + their forces = load, by rows of K.
+/// Newton's method for K u + forces of the pressed springs = load, in the rows of K.
 class newton {
  public:
   // NOLINTBEGIN(cppcoreguidelines-prefer-member-initializer): CHOLMOD is to be started first
@@ -50,7 +50,7 @@ class newton {
     (void)cholmod_finish(&common_);
   }
 
-  /// Returns how many steps that took.
+  /// Returns the number of steps.
   int run() {
     constexpr int most = 200;
     for (int steps = 1; steps <= most; ++steps) {
@@ -78,9 +78,9 @@ class newton {
     (void)cholmod_free_dense(&x, &common_);
   }
 
-  /// False if the springs pressed under `u` are those already in the matrix.
+  /// Updates the pressed pairs from `u`. Returns false if none changed.
   bool take_pressed() {
-    std::array<std::vector<std::size_t>, 2> changed;  // out, in
+    std::array<std::vector<std::size_t>, 2> changed;  // pairs no longer pressed, and newly pressed
     for (std::size_t i = 0; i < closed_.size(); ++i) {
       const contact_pair& p = s_.pairs[i];
       const char pressed = p.surface * (u[row_of(i)] - p.face) > 0.0 ? 1 : 0;
@@ -97,7 +97,7 @@ class newton {
     return true;
   }
 
-  /// A column for each spring: sqrt(k) at its row of the factor.
+  /// Updates the factor by one column for each spring, with sqrt(k) at the spring's row.
   void change(const std::vector<std::size_t>& springs, int add) {
     if (springs.empty()) return;
     const std::size_t count = springs.size();
@@ -139,7 +139,7 @@ class newton {
   cholmod_dense* right_ = nullptr;
 };
 
-/// Our own end, certified, and the proved bounds on it: no number of a kind is further from the truth.
+/// Our own certified final state, and the proved bounds on its errors.
 class certified_end final : public observer {
  public:
   certified_end(const problem& p, const linear_structure& s) {
@@ -161,11 +161,11 @@ class certified_end final : public observer {
   std::vector<double> u, forces, bounds;
 };
 
-/// The distance of an answer from our state, and the bound on our state's from the truth, are taken together:
-/// no answer gets more digits than are proved.
+/// Sets the answer's digits from its distance to our state plus the bound on our state's error, so that no
+/// answer gets more digits than are proved.
 void judge(const certified_end& ours, const linear_structure& s, const std::vector<double>& u,
            peer_answer& a) {
-  std::array<double, 3> size{}, off{};  // of deflections, other displacements, forces
+  std::array<double, 3> size{}, off{};  // index: deflections, other displacements, forces
   const auto compare = [&](std::size_t kind, double right, double found) {
     size[kind] = std::max(size[kind], std::abs(right));
     off[kind] = std::max(off[kind], std::abs(right - found));

@@ -10,13 +10,14 @@
 namespace bench {
 namespace {
 
-/// phi(i) = frac(i * golden ratio): numbers spread over (0, 1), the same everywhere.
+/// Returns frac(i * golden ratio): the same numbers spread over (0, 1) on every machine.
 double phi(int i) {
   const double x = i * 0.6180339887498949;
   return x - std::floor(x);
 }
 
-/// A beam of `spans` spans of 100 unit elements under q = -0.01, with a one-sided spring at every ninth node.
+/// Returns a beam of `spans` spans of 100 unit elements under q = -0.01, with a one-sided spring at every
+/// ninth node.
 std::string rail(int spans) {
   std::string text = fmt::format("title = \"rail-{}\"\n[beam]\nlength = {}\nelements = {}\nEI = 1.0\n", spans,
                                  100 * spans, 100 * spans);
@@ -34,7 +35,8 @@ std::string rail(int spans) {
   return text + "[[step]]\nuniform = -0.01\n";
 }
 
-/// A free plate on a one-sided bed: its weight, then a lift at one point.
+/// Returns a free plate on a one-sided bed under its weight, and in a second step with an upward force at one
+/// node.
 std::string mat(int n) {
   const int node = (58 * n / 100) * (n + 1) + 37 * n / 100 + 1;
   const double w = n * n / 256.0;
@@ -46,7 +48,7 @@ std::string mat(int n) {
       n, node, 0.25 * w, 0.137 * 0.25 * w, 0.311 * 0.25 * w);
 }
 
-/// A simply supported plate over a grid of one-sided springs.
+/// Returns a simply supported plate over a grid of one-sided springs.
 std::string grid(int n) {
   std::string text = fmt::format(
       "title = \"grid-{0}\"\n[plate]\nsize = [{0}.0, {0}.0]\nelements = [{0}, {0}]\nD = 1.0\nnu = 0.3\n", n);

@@ -17,7 +17,7 @@ rows = document["rows"]
 kernels = document["kernels"]
 assert document["blas"] in text and document["core"] in text
 assert [k["pairs"] for k in kernels] == [10, 100, 1000, 10000, 100000, 1000000]
-# FORTRAN without its line of text is a difference of two times, which may be negative on a busy machine.
+# The listing's time without its line of text is a difference of two times, which may be negative on a busy machine.
 assert all(k["fortran_us"] + k["text_us"] > 0 and k["cpp_us"] > 0 for k in kernels), kernels
 assert all(abs(k["ratio"] * k["cpp_us"] - k["fortran_us"]) <= 1e-9 * abs(k["fortran_us"]) for k in kernels), kernels
 engines = {row["engine"] for row in rows}
@@ -30,18 +30,18 @@ for row in rows:
     if row["engine"] == "refactor":
         assert row["ratio_to_refactor"] == 1 and row["factors"] > row["events"], where
     events += row["events"]
-# Every engine has a row for each suitable problem: condensed only for beams.
+# Every engine has a row for each problem, but condensed only for beams.
 plain = engines - {"condensed"}
 expected = {(name, engine) for name in problems for engine in (engines if name.startswith("rail") else plain)}
 assert {(row["problem"], row["engine"]) for row in rows} == expected and len(rows) == len(expected), rows
 assert engines == {"refactor", "updated", "condensed"}, engines
 assert events >= 200, events
-# CHOLMOD alone, if it is available, on problems of one load step: the digits that rounding leaves.
+# CHOLMOD's rows, which a build without CHOLMOD does not have, are for problems of one load step.
 for peer in document["peers"]:
     assert 8.5 <= peer["digits"] <= 15 and peer["wrong_statuses"] == 0 and peer["values"] >= 100 and peer["ms"] > 0 and peer["mib"] > 0, peer
 assert [p["problem"] for p in document["peers"]] in ([], [name for name in problems[:4] for _ in range(2)]), document["peers"]
 
-# Only so many events, and a name that nothing has.
+# --events limits the events, and unknown names are refused.
 short = subprocess.run([bench, "--without-kernels", "--problem", "grid-12", "--engine", "refactor,updated", "--events", "5", "--rounds", "1"],
                        check=True, capture_output=True, text=True).stdout
 assert "not whole" in short, short

@@ -42,7 +42,7 @@ def frames():
     return browser.value("frames.map(f => ({step: f.step, number: f.number, end: f.end}))")
 
 
-# ---- units, and the envelope that was asked for ----
+# ---- units and the envelope ----
 
 def has_envelope(name):
     open_page(name)
@@ -85,7 +85,6 @@ def slider_moves(name):
     quiet(name)
 
 
-# ---- the numbers ----
 
 def numbers_match(name):
     open_page(name)
@@ -161,7 +160,7 @@ def tables_match(name, result):
                   f"{name}: {title.lower()} of step {step['step']}: {column}, {known}")
 
 
-# Structures given by matrices, and whether they are drawn.
+# Whether the page draws each of the structures given by matrices.
 structures = {"frame": True, "console": True, "bare": False}
 
 
@@ -171,7 +170,7 @@ def check_structure(name, step):
     if not structures[name]:
         check(browser.value("document.getElementById('picture').children.length") == 0, f"{where}: nothing is drawn")
         return
-    # The distance of marks from where their nodes stood, on the page, is the displacement, magnified.
+    # The mark of a pair must be at the displaced position of its node, with the displacement magnified.
     off = browser.value("""(() => {
       const f = frames[current], marks = [...document.querySelectorAll('#picture .pair-open, #picture .pair-closed, #picture .pair-face')];
       return Math.max(...leastLoadedFirst(pairsOf(f)).map((p, i) => {
@@ -218,7 +217,7 @@ def colours(name, lines=(".member", ".pair-open", ".track")):
     quiet(name)
 
 
-# Texts of one picture must not lie on each other: boxes, a little smaller than drawn.
+# Texts of a picture must not overlap. The boxes are a little smaller than the texts.
 overlaps = """[...document.querySelectorAll('.picture svg')].flatMap(s => {
   const boxes = [...s.querySelectorAll('text')].map(t => [t.textContent, t.getBoundingClientRect()]);
   const found = [];
@@ -490,7 +489,7 @@ def edition_is_a_page():
     quiet("the parallel edition")
 
 
-# ---- for who cannot see it ----
+# ---- accessibility ----
 
 def can_be_read_aloud(name):
     open_page(name)
@@ -511,7 +510,7 @@ def can_be_read_aloud(name):
     check(browser.value("document.documentElement.lang") == "en", f"{name}: its language is told")
 
 
-# ---- the hard ones ----
+# ---- hostile and large problems ----
 
 def markup_is_text(name, title):
     open_page(name)

@@ -17,7 +17,7 @@ above = '[[contact]]\nnode = 5\nsurface = "above"\nface = 0.001\nstiffness = 5.0
 steps = '[[step]]\npoint = [ { node = 9, w = -60.0 } ]\n[[step]]\npoint = [ { node = 9, w = 60.0, theta = 5.0 } ]\n'
 write("alone", 'title = "One kernel"\n' + cantilever + stop + above + steps)
 write("own-ways", cantilever + stop + above + steps)
-# The pair in contact first, so that drawing in file order would hide it behind the separated one.
+# The pair in contact is first, so that drawing in file order would hide it behind the separated pair.
 write("two-faces", cantilever + stop + stop.replace('"below"', '"above"').replace("-0.004", "0.01") + steps)
 write("settling", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 8\nelement_size = 1\nEI = 1e4\n[[support]]\nx = [0, 8]\nfix = "w"\n'
       '[[contact]]\nx = [3, 5]\nsurface = "below"\nface = -0.004\nstiffness = 5e3\n[[step]]\nname = "it sinks"\n'
@@ -33,7 +33,7 @@ write("mechanism", '[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2
 write("never", '[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = "below"\nface = -1\nstiffness = 1\n[[step]]\nuniform = -1\n')
 write("corrected", "[beam]\nlength = 2\nelements = 4\nEI = 100\n[[bed]]\nmodulus = 50\nface = -0.01\n[[step]]\nuniform = -3\n")
 
-# A strip on soil under three axles in 22 places, then under one: 67 loads, no two of them equal.
+# A strip on soil under three axles at 22 places, and then under one axle. Its 67 loads are all different.
 strip = 'title = "Slab strip (22 axle places): \\"A & B\\""\n[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 24.0\nelements = 48\nEI = 52857.0\n'
 strip += "[[bed]]\nmodulus = 20000.0\nface = 0.0\n"
 for k in range(22):
@@ -41,34 +41,34 @@ for k in range(22):
     strip += f'[[step]]\nname = "axles at {0.5 + k}"\npoint = [ {axles} ]\n'
 write("strip", strip + '[[step]]\nname = "one axle alone, in the middle of the strip, where the soil is softest"\npoint = [ { x = 12.0, w = -100.66 } ]\n')
 
-# 27 combinations of a strip on a bed whose mesh is coarse, held down by two bolts, of which one has a gap.
+# 27 combinations of a strip on a bed with a coarse mesh, held down by two bolts, one of which has a gap.
 write("yard", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 10.0\nelement_size = 0.2\nEI = 2.0e4\n[[bed]]\nmodulus = 4.0e6\nface = 0.0\n'
       '[[contact]]\nx = [2.0, 8.0]\nsurface = "above"\nface = [0.0, 0.001]\nstiffness = 1.0e4\n[[case]]\nname = "G"\nuniform = -5.0\n'
       '[[combination]]\nname = "G alone"\nterms = { G = 1.0 }\n[[train]]\nname = "fork"\naxles = [ { at = 0.0, w = -80.0 } ]\n'
       "from = 0.0\nto = 10.0\nby = 0.4\nterms = { G = 1.35 }\nfactor = 1.5\n")
 
-# 5001 nodes on soft springs over a row of 1000 stops that lie deeper and deeper: about 2000 increments.
+# A beam of 5001 nodes on soft springs over 1000 stops at increasing depths, with about 2000 increments.
 long = '[beam]\nlength = 500.0\nelements = 5000\nEI = 1.0\n[[support]]\nnodes = [1, 5001]\nfix = ["w", "theta"]\n'
 long += '[[support]]\nnodes = "2..5000"\nspring = { w = 0.02 }\n'
 for k in range(1000):
     long += f'[[contact]]\nnode = {3 + 5 * k}\nsurface = "below"\nface = {-(0.001 + 0.000009 * k)!r}\nstiffness = 0.5\n'
 write("long", long + "[[step]]\nuniform = -0.01\n[[step]]\nuniform = -0.0001\n")
 
-# 5041 nodes over a row of stops.
+# A plate of 5041 nodes over a row of stops.
 wide = '[plate]\nsize = [7.0, 7.0]\nelements = [70, 70]\nD = 1.0\nnu = 0.3\n'
 wide += '[[support]]\nnodes = [' + ", ".join(str(n) for n in [*range(1, 72), *range(4971, 5042)]) + ']\nfix = ["w"]\n'
 for k in range(36):
     wide += f'[[contact]]\nnode = {35 * 71 + 1 + 2 * k}\nsurface = "below"\nface = {-(0.01 + 0.002 * k)!r}\nstiffness = 50.0\n'
 write("wide", wide + "[[step]]\nuniform = -0.05\n[[step]]\nuniform = 0.0\n")
 
-# The frame of reference/structures by its matrix alone: no coordinates. A problem's files lie beside it.
+# The frame of reference/structures without coordinates. A problem's files are in its own folder.
 structures = "reference/structures"
 with open(os.path.join(structures, "frame.toml"), encoding="utf-8") as file:
     write("bare", "".join(line for line in file if not line.startswith("coordinates")))
 for name in ("frame.mtx", "frame.dof", "wind.mtx"):
     shutil.copy(os.path.join(structures, name), folder)
 
-# A net of 110 x 110 nodes on springs, 23,980 edges between them, over a row of stops.
+# A net of 110 x 110 nodes on springs with 23,980 edges, over a row of stops.
 side = 110
 entries, count = [], side * side
 for at in range(count):

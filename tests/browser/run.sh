@@ -1,9 +1,10 @@
 #!/bin/sh
-# The page of `contct run --html` in a browser without a window: the slider by mouse and by keyboard, every number
-# against the run's JSON, dark and light, narrow and wide, on paper, read aloud, with 5000 nodes; structures from
-# elsewhere with coordinates, with CalculiX's mesh, with neither, and with 20,000 edges.
+# Tests the page of `contct run --html` in headless chromium: the slider, every number against the run's JSON, themes,
+# widths, print, accessibility, 5000 nodes, and external structures with coordinates, with CalculiX's mesh, without
+# both, and with 20,000 edges.
 # usage: sh tests/browser/run.sh [BUILD]      (default: build/release)
-# Exit 0: all is as it should be; 77: skipped, chromium or pdftotext cannot be had; 1 otherwise. Pictures stay in BUILD/tests/browser.
+# Exit 0: all checks passed; 77: skipped, chromium or pdftotext is missing; 1 otherwise. Pictures are kept in
+# BUILD/tests/browser.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=$(cd "${1:-build/release}" && pwd) || exit 1
@@ -17,7 +18,7 @@ work=$build/tests/browser
 rm -rf "$work"
 mkdir -p "$work"
 wrong=0
-# page NAME FILE EXIT [ARGUMENT..]: run FILE, which must exit with status EXIT.
+# page NAME FILE EXIT [ARGUMENT..]: runs FILE, which must end with exit status EXIT.
 page() {
   name=$1 file=$2 expected=$3
   shift 3
