@@ -1,4 +1,4 @@
-// Allowed errors are relative to the state itself, and to its path only if the state is 0.
+// Tests that allowed errors are relative to the state itself, and to its path only if the state is 0.
 #include "contct/certify/allowed_errors.hpp"
 
 #include <cmath>
@@ -26,9 +26,9 @@ TEST_CASE("the allowed error of a quantity is a millionth of its largest number 
   const by_quantity of_large = sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
   CHECK(of_large[quantity::w] == Approx(2e-6));
   CHECK(of_large[quantity::force] == Approx(50e-6));
-  CHECK_FALSE(of_large[quantity::moment]);  // no such numbers
+  CHECK_FALSE(of_large[quantity::moment]);  // the state has no moments
   const by_quantity of_small = sizes.of(bounds(1e-9, 2e-3, 1e-9, 0.5), 10.0);
-  CHECK(of_small[quantity::w] == Approx(2e-9));  // the path's 2.0 does not count
+  CHECK(of_small[quantity::w] == Approx(2e-9));  // not relative to the path's 2.0
 }
 
 TEST_CASE("the allowed error of an unloaded state is relative to the largest numbers of its path") {
@@ -39,7 +39,7 @@ TEST_CASE("the allowed error of an unloaded state is relative to the largest num
   const by_quantity allowed = sizes.of(nothing, 10.0);
   CHECK(allowed[quantity::w] == Approx(2e-6));
   allowed_errors fresh;
-  CHECK(fresh.of(nothing, 10.0)[quantity::w].value() < 1e-17);  // the first step has only its own rounding
+  CHECK(fresh.of(nothing, 10.0)[quantity::w].value() < 1e-17);  // the first step has no earlier numbers
 }
 
 TEST_CASE(

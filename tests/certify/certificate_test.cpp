@@ -1,4 +1,4 @@
-// Certificates of final states: of paths, of fallbacks, and of the reference solution in place of a path.
+// Tests the certificates of final states of paths, of fallbacks and of the reference solution.
 #include "contct/certify/certificate.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace contct;
 
 namespace {
 
-/// A state that a test may disturb, with its reported numbers.
+/// A state with its reported numbers, which a test may change.
 struct told_state {
   std::vector<double> u;
   std::vector<int> isep;
@@ -26,7 +26,7 @@ struct told_state {
   [[nodiscard]] step_state at(int step) const { return {step, fraction, u, isep, rcond}; }
 };
 
-/// The right state under `l`, from the reference solution: the certificate's measures are zero there.
+/// Returns the reference solution under `l`, whose errors in the certificate's measures are 0.
 told_state right_state(const beam_problem& p, const load& l) {
   const linear_structure s = p.structure();
   std::vector<double> f(static_cast<std::size_t>(s.dofs()), 0.0);
@@ -38,7 +38,7 @@ told_state right_state(const beam_problem& p, const load& l) {
   return t;
 }
 
-/// Tells the certifier of step after step.
+/// Passes states to the certifier, one step after another.
 struct judge {
   problem what;
   linear_structure s;
@@ -55,7 +55,8 @@ certificate judged(const beam_problem& p, const told_state& t) {
   return judge(p).of(t);
 }
 
-/// The letters of the five measures that exceed the allowed error, as in "DSEPT".
+/// Returns the letters of the measures that exceed the allowed error, of D (displacement), S (shape), E
+/// (equilibrium), P (penetration) and T (tension).
 std::string wrong_in(const certificate& c) {
   std::string wrong;
   if (!(c.displacement_error <= certified_share)) wrong += 'D';
@@ -70,11 +71,11 @@ bool says(const certificate& c, const std::string& words) {
   return c.problem.find(words) != std::string::npos;
 }
 
-constexpr double weak = 1e-12;  // a spring too weak to change any equilibrium
+constexpr double weak = 1e-12;  // a spring that is too weak to change any equilibrium
 constexpr double stiff = 1e12;
 
-/// A span with a pair of every kind: pressed and separated ones on a spring of noticeable stiffness and on
-/// one that is too weak. Node 4 sinks below -0.1, node 1 stays above -0.2.
+/// A span with four pairs, pressed and separated, each with a stiff spring and with a weak spring. Node 4
+/// sinks below -0.1, and node 1 stays above -0.2.
 beam_problem span_with_pairs() {
   return {even_beam(8.0, 8, 1e3),
           {{0, 0, true}, {8, 0, true}},
@@ -105,7 +106,8 @@ TEST_CASE("a correct state is certified, with no error in any measure of the cer
 
 TEST_CASE(
     "an error of a state appears in every measure that it affects, and the message names the worst measure") {
-  // On a spring that is too weak for the balance to tell a status that is wrong is seen alone.
+  // A wrong status of a pair with a weak spring does not disturb equilibrium, so only its own measure detects
+  // it.
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
   struct fault {
@@ -140,7 +142,7 @@ TEST_CASE(
 TEST_CASE(
     "an error in w that hardly disturbs equilibrium is detected only by comparison with the reference "
     "solution") {
-  // A nearly rigid beam on soft springs, sunk by a hundred-thousandth too much.
+  // A nearly rigid beam on soft springs, with a deflection that is 1e-5 too large.
   beam_problem p = free_beam_on_springs(4.0, 4, 1e10, 1.0);
   p.steps = {{{}, {{{-1.0}, {}}}}};
   told_state t = right_state(p, p.steps[0]);
@@ -151,7 +153,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a missing force on a stiff support violates equilibrium, but hardly changes displacements") {
-  // The changed load acts on a nearly rigid support.
+  // The load is changed at a nearly rigid support.
   beam_problem p = span_with_pairs();
   p.pairs[0] = {4, face_below, -0.1, stiff, false};
   const told_state t = right_state(p, p.steps[0]);
@@ -207,7 +209,7 @@ TEST_CASE("if a rigid-body motion is free, displacements are not compared, but e
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   told_state t = right_state(p, p.steps[0]);
-  for (std::size_t i = 0; i < 5; ++i) {  // turned about its one pair
+  for (std::size_t i = 0; i < 5; ++i) {  // rotated about its pair
     t.u[2 * i] += 0.01 * (static_cast<double>(i) - 2);
     t.u[2 * i + 1] += 0.01;
   }
@@ -235,7 +237,7 @@ TEST_CASE(
     CHECK(c.displacement_error == Approx(share).epsilon(1e-4));
     CHECK(c.certified == (share < 1e-6));
   }
-  // Without a path before it, any deflection is all there is.
+  // Without an earlier loaded state, any deflection is 100 % of the largest.
   p.steps = {{}};
   CHECK(wrong_in(judged(p, unloaded)) == "DSE");
   unloaded.u[8] = 0.0;
@@ -245,7 +247,7 @@ TEST_CASE(
 TEST_CASE(
     "if a structure only rotates, its displacement error is not relative to the rounding of its "
     "deflections") {
-  // Equal moments at both ends of a span: its middle does not move, up to about eps times the rotation.
+  // Under equal moments at both ends, the middle of a span deflects only by rounding.
   beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {2, 0, true}}, {{1, face_below, -1.0, 5.0, false}}, {}};
   p.steps = {{{{0, 1, 0.7}, {2, 1, 0.7}}, {}}};
@@ -272,7 +274,6 @@ TEST_CASE("measures of a certificate do not change with units of length and forc
     p.steps[0].distributed[0].polynomial[0] *= force / length;
     return p;
   };
-  // Everything is a little wrong at once.
   const auto measured = [&](double length, double force) {
     const beam_problem p = in_units(length, force);
     told_state t = right_state(p, p.steps[0]);
@@ -314,7 +315,7 @@ TEST_CASE("a state with a NaN or infinite displacement at any dof is not certifi
 TEST_CASE(
     "an early toggle of the 1989 rule is reported with step, pair and distance, and its state is not "
     "certified") {
-  // Two stops alike under a symmetric load, the second 0.3 % farther away: within EPSMUL of the first.
+  // Two equal stops under a symmetric load; the second is 0.3 % farther away, within EPSMUL of the first.
   const beam_problem p{even_beam(8.0, 8, 1e5),
                        {{0, 0, true}, {8, 0, true}},
                        {{2, face_below, -0.006, 1e5, false}, {6, face_below, -0.006 * 1.003, 1e5, false}},
@@ -339,7 +340,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a load without an equilibrium has no final state") {
-  // Two props under a free beam: they carry its weight, and no pull.
+  // Two pairs below a free beam carry its weight, but no load upwards.
   beam_problem p{even_beam(4.0, 4, 1.0), {}, {{0, -1, 0.0, 1.0, true}, {4, -1, 0.0, 1.0, true}}, {}};
   p.steps = {tip_load(2, -1.0), tip_load(2, 1.0), tip_load(2, 1.0)};
   const problem what = p.as_problem();
@@ -358,7 +359,7 @@ TEST_CASE("a certificate of a state taken from the reference solution is marked 
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
   recorder seen;
-  // One increment is enough for the first step alone, in which nothing touches.
+  // The limit of one increment is enough only for the first step, which has no contact.
   REQUIRE(
       follow(stop, s, "refactor", *make_kernel("corrected"), {&seen, &judged}, {1, judged.ends()}).status ==
       path_status::solved);
@@ -401,7 +402,7 @@ TEST_CASE("an unloaded beam without supports is certified above its faces, but n
 }
 
 TEST_CASE("a structure beyond a face is not certified, with or without a reference solution") {
-  for (const double shortest : {0.5, 1e-9}) {  // the reference solution has no factor for the second
+  for (const double shortest : {0.5, 1e-9}) {  // for 1e-9 the reference solution has no factor
     problem p;
     beam b;
     b.x = {0, 1, 1 + shortest, 3};

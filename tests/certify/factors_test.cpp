@@ -1,4 +1,4 @@
-// A factor in 32 digits, and upper bounds on the error of factors.
+// Tests factors in 32 digits, and upper bounds on the errors of factors.
 #include "contct/certify/factors.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// Two stiff springs in line and a soft one to the ground, 1 to 2^-90: in doubles the soft one is lost.
+/// Returns two springs of stiffness 1 in series, and a softer one to the ground that is lost in doubles.
 long_band springs_in_line(double soft) {
   long_band a(3, 1);
   a.at(0, 0) = 1.0;
@@ -22,7 +22,7 @@ long_band springs_in_line(double soft) {
   return a;
 }
 
-/// As it is, in long double.
+/// Returns the largest row sum of |A - L L'|, computed in long double.
 double largest_row(const sparse_columns& a, const sparse_columns& l) {
   const int n = a.order();
   std::vector<std::vector<long double>> all(n, std::vector<long double>(n));
@@ -45,7 +45,7 @@ double largest_row(const sparse_columns& a, const sparse_columns& l) {
   return static_cast<double>(largest);
 }
 
-/// L L' is not A, by far.
+/// Returns a lower triangle L whose L L' is far from K.
 sparse_columns lower_of(const band_matrix& k) {
   sparse_columns l = columns_of(k);
   for (double& x : l.values) x = std::sin(37 * x);
@@ -69,7 +69,7 @@ TEST_CASE(
   const long_band indefinite = springs_in_line(-0x1p-90);
   long_band failed = indefinite;
   REQUIRE_FALSE(factor(failed));
-  x = suspect_in(failed);  // a displacement on which the springs do negative work
+  x = suspect_in(failed);  // a displacement with negative work of the springs
   double_double work;
   for (int i = 0; i < 3; ++i)
     for (int j = std::max(0, i - 1); j <= i; ++j)
@@ -86,7 +86,7 @@ TEST_CASE("the bound on a factor's error exceeds the error by no more than round
   CHECK(error < 0x1p-88);
   CHECK(largest_row_of_error(a, l, 0x1p-80) >= 3 * 0x1p-80);
 
-  l.at(2, 1) += 0x1p-70;  // an entry that is off
+  l.at(2, 1) += 0x1p-70;  // a wrong entry
   CHECK(largest_row_of_error(a, l, 0.0) > 0x1p-71);
   l.at(2, 1) = std::nan("");
   CHECK(std::isinf(largest_row_of_error(a, l, 0.0)));
@@ -123,7 +123,7 @@ TEST_CASE("rows of a wide band are complete at the first and the last row of the
 TEST_CASE("the bound on the largest row sum exceeds it only by rounding") {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const sparse_columns a = columns_of(random_band(40, 7, seed));
-    const sparse_columns l = lower_of(random_band(40, 11, seed + 10));  // with entries where A has none
+    const sparse_columns l = lower_of(random_band(40, 11, seed + 10));  // L has entries at zeros of A
     const double bound = largest_row_of_error(a, l);
     CHECK(bound >= largest_row(a, l));
     CHECK(bound <= largest_row(a, l) * (1 + 1e-9));
@@ -131,7 +131,7 @@ TEST_CASE("the bound on the largest row sum exceeds it only by rounding") {
 }
 
 TEST_CASE("the error bound of an exact factor is only rounding, and a relative error of 1e-9 is detected") {
-  // L has ones on its diagonal and below: A_ij = 1 + min(i, j), all exact.
+  // L has ones on and below its diagonal, so A_ij = 1 + min(i, j) exactly.
   constexpr int n = 6;
   sparse_columns l;
   sparse_columns a;
@@ -148,7 +148,7 @@ TEST_CASE("the error bound of an exact factor is only rounding, and a relative e
   const double rounding = largest_row_of_error(a, l);
   CHECK(rounding > 0.0);
   CHECK(rounding < 1e-13);
-  l.values[1] += 1e-9;  // row 1 of column 0, which all later rows meet
+  l.values[1] += 1e-9;  // row 1 of column 0 affects all later rows
   CHECK(largest_row_of_error(a, l) >= largest_row(a, l));
   CHECK(largest_row_of_error(a, l) > 6e-9);
 }

@@ -1,4 +1,4 @@
-// Faces that steps move: jacking, racks that settle and interference fits, on every engine, by either rule.
+// Tests faces that steps move: jacking, racks that settle and interference fits, with every engine and rule.
 #include <cmath>
 
 #include "catch.hpp"
@@ -18,7 +18,7 @@ struct moved_path {
   [[nodiscard]] const std::vector<double>& u(std::size_t step) const { return seen.steps.at(step - 1).u; }
 };
 
-/// Every end is certified.
+/// Follows the path, and checks that every final state is certified.
 moved_path follow_moved(const problem& p, const std::string& engine, const std::string& kernel) {
   const linear_structure s = structure_of(p);
   certifier judged(p, s);
@@ -51,7 +51,7 @@ double force_at(const problem& p, std::size_t step, std::size_t pair, const move
   return force_of(at, path.u(step)[dof], path.seen.steps[step - 1].isep[pair] == in_contact);
 }
 
-/// 3 EI / l^3 = 3750 at the tip.
+/// A cantilever with 3 EI / l^3 = 3750 at its tip.
 problem cantilever() {
   problem p;
   p.geometry.kind = even_beam(2.0, 4, 1e4);
@@ -67,13 +67,13 @@ TEST_CASE("A stop raised by m under a cantilever presses with the force (m - gap
   p.steps = {moving(4, 0.01), {}};
   on_every_way(p, [&](const moved_path& path) {
     REQUIRE(path.end.status == path_status::solved);
-    CHECK(path.seen.increments.at(0).fraction == Approx(0.4).epsilon(1e-12));  // its gap of m
+    CHECK(path.seen.increments.at(0).fraction == Approx(0.4).epsilon(1e-12));  // gap / move
     const double force = 0.006 / (1 / 5e4 + 1 / 3750.0);
     CHECK(force_at(p, 1, 0, path) == Approx(force).epsilon(1e-9));
     CHECK(path.u(1)[8] == Approx(force / 3750).epsilon(1e-10));
     CHECK(path.u(1)[4] == Approx(force / 3750 * 5 / 16).epsilon(1e-10));  // x^2 (3 l - x) / 2 l^3 at l / 2
     CHECK(reactions(p, p.steps[0], path.u(1), path.seen.steps[0].isep)[0] == Approx(-force).epsilon(1e-9));
-    CHECK(path.u(2)[8] == Approx(0.0).margin(1e-12));  // a step that names no move takes it back
+    CHECK(path.u(2)[8] == Approx(0.0).margin(1e-12));  // a step without a move returns the face to its place
     CHECK(path.seen.steps[1].isep[0] == separated);
   });
 }

@@ -1,4 +1,4 @@
-// The reference solution against closed forms, and against exact paths.
+// Tests the reference solution against closed forms and exact paths.
 #include "contct/certify/reference_solution.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using outcome = reference_answer::outcome;
 
 namespace {
 
-/// The final states of a path's steps in rational numbers: in equilibrium, if they reach their loads.
+/// Returns the exact final states of a path's steps.
 std::vector<exact_step_end> exact_ends(const problem& p) {
   return follow_corrected_path(exact_problem_of(p)).steps;
 }
@@ -44,7 +44,7 @@ long double extended(long double x) {
   return x;
 }
 
-/// The largest deflection of either, and the largest difference between the two.
+/// The largest deflection, and the largest difference between two states' deflections.
 struct comparison {
   std::size_t stride = 2;  // dofs of a node
   long double size = 0.0L;
@@ -62,10 +62,10 @@ struct comparison {
   [[nodiscard]] double relative() const { return off == 0 ? 0.0 : static_cast<double>(off / size); }
 };
 
-/// The relative error at the middle of a span of elements of length 1 and EI = 1 once refinement has
-/// converged, whatever LAPACK solved. What is left is the rounding of each row's residual in long double,
-/// eps/2 of the sum of |K_ij| |u_j|, at most 48 |u|. It acts as a force there, and moves the middle by at
-/// most the middle's compliance. The signs of the rows' roundings are random, so n of them add up to sqrt(n).
+/// Returns the allowed relative error in the middle of a span of unit elements with EI = 1 after refinement.
+/// The residual of each row is rounded in long double by at most eps/2 * 48 |u|, which acts like a force and
+/// moves the middle by at most its compliance. The n roundings have random signs, so they add up to sqrt(n)
+/// of one.
 double rounded_residuals(int elements, double compliance) {
   constexpr auto rounding = static_cast<double>(std::numeric_limits<long double>::epsilon() / 2);
   return std::sqrt(elements) * 48 * compliance * rounding;
@@ -102,7 +102,7 @@ TEST_CASE(
     const std::vector<exact_step_end> ends = exact_ends(p);
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
     reference_solver o(s);
-    comparison c;  // over all steps: unloaded, a structure has no size
+    comparison c;  // over all steps, because an unloaded state has no largest deflection
     for (std::size_t step = 0; step < ends.size(); ++step) {
       if (ends[step].fraction != 1) continue;
       const reference_answer a = o.solve(forces_of(p.geometry, p.steps[step]));
@@ -129,8 +129,8 @@ TEST_CASE(
 }
 
 TEST_CASE("the reference solution finds the correct state even if an active-set iteration cycles") {
-  // A cantilever between stops. From the undeformed structure: none, then 2 and 3, then 3 and 4 press,
-  // then none again; right is 3 alone. Nothing is near a tie: every pair stays 0.08 off its face.
+  // A cantilever between stops. The active set goes from no pair to pairs 2 and 3, to 3 and 4 and back to no
+  // pair; the correct one is pair 3 alone. No pair is near a tie: every pair is at least 0.08 from its face.
   const beam_problem p{even_beam(3.0, 3, 1.0),
                        {{0, 0, true}, {0, 1, true}},
                        {{1, face_below, -3.0, 1e4, false},
@@ -155,7 +155,7 @@ TEST_CASE("a free beam that its load lifts or tips off its faces has no equilibr
   const linear_structure s = p.structure();
   for (const load& l : {even_load(1.0), load{{{0, 0, -1.0}, {2, 0, 2.0}}, {}}, load{{{2, 1, 1.0}}, {}}}) {
     const std::vector<double> f = forces_of(p.geometry, l);
-    CHECK(reference_solver(s).solve(f).how == outcome::none_seen);  // of rounded loads
+    CHECK(reference_solver(s).solve(f).how == outcome::none_seen);  // rounded loads prove nothing
     const reference_answer a = reference_solver(s).solve(f, s.truth->work_of(l));
     CHECK(a.how == outcome::no_equilibrium);
     CHECK_FALSE(a.unique);
@@ -182,7 +182,7 @@ TEST_CASE("the reference solution reports the equilibrium of a beam balanced on 
   CHECK(a.how == outcome::found);
   CHECK_FALSE(a.unique);
   CHECK(a.displacement[4] == Approx(-0.1 - 8.0 / 50).epsilon(1e-13));
-  // Off its balance by little it turns for ever.
+  // A small moment rotates the beam without limit.
   std::vector<double> f = forces_of(p.geometry, even_load(-2.0));
   f[6] -= 1e-6;
   CHECK(reference_solver(s).solve(f).how == outcome::none_seen);
@@ -213,7 +213,7 @@ TEST_CASE(
 
 TEST_CASE(
     "the reference solution of a long simply supported span has no error except the rounding of residuals") {
-  // Elements of length 1 and loads of 6 and 1: matrix and load are stored without any rounding.
+  // With elements of length 1 and loads of 6 and 1, matrix and load are exact in doubles.
   for (const int elements : {100, 400, 1000}) {
     const beam_problem p{even_beam(elements, elements, 1.0), {{0, 0, true}, {elements, 0, true}}, {}, {}};
     const linear_structure s = p.structure();
@@ -274,7 +274,7 @@ TEST_CASE(
   std::vector<double> f(6, 0.0);
   f[4] = std::numeric_limits<double>::infinity();
   CHECK(o.solve(f).how == outcome::not_found);
-  f[4] = -10.0;  // and it has not spoilt the reference solution
+  f[4] = -10.0;  // a finite load is solved after it
   const reference_answer after = o.solve(f);
   CHECK(after.how == outcome::found);
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));
@@ -288,7 +288,7 @@ TEST_CASE(
   const linear_structure s = p.structure();
   factored_stiffness anew(s);
   reference_solver solver(s);
-  for (const double load : {4.0, 0.1}) {  // at its face, and off it
+  for (const double load : {4.0, 0.1}) {  // with and without contact
     const reference_answer a = solver.solve(std::vector<double>{0, 0, 0, 0, load, 0});
     REQUIRE(a.pressed[0] == (load > 1 ? 1 : 0));
     const int so_far = solver.factorisations();

@@ -1,4 +1,4 @@
-// The factor of a stiffness, and a proof of its least eigenvalue.
+// Tests the factor of a stiffness matrix, and the proof of its least eigenvalue.
 #include "contct/certify/scaled_stiffness.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ using contct::rational;
 
 namespace {
 
-/// A chain of n springs of stiffness 1, held at both ends, with `more` at each node: eigenvalues
-/// more + 4 sin^2(j pi / 2 (n + 1)).
+/// Returns a chain of n springs of stiffness 1 that is held at both ends, with `more` added at each node. Its
+/// eigenvalues are more + 4 sin^2(j pi / 2 (n + 1)).
 long_system chain(int n, double more = 0.0) {
   long_system t;
   t.stiffness.resize(n);
@@ -31,7 +31,7 @@ long_system chain(int n, double more = 0.0) {
   return t;
 }
 
-/// The largest sum of magnitudes in a row of S A S - shift I - L L', for a chain A.
+/// Returns the largest sum of magnitudes in a row of S A S - shift I - L L' for a chain A.
 rational error_of(const long_system& a, const stiffness_proof& p) {
   using contct::binary_value;
   const auto& l = std::get<band_matrix>(p.factor);
@@ -80,7 +80,7 @@ TEST_CASE(
     "a matrix that cannot be factored in doubles is proved definite in 32 digits, with L as a sum of two "
     "doubles") {
   long_system t = chain(20);
-  t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // free at both ends except for a soft spring
+  t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // both ends are free, except for a soft spring
   t.stiffness[19][19] = 1.0;
   t.root.front() = t.root.back() = 1 + 1e-15;
   scaled_stiffness k(t, in_order(20), 1);
@@ -166,7 +166,7 @@ TEST_CASE("a plate without supports has an eigenvalue bound if the springs of it
   std::iota(all.begin(), all.end(), 0);
   REQUIRE(k.factor(all));
   CHECK(k.least_eigenvalue() > 1e-8);
-  CHECK_FALSE(k.has_32_digits());  // doubles are enough
+  CHECK_FALSE(k.has_32_digits());  // the proof needs only doubles
 
   std::vector<double> b(t.dofs(), 1.0);
   k.solve(b);

@@ -1,5 +1,5 @@
-// Supports that settle: what every textbook has for continuous beams, on every engine, with contact and
-// without.
+// Tests settling supports against textbook formulas for continuous beams, with every engine, with and without
+// contact.
 #include <cmath>
 #include <stdexcept>
 
@@ -17,8 +17,7 @@ namespace {
 
 constexpr double rounding = 1e-11;
 
-/// A beam over two spans of length l, pinned at three nodes, of four elements each; every length times
-/// `unit`.
+/// Returns a beam over two spans of length 3 `unit`, of four elements each, with three pinned nodes.
 problem two_spans(double unit = 1.0, double EI = 1e4) {
   problem p;
   beam b;
@@ -113,9 +112,10 @@ TEST_CASE("A settlement reaches a face at the proportional share, and the next s
     CAPTURE(engine);
     const solved_path path = follow_certified(p, engine);
     REQUIRE(path.seen.increments.size() == 5);
-    CHECK(path.seen.increments[0].fraction == Approx(0.25).epsilon(1e-12));  // the middle moves half as far
+    // The middle moves half as far as the support.
+    CHECK(path.seen.increments[0].fraction == Approx(0.25).epsilon(1e-12));
     CHECK(path.seen.increments[0].events.size() == 1);
-    // The spring k and the beam, of 48 EI / L^3 at midspan, share the rest.
+    // The spring k and the beam, with 48 EI / L^3 at midspan, resist the rest together.
     const double beam_k = 48 * 1e4 / 216.0;
     const double w = (-0.02 * beam_k - 0.005 * 2e3) / (beam_k + 2e3);
     CHECK(path.u(1)[8] == Approx(w).epsilon(1e-10));
@@ -152,7 +152,7 @@ TEST_CASE("The displacements of loads and settlements add up, on a plate and on 
   const solved_path path = follow_certified(p);
   for (std::size_t dof = 0; dof < path.u(1).size(); ++dof)
     CHECK(path.u(1)[dof] == Approx(path.u(2)[dof] + path.u(3)[dof]).epsilon(1e-9).margin(1e-13));
-  CHECK(path.u(3)[15] == Approx(-0.1 / 6).epsilon(1e-10));  // corners alone hold it: w = -0.1 x y / 6
+  CHECK(path.u(3)[15] == Approx(-0.1 / 6).epsilon(1e-10));  // w = -0.1 x y / 6 between the four corners
   CHECK(path.u(3)[33] == -0.1);
 
   const linear_structure s = build(p.geometry, {}, {});

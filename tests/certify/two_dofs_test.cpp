@@ -1,4 +1,4 @@
-// Pairs between two dofs of a matrix: beams that meet, and bodies that only another body holds.
+// Tests pairs between two dofs of a matrix: beams that meet, and bodies held only by another body.
 #include <cmath>
 
 #include "catch.hpp"
@@ -33,7 +33,8 @@ struct met {
 
 met follow_met(const problem& p, const std::string& engine, const std::string& kernel) {
   const linear_structure s = structure_of(p);
-  certifier judged(p, s, exact_means_of(p));  // which knows that a free body's matrix is semidefinite
+  // Exact arithmetic proves that a free body's matrix is semidefinite.
+  certifier judged(p, s, exact_means_of(p));
   met path;
   path.end = follow(p, s, engine, *make_kernel(kernel), {&judged, &path.seen}, {0, judged.ends()});
   for (const auto& c : judged.steps())
@@ -41,7 +42,7 @@ met follow_met(const problem& p, const std::string& engine, const std::string& k
   return path;
 }
 
-/// As a band and by columns, with every engine, by the rules that are named.
+/// Calls `check` for K as a band and by columns, for every engine, and for each rule of `rules`.
 template <class Check>
 void in_every_storage(problem p, const std::vector<std::string>& rules, const Check& check) {
   for (const bool as_band : {true, false}) {
@@ -60,7 +61,8 @@ load force(int dof, double value) {
   return {{{dof, 0, value}}, {}};
 }
 
-/// Deflection and slope at the tips of two cantilevers, 3 EI / l^3 = 3750 and 60000; 0.002 between the tips.
+/// Returns two cantilevers with 3 EI / l^3 of 3750 and 60000, whose tips have a deflection and a slope each
+/// and a distance of 0.002.
 problem two_cantilevers() {
   return on_matrix({4,
                     {{0, 0, 15000},
@@ -73,7 +75,7 @@ problem two_cantilevers() {
                    {{0, face_below, -0.002, 1e5, false, 2}}, {force(0, -15), {}, force(0, -15)});
 }
 
-/// Springs in series, one of which is a pair: 200 to the ground, 100, the pair's 600, and 50.
+/// Returns springs in series: 200 to the ground, 100, the pair with 600, and 50.
 problem chain(double face) {
   return on_matrix(
       {4, {{0, 0, 300}, {1, 0, -100}, {1, 1, 100}, {2, 1, 0}, {2, 2, 50}, {3, 2, -50}, {3, 3, 50}}},
@@ -100,7 +102,7 @@ TEST_CASE(
   const problem p = two_cantilevers();
   struct : observer {
     void called(const answered_call& c) override {
-      CHECK(c.c.id[0] == 5);  // after the four dofs
+      CHECK(c.c.id[0] == 5);  // the row after the four dofs
       CHECK(c.c.dd.size() == 5);
       rows.push_back(c.c.dd[4]);
     }

@@ -1,4 +1,4 @@
-// The branch margin of a report: the narrowest of the decisions on which the first difference depends.
+// Tests the branch margin of a report, which is the narrowest decision on which the first difference depends.
 #include <limits>
 
 #include "catch.hpp"
@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Pair 1 touches at s = 0.5 (gap 0.5), pair 2 is 5e-10 from its face, the dof of pair 3 does not respond.
+/// Pair 1 reaches its face at s = 0.5, pair 2 is 5e-10 from its face, and the dof of pair 3 does not respond.
 small_call<double> three_pairs() {
   return small_call<double>({{0.0, 1.0, 0.5, separated, face_above},
                              {0.0, 1e-3, 5e-10, separated, face_above},
@@ -19,7 +19,7 @@ small_call<double> three_pairs() {
       .ask();
 }
 
-/// The margin named where another kernel's answer to the call has these changes.
+/// Returns the branch margin that is reported if another kernel's answer has these changes.
 template <class Change>
 std::optional<decision> named(small_call<double> c, Change change) {
   call_outputs other{c.smin, c.ss, c.isep, ""};
@@ -52,7 +52,7 @@ TEST_CASE(
 
 TEST_CASE(
     "the branch margin of a wrong ISEP is its pair's DIFF, or SMIN if the other kernel toggled no pair") {
-  // SMIN is the number before 1: IF (SMIN.EQ.1.) is narrower than any DIFF.
+  // SMIN is the number next to 1, so IF (SMIN.EQ.1.) is narrower than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},
                                                       {0.0, 1.0, 4.0, separated, face_above}})
                                       .ask();
@@ -79,7 +79,7 @@ TEST_CASE(
       [](call<double>& c) {
         std::vector<event> events(c.cc.size());
         (void)contct::contct(c, std::span<event>(events));
-        c.ss[1] = 1e-20 / c.dtest[1];  // as if it stood at its face
+        c.ss[1] = 1e-20 / c.dtest[1];  // the s of a pair at its face
       },
       contact_rule::listing);
   small_call<double> c = three_pairs();

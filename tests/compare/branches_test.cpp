@@ -1,4 +1,4 @@
-// Which way the listing's IFs went, and by how much.
+// Tests the counted outcomes of the listing's IFs, and their margins.
 #include "contct/compare/branches.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// The margin of that decision of the call, once it is answered.
+/// Returns the margin of one decision of a call.
 std::uint64_t margin_of(small_call<double> c, branch what, std::size_t pair) {
   std::optional<std::uint64_t> margin;
   const answered_call answered = c.ask().answered();
@@ -22,7 +22,7 @@ std::uint64_t margin_of(small_call<double> c, branch what, std::size_t pair) {
   return *margin;
 }
 
-/// Every decision counts.
+/// Accepts every decision.
 bool any(branch /*b*/, std::size_t /*pair*/) {
   return true;
 }
@@ -30,10 +30,10 @@ bool any(branch /*b*/, std::size_t /*pair*/) {
 }  // namespace
 
 TEST_CASE("the outcomes of each IF of the listing are counted separately") {
-  small_call<double> c({{0.0, 0.0, 1.0, separated, face_above},     // does not respond
-                        {0.0, 1.0, 0.0, in_contact, face_below},    // stationary, pulled: breaks
-                        {0.0, -1.0, 0.0, in_contact, face_below},   // stationary, pressed: quiet
-                        {0.0, 1.0, -0.5, separated, face_below}});  // moves away
+  small_call<double> c({{0.0, 0.0, 1.0, separated, face_above},     // no response
+                        {0.0, 1.0, 0.0, in_contact, face_below},    // stationary and pulled: breaks
+                        {0.0, -1.0, 0.0, in_contact, face_below},   // stationary and pressed: no event
+                        {0.0, 1.0, -0.5, separated, face_below}});  // moving away
   const answered_call answered = c.ask().answered();
   branch_counts counts;
   counts.count(answered.c, answered.isep_before);
@@ -51,7 +51,7 @@ TEST_CASE("the outcomes of each IF of the listing are counted separately") {
   CHECK(counts.of(branch::within_epsmul, true) == 1);
   CHECK(counts.of(branch::within_epsmul, false) == 3);
   CHECK(counts.of(branch::was_separated, false) == 1);
-  CHECK(counts.rarest() == 0);  // no call without events, no make
+  CHECK(counts.rarest() == 0);  // neither a call without events nor a make occurred
 }
 
 TEST_CASE(
@@ -61,7 +61,7 @@ TEST_CASE(
   for (const auto& [face, ulps] : {std::pair(edge, 0UL), {std::nextafter(edge, 0.0), 1UL}}) {
     const small_call<double> c(
         {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, face, separated, face_above}});
-    // Below 2^-8 numbers are 2^-61 apart; one ULP of an s of 0.5 makes 2^-52 of DIFF.
+    // Below 2^-8 numbers are 2^-61 apart; one ULP of s = 0.5 is 2^-53, and changes DIFF by 2^-52.
     CHECK(margin_of(c, branch::within_epsmul, 1) == ulps * 512);
   }
 }

@@ -1,5 +1,5 @@
-// Two answers compared; a follower's are counted, and its first mismatch is reported; recorded text is
-// compared by bytes or by meaning. No f2c is needed for its traces.
+// Tests comparisons of two answers, the counts of a follower, and texts compared by bytes or by meaning. No
+// f2c kernel is needed for traces of f2c.
 #include "contct/compare/compare.hpp"
 
 #include <bit>
@@ -21,10 +21,10 @@ std::optional<mismatch> differ(double smin, std::vector<double> ss, std::vector<
   return compare_answers<double>({0.5, leader_ss, leader_isep}, {smin, ss, isep}, t);
 }
 
-/// One pair that touches after half of the load.
+/// One pair that reaches its face at s = 0.5.
 const call_inputs<double> half_way{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
 
-/// The leader's answer to that call, with SMIN as given.
+/// The leader's answer to the call `half_way`, with this SMIN.
 struct answered_half_way {
   call_outputs out;
   call<double> c = out.prepare(half_way);
@@ -36,7 +36,7 @@ struct answered_half_way {
   }
 };
 
-/// One pair with an event half way, with `kernel` recorded as its kernel, with that scale factor in its text.
+/// Returns a trace of the call `half_way` by `kernel`, with `scale_factor` in its text.
 std::string trace_of(const std::string& kernel, const std::string& scale_factor) {
   const double ss[] = {0.5};
   const int isep[] = {in_contact};
@@ -112,7 +112,7 @@ TEST_CASE("text is compared byte for byte, and the first different line is named
   REQUIRE(missing);
   CHECK(missing->index == 2);
   CHECK(missing->follower.empty());
-  CHECK(compare_text("a\n", "a", t));  // a lost line end is a difference too
+  CHECK(compare_text("a\n", "a", t));  // without the last line end
   CHECK(t.values == 4);
   CHECK(t.mismatches == 3);
 }
@@ -168,7 +168,7 @@ TEST_CASE("a follower counts the compared values and keeps the mismatch of the e
   CHECK(f.first()->narrowest->what == branch::s_is_smallest);
   (void)f.ask({wrong.c, half_way.isep, {}, 6});
   CHECK(f.first()->call == 5);
-  f.note({"text", 2, "a", "b", 0}, {wrong.c, half_way.isep, {}, 3});  // found later, in an earlier call
+  f.note({"text", 2, "a", "b", 0}, {wrong.c, half_way.isep, {}, 3});  // an earlier call, reported later
   CHECK(f.first()->call == 3);
   CHECK(f.first()->where.field == "text");
   CHECK(f.compared.values == 9);

@@ -1,6 +1,6 @@
-// The listing and its twin are equal to the bit: shown exhaustively for one pair and for two, and at
-// random for up to 64, in both precisions, with a floor under everything that is counted. What random calls
-// cannot find is proved by `contct prove`; these check the wrapper and the text too.
+// Tests that the listing and the C++ kernel are equal to the bit: exhaustively for one pair and for two
+// pairs, and at random for up to 64 pairs, in both precisions. `contct prove` proves it for every input; this
+// also tests the wrapper and the text.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE(
   for (const Real d : numbers) {
     for (const Real d_star : numbers) {
       for (const Real c : numbers) {
-        for (const int isep : {1, -1, 0, 2}) {  // 0 and 2 are not statuses: the listing's ELSE takes them
+        for (const int isep : {1, -1, 0, 2}) {  // the listing takes 0 and 2 as its ELSE
           for (const int isurf : {1, -1}) {
             in.dd[0] = d;
             in.dtest[0] = d_star;
@@ -88,7 +88,7 @@ TEMPLATE_TEST_CASE(
     }
   }
   require_no_mismatch(both);
-  // Every IF went both ways but one: a pair alone is always within EPSMUL of itself.
+  // Every IF had both outcomes, except IF (DIFF.LT.EPSMUL), which is always true for a single pair.
   for (std::size_t b = 0; b < branch_names.size(); ++b) {
     for (const bool outcome : {false, true}) {
       const bool impossible = branch_names[b] == "within_epsmul" && !outcome;
@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE(
                                        std::numeric_limits<Real>::quiet_NaN()};
   side_by_side<Real> both;
   call_inputs<Real> in = pairs_at_one_dof_each<Real>(2);
-  std::array<int, 4> near_ties{};  // exact tie, below the edge, at it, above it
+  std::array<int, 4> near_ties{};  // an exact tie; below, at and above EPSMUL
   for (const Real c1 : faces) {
     for (const Real c2 : faces) {
       for (const Real d1 : responses) {

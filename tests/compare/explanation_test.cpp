@@ -1,5 +1,4 @@
-// Why a pair was toggled, worked out from what went into a call and came out of it; and the lines of the
-// listing that are cited.
+// Tests why a pair was toggled, as explained from a call and its answer, and the cited lines of the listing.
 #include "contct/compare/explanation.hpp"
 
 #include <cmath>
@@ -21,7 +20,7 @@ explained_call explained(small_call<double> c, double largest = 0.0) {
   return explain(c.ask().answered(), 8, largest);
 }
 
-/// The statement field of fixed form: after column 6, without blanks at its ends.
+/// Returns the statement field of a fixed-form line, after column 6, without blanks at its ends.
 std::string statement_of(const std::string& line) {
   constexpr std::size_t label_and_mark = 6;
   const std::size_t from = line.find_first_not_of(' ', label_and_mark);
@@ -65,7 +64,7 @@ TEST_CASE(
                                                          {0.0, 0.0, -1.0, separated, face_below},
                                                          {0.0, -1.0, 0.0, in_contact, face_below}}));
   CHECK(e.winner == 0);
-  CHECK(e.next == -1);  // a mark is not a candidate
+  CHECK(e.next == -1);  // no other pair has an event
   CHECK(e.pairs[1].way == listing_branch::no_response);
   CHECK(e.pairs[1].why == why_toggled::by_mark);
   CHECK(e.pairs[1].distance == 1.0);
@@ -151,7 +150,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the explanation of a call has its precision, and only those values that the call's IFs computed") {
-  // Before and beyond its face, and without a response.
+  // A pair before its face, a pair beyond its face, and a pair without response.
   small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
                         {0.4, 1.0, 0.1, separated, face_above},
                         {0.0, 0.0, 1.0, separated, face_above}});

@@ -1,5 +1,5 @@
-// The line of the listing that is named for all wrong answers of a kernel. tests/mutants measures how often
-// it is right.
+// Tests the line of the listing that is reported as faulty for a kernel's wrong answers. tests/mutants
+// measures how often this line is right.
 #include "contct/compare/faulty_line.hpp"
 
 #include <cmath>
@@ -11,8 +11,8 @@ using namespace contct;
 
 namespace {
 
-/// Pair 1 touches at s = 0.5, pair 2 is at its face and not pressed, pair 3 is `gap` away, pair 4 does not
-/// respond.
+/// Pair 1 reaches its face at s = 0.5, pair 2 is at its face and not pressed, pair 3 is at a distance of
+/// `gap`, and pair 4 does not respond.
 small_call<double> four_pairs(double gap) {
   return small_call<double>({{0.0, 1.0, 0.5, separated, face_above},
                              {0.0, -1.0, 0.0, separated, face_above},
@@ -21,7 +21,7 @@ small_call<double> four_pairs(double gap) {
       .ask();
 }
 
-/// SMIN is 0.5, and DIFF of pairs 2 and 3 are these.
+/// A call with SMIN = 0.5 in which pairs 2 and 3 have these values of DIFF.
 small_call<double> with_diffs(double second, double third) {
   return small_call<double>({{0.0, 1.0, 0.5, separated, face_above},
                              {0.0, 1.0, 0.5 + second / 2.0, separated, face_above},
@@ -29,7 +29,7 @@ small_call<double> with_diffs(double second, double third) {
       .ask();
 }
 
-/// Notes an answer to the call with these changes.
+/// Notes the answer to the call after these changes.
 template <class Change>
 void note(fault_finder& all, small_call<double> c, Change change) {
   call_outputs other{c.smin, c.ss, c.isep, ""};
@@ -54,7 +54,7 @@ TEST_CASE("line 33 is reported for a kernel with EPSGAP = 1e-9, with the gaps th
   fault_finder all;
   for (const double gap : {2e-10, 5e-10}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
-      o.smin = o.ss[2] = 1e-20;  // as if pair 3 stood at its face; the listing toggles it alone
+      o.smin = o.ss[2] = 1e-20;  // the s of a pair at its face, which the listing toggles alone
       o.isep = {separated, separated, in_contact, separated};
     });
   }
@@ -97,7 +97,7 @@ TEST_CASE(
   fault_finder all;
   for (const double gap : {0.25, 0.3}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
-      o.smin = 0.5;  // of pair 1, and not the smallest
+      o.smin = 0.5;  // the s of pair 1, which is not the least
       o.isep = {in_contact, separated, separated, separated};
     });
   }

@@ -1,5 +1,5 @@
-// The golden set of reference/traces: the committed answers equal those of the 1989 code of this build, the
-// set reaches every outcome of every IF, and the twin answers the same.
+// Tests the golden set of reference/traces: its answers are those of the 1989 code in this build, it reaches
+// every outcome of every IF, and the C++ kernel gives the same answers.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -30,7 +30,7 @@ std::vector<std::filesystem::path> committed() {
   return all;
 }
 
-/// The trace without the lines about the machine on which it was recorded.
+/// Returns the trace without the lines about the machine that recorded it.
 std::string without_origin(const std::string& trace) {
   std::istringstream in(trace);
   std::string out;

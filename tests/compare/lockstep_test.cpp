@@ -14,7 +14,7 @@ namespace {
 
 using call_of_double = call<double>;
 
-/// A C++ kernel with a fault put in on purpose.
+/// The C++ kernel with a fault that `fault` puts into its answers.
 class faulty_kernel final : public kernel {
  public:
   explicit faulty_kernel(std::function<void(call<double>&, std::string&)> fault) : fault_(std::move(fault)) {}
@@ -33,7 +33,7 @@ class faulty_kernel final : public kernel {
   std::string text_;
 };
 
-/// PB1 led by FORTRAN, with these followers.
+/// Follows PB1 with FORTRAN as the leader of these followers.
 template <class... Followers>
 lockstep_on_path in_lockstep_with(Followers... followers) {
   const auto leader = make_kernel("fortran");
@@ -57,7 +57,7 @@ lockstep_on_path with_fault(std::function<void(call<double>&, std::string&)> fau
 TEST_CASE("FORTRAN and C++ follow PB1 in lockstep without a mismatch, and every value is counted") {
   const lockstep_on_path compared = in_lockstep_with(make_kernel("cpp"));
   CHECK(compared.calls() == 6);
-  CHECK(compared.compared().values == 6L * 4);  // SMIN, SS, ISEP, text
+  CHECK(compared.compared().values == 6L * 4);  // SMIN, SS, ISEP and text
   CHECK(compared.compared().mismatches == 0);
   CHECK_FALSE(compared.first());
   CHECK(compared.last_call_equal());
@@ -97,7 +97,7 @@ TEST_CASE("the last call counts as equal only if every follower's answer is equa
   const auto fault = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
   CHECK_FALSE(with_fault(fault).last_call_equal());
   CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
-  // Among several followers one is enough, in whatever place.
+  // One faulty follower is enough, whether it is first or last.
   for (const int place : {0, 1}) {
     const lockstep_on_path compared = place == 0 ? in_lockstep_with(faulty(fault), make_kernel("cpp"))
                                                  : in_lockstep_with(make_kernel("cpp"), faulty(fault));
@@ -127,7 +127,7 @@ TEST_CASE("faults in SS, in ISEP and in the text are detected") {
 }
 
 TEST_CASE("the path follows the leader's answers, whatever the followers answer") {
-  // Every call goes to the follower with the leader's inputs, so one fault is one mismatch.
+  // Every call has the leader's inputs, so that one fault gives one mismatch.
   int call_number = 0;
   const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
     if (++call_number == 1) c.isep[0] = in_contact;

@@ -1,4 +1,4 @@
-// The listing by other compilers, against gfortran's and the C++ kernel.
+// Tests the listing as built by other compilers against gfortran's build and the C++ kernel.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The kernels of flang and f2c that are built.
+/// Returns the names of the kernels flang and f2c, if they are built.
 std::vector<std::string> other_kernels() {
   std::vector<std::string> names = kernel_names();
   std::erase_if(names, [](const std::string& name) { return name != "flang" && name != "f2c"; });
@@ -37,7 +37,7 @@ TEST_CASE(
     tally answers;
     tally text;
     std::int64_t lines = 0;
-    std::int64_t different_bytes = 0;  // calls whose text is not the other's byte for byte
+    std::int64_t different_bytes = 0;  // calls with texts that differ in bytes
     for (int i = 0; i < calls; ++i) {
       const call_inputs<double>& in = source.random(i);
       const call_outputs a = answer_of(*asked, in);
@@ -54,7 +54,7 @@ TEST_CASE(
     CHECK(lines > calls);
     CHECK(text.values == std::int64_t{2} * calls);
     CHECK(text.mismatches == 0);
-    // Every call writes a number, and libf2c drops its zero.
+    // Every call writes a number, whose leading zero libf2c omits.
     CHECK(different_bytes == (name == "f2c" ? std::int64_t{2} * calls : 0));
     CHECK_FALSE(std::filesystem::exists("fort.26"));
   }

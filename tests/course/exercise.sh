@@ -1,6 +1,7 @@
 #!/bin/sh
-# exercise.sh ROOT PROGRAMS EXERCISE FILE VERDICT: the last line that check.sh says of FILE begins with VERDICT, and its exit
-# status is what the verdict's first word says: 0 right, 1 wrong, 2 not judged. In a folder like the project's root after the release build.
+# exercise.sh ROOT PROGRAMS EXERCISE FILE VERDICT: the last line of check.sh about FILE must begin with VERDICT, and its
+# exit status must match VERDICT's first word: 0 right, 1 wrong, 2 not judged. Runs in a folder like the project's root
+# after the release build.
 set -eu
 root=$(cd "$1" && pwd)
 programs=$(cd "$2" && pwd)

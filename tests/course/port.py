@@ -45,7 +45,7 @@ def built(file):
 
 def check_stages(folder, language):
     last, nexts = 0, [[stage["adds"]] for stage in stages.STAGES[1:]]
-    nexts[-1:] = [[TABLE["toggled-by-sign"]["says"]], []]  # stage 9 has the answers of a known fault, stage 10 has no wrong one
+    nexts[-1:] = [[TABLE["toggled-by-sign"]["says"]], []]  # stage 9 answers like a known fault, stage 10 is right
     for number, (stage, after) in enumerate(zip(stages.STAGES, nexts), start=1):
         file = folder / f"{language}-{number}.{language}"
         file.write_text(stages.kernel_after(number, language))

@@ -8,14 +8,14 @@ import tomllib
 from collections import Counter
 from pathlib import Path
 
-ROOT = Path(__file__).absolute().parents[2]  # a copy of the project may have a link to this folder
+ROOT = Path(__file__).absolute().parents[2]  # not resolve(): in a copy, this folder may be a link
 LISTING = "fortran/contct.f"
 KERNEL = "cpp/contct/kernel/contct.hpp"
 COMMAND = "python3 tests/edition/edition.py --write"
 STEPS = ["1", "2", "3", "4", "5, 6", "7", "8", "9 to 11", "12, 13", "14", "14", "14"]
 KEYS = {"step", "title", "paper", "equation", "note", "listing", "cpp"}
 STATEMENTS = 45
-# The section between these is what the page of a run embeds.
+# A run's page embeds the section between HEAD and the end of the body.
 HEAD = """<!DOCTYPE html>
 <html lang="en">
 <head>

@@ -1,5 +1,5 @@
-# This system's copy of a library that is all headers, for another processor's compiler: its folder alone,
-# because the rest of /usr/include belongs to this system's C library.
+# add_header_only(TARGET FOLDER HEADER): gives another processor's compiler a copy of this system's header-only library.
+# Only the folder is copied, because the other headers of /usr/include belong to this system's C library.
 function(add_header_only target folder header)
   find_path(${folder}_PARENT ${folder}/${header} PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
   set(headers ${CMAKE_BINARY_DIR}/headers)

@@ -1,8 +1,9 @@
 #!/bin/sh
-# Replays the golden set on other processors: contct-replay alone, by Debian's cross compilers, under qemu-user.
+# Replays the golden set with contct-replay for other processors, built by Debian's cross compilers and run by
+# qemu-user.
 # Usage: sh tests/emulated/run.sh [aarch64] [ppc64le] [riscv64] [s390x]     (default: all four)
-# What cannot be had is skipped and said so; it never counts as passed. The last lines are the verdicts, one for
-# each. Exit 0: all that ran are equal to the bit, and at least one ran; 1: one is not; 2: usage; 77: none ran.
+# A processor whose tools are missing is reported as skipped. The last lines have one verdict for each processor.
+# Exit 0: all that ran are equal to the bit, and at least one ran; 1: a mismatch; 2: usage; 77: none ran.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh
@@ -14,7 +15,7 @@ for processor in "$@"; do
     *) echo "found \"$processor\"; allowed: aarch64, ppc64le, riscv64, s390x" >&2; exit 2 ;;
   esac
 done
-set -- "$@" --  # behind it: the traces
+set -- "$@" --  # the traces follow
 for trace in reference/traces/*.trace; do
   [ -f "$trace" ] || { echo "reference/traces has no trace: nothing to replay" >&2; exit 1; }
   set -- "$@" "$trace"
@@ -25,7 +26,7 @@ log=$(mktemp)
 report=$(mktemp)
 trap 'rm -f "$log" "$report"' EXIT
 
-# build FOLDER PROCESSOR [cmake's arguments]: contct-replay for that processor.
+# build FOLDER PROCESSOR [ARGUMENT..]: builds contct-replay for this processor, with the arguments for cmake.
 build() {
   into=$1
   preset=$2
@@ -36,7 +37,7 @@ build() {
   return 1
 }
 
-# replay FOLDER PROCESSOR TRACE..: all four kernels. The probe's result is part of the output.
+# replay FOLDER PROCESSOR TRACE..: replays with all four kernels. The probe's result is part of the output.
 replay() {
   program=$1/contct-replay
   emulator=qemu-$2
@@ -51,7 +52,7 @@ passed=0
 failed=0
 skipped=0
 verdicts=""
-# verdict WORDS: of this processor; all are said together at the end.
+# verdict WORDS: stores this processor's verdict, which is printed at the end.
 verdict() {
   verdicts="$verdicts$(printf '%-8s %s' "$processor:" "$1")
 "
@@ -87,7 +88,7 @@ for processor in $processors; do
     fail "$(grep '^- floating point' "$report")"
     continue
   fi
-  # Half of them at least have to have been asked: every trace has one of two precisions.
+  # Each trace has one precision, so two of the four kernels must replay it.
   replays=$(grep -c ': equal to the bit; ' "$log")
   values=$(sed -n 's/.*: equal to the bit; .* \([0-9]*\) values compared, 0 mismatches$/\1/p' "$log" | awk '{n += $1} END {print n}')
   if [ "$replays" -lt $((2 * $#)) ]; then fail "only $replays replays of $# traces: $said"; continue; fi

@@ -1,4 +1,4 @@
-# Another processor, by Debian's cross compilers; its programs run under qemu-user. CONTCT_PROCESSOR says which.
+# A CMake toolchain for another processor, CONTCT_PROCESSOR, with Debian's cross compilers and qemu-user.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES CONTCT_PROCESSOR)
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR ${CONTCT_PROCESSOR})

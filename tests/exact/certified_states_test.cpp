@@ -1,4 +1,4 @@
-// The claims of a certificate: every number, status and gap of a state, compared with the exact path.
+// Tests that every number, status and gap of a certified state is right, by comparison with the exact path.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ double error_of(double told, const rational& truly) {
   return std::abs(contct::rounded(binary_value(told) - truly));
 }
 
-/// The largest force or reaction in a state; if it has none, in the last step before it that has one.
+/// Returns the largest force or reaction in a state or, if it has none, in the last earlier step with one.
 double largest_force(const exact_path& truly, std::size_t step) {
   double largest = 0.0;
   for (; step > 0 && largest == 0.0; --step)
@@ -30,7 +30,7 @@ double largest_force(const exact_path& truly, std::size_t step) {
   return largest;
 }
 
-/// A false claim of a certified state, in words; empty if all are true.
+/// Returns the first false claim of a certified state in words, or an empty text.
 std::string false_claim(const judged_run& r, const exact_path& truly, std::size_t step) {
   const certificate& c = r.of_step(step);
   const exact_step_end& right = truly.steps.at(step - 1);
@@ -54,8 +54,8 @@ std::string false_claim(const judged_run& r, const exact_path& truly, std::size_
   return "";
 }
 
-/// A beam as an engineer writes it: supports that settle by some millimetres, a pair a few millimetres from
-/// one, loads in newtons.
+/// Returns a beam with typical dimensions: supports settle by some millimetres, a pair is some millimetres
+/// from one of them, and loads are in newtons.
 std::string settling_beam(std::uint64_t number) {
   random_numbers random(2026 + number);
   const auto between = [&](double low, double high, double unit) {
@@ -80,7 +80,7 @@ std::string settling_beam(std::uint64_t number) {
   return text;
 }
 
-/// K = [[1, coupling], [coupling, 1]] with a pair below and one above at dof 1.
+/// Returns a problem with K = [[1, coupling], [coupling, 1]] and pairs below and above at dof 1.
 problem two_dofs(double coupling, double stiffness, double load) {
   problem p;
   assembled a;
@@ -131,7 +131,7 @@ TEST_CASE("A reaction of 200 N with an error of 0.2 N is not certified, even if 
 }
 
 TEST_CASE("A pair that the 1989 rule toggles 0.9 mm before its face is not certified") {
-  // Node 1 is fixed 0.9 mm from its face; the rule toggles both pairs when the beam is unloaded.
+  // The 1989 rule toggles both pairs during unloading, although node 1 is fixed 0.9 mm from its face.
   const std::string text =
       "[beam]\nx = [0.0, 1.0, 2.0, 3.0]\nEI = 11.2\n[[support]]\nnodes = [1, 4]\nfix = [\"w\", \"theta\"]\n"
       "[[contact]]\nnode = 1\nsurface = \"above\"\nface = 0.0009\nstiffness = 1e-6\n"
@@ -156,7 +156,7 @@ TEST_CASE("The corrected rule gives a pair of almost no stiffness its correct st
              {1, face_below, -5.1e-7, 1.4e13, false},  {1, face_below, -2e-7, 1.19e13, false}};
   p.steps = {{{{0, 0, 3.78e-7}, {1, 0, -5.47e5}}, {}}};
   const judged_run r(p, "corrected");
-  // The third one, 18600 beyond its face, carries 3.3e-7 of a load of 5.5e5.
+  // Pair 3 is 18600 beyond its face, and carries only 3.3e-7 of a load of 5.5e5.
   CHECK(r.statuses.at(0) ==
         std::vector<int>{in_contact, separated, in_contact, separated, separated, in_contact});
   CHECK(r.of_step(1).certified);

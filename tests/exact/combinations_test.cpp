@@ -1,4 +1,4 @@
-// Combinations without rounding, against loads that are multiplied by hand and against closed forms.
+// Tests exact combinations against loads multiplied by hand and against closed forms.
 #include "catch.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"
@@ -25,13 +25,14 @@ const std::string combined = over_stops + cases +
                              "[[combination]]\nname = \"1\"\nterms = { S = 3 }\n"
                              "[[combination]]\nname = \"2\"\nterms = { G = 1.35, P = 0.7, S = 1.1 }\n";
 
-/// The second combination: 1.35 * 0.1, 1.35 * 0.3, 0.7 * 1.1 - 1.1 * 0.3, 0.7 * 0.003 - 1.1 * 0.001, ..
+/// The second combination multiplied by hand: 1.35 * 0.1, 1.35 * 0.3, 0.7 * 1.1 - 1.1 * 0.3, 0.7 * 0.003 -
+/// 1.1 * 0.001, ..
 const std::string by_hand =
     over_stops +
     "[[step]]\nuniform = [ { value = -0.135 }, { polynomial = [0.405, -0.27], elements = [2] } ]\n"
     "point = [ { x = 3, w = 0.44, theta = 0.77 } ]\nsettlement = [ { x = 0, w = 0.001 } ]\n";
 
-/// A beam of 4 lengths that lies on two stops at its ends.
+/// A beam of length 4 on two stops at its ends.
 const std::string lies =
     "[beam]\nlength = 4\nelements = 4\nEI = 100\n[[contact]]\nx = [0, 4]\nsurface = \"below\"\nface = 0\n"
     "stiffness = 1e4\n[[case]]\nname = \"down\"\nuniform = -1\n[[case]]\nname = \"up\"\n"
@@ -66,6 +67,7 @@ TEST_CASE("in the exact path, a combination after a mechanism starts from the un
     CHECK(path.steps[0].status == path_status::mechanism);
     CHECK(path.steps[0].fraction < rational(1, 1000));
     CHECK(path.steps[1].status == path_status::solved);
-    CHECK(path.steps[1].force == rational_vector{rational(11, 8), rational(25, 8)});  // 8 down, 3.5 up at 1
+    // The load is 8 down in all and 3.5 up at x = 1.
+    CHECK(path.steps[1].force == rational_vector{rational(11, 8), rational(25, 8)});
   }
 }

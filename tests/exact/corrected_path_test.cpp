@@ -1,4 +1,4 @@
-// Paths without rounding, against fractions that were computed by hand or published.
+// Tests exact paths against fractions that were calculated by hand or published.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -22,8 +22,8 @@ exact_path reference(const std::string& name) {
       exact_problem_of(read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml")));
 }
 
-/// Judged from K, the loads and the pairs alone, without any solve: the first condition that does not hold
-/// exactly; empty if the state is an equilibrium under the full load.
+/// Returns the first condition of equilibrium under the full load that does not hold exactly, or an empty
+/// text. It uses only K, the loads and the pairs, and no solve.
 std::string wrong_with(const exact_problem& p, const exact_step& acting, const exact_step_end& e) {
   if (e.fraction != 1) return "the load is not reached";
   rational_vector rest = acting.force;
@@ -47,7 +47,8 @@ std::string wrong_with(const exact_problem& p, const exact_step& acting, const e
   return "";
 }
 
-/// The number of steps that reach their load; the final state of each is in equilibrium.
+/// Checks that every final state under the full load is in equilibrium, and returns the number of these
+/// states.
 int check_ends(const contct::problem& p) {
   const exact_problem e = exact_problem_of(p);
   const exact_path path = follow_corrected_path(e);
@@ -60,7 +61,7 @@ int check_ends(const contct::problem& p) {
   return checked;
 }
 
-/// "1/10: +1; 1:", a step's increments.
+/// Returns a step's increments in the form "1/10: +1; 1:".
 std::string told(const exact_step_end& s) {
   std::string words;
   for (const exact_increment& i : s.increments) {
@@ -72,7 +73,7 @@ std::string told(const exact_step_end& s) {
   return words;
 }
 
-/// A node's dof at the end of a step; all from 0.
+/// Returns a dof's displacement at the end of a step; both count from 0.
 rational at(const exact_path& path, std::size_t step, std::size_t dof) {
   return path.steps.at(step).displacement.at(dof);
 }
@@ -130,7 +131,8 @@ TEST_CASE("in the exact path, an event exactly at full load belongs to the next 
 
 TEST_CASE(
     "in the exact path, pairs at their faces get their statuses together from one complementarity problem") {
-  // Both pairs start in contact: the load over node 2 presses the one there and lifts the end.
+  // Both pairs start in contact. The moment at node 1 presses the beam on pair 1 and lifts its end off pair
+  // 2.
   const exact_path path = followed("[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n" +
                                    pair(2, "below", "0", "1e6") + pair(3, "below", "0", "1e6") +
                                    "[[step]]\npoint = [ { node = 1, theta = -1 } ]\n");
@@ -154,7 +156,7 @@ TEST_CASE("the exact path proves a mechanism by a rigid-body motion on which the
   REQUIRE(path.status == contct::path_status::mechanism);
   REQUIRE(path.mechanism);
   CHECK(path.steps[0].fraction == 0);
-  // It turns about the pair at the middle.
+  // The beam rotates about the pair in the middle.
   CHECK(path.mechanism->motion == rational_vector{1, -1, 0, -1, -1, -1});
   CHECK(path.mechanism->work == rational(4, 10000000000000));
 }
@@ -189,7 +191,7 @@ TEST_CASE("the exact path reaches a face at 1/5 of a settlement, and ends with t
   p.steps[0].settlements = {{2, 0, -1.6}};
   const exact_problem e = exact_problem_of(p);
   const exact_path path = follow_corrected_path(e);
-  // Without the pair w2 = 5/16 of the settlement: the face is reached at 1/5 of it.
+  // Without the pair, w2 is 5/16 of the settlement, which reaches the face at a share of 1/5.
   CHECK(told(path.steps[0]) == "1/5: +1; 1:");
   CHECK(at(path, 0, 4) == rational(-8, 5));
   CHECK(wrong_with(e, e.steps[0], path.steps[0]).empty());
@@ -204,7 +206,7 @@ TEST_CASE(
       pair(2, "below", "-0.5", "4") + pair(2, "above", "0.25", "4") +
       "[[step]]\npoint = [ { node = 2, w = -4 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n";
   const exact_path path = followed(text);
-  // 4 w = load between the faces, 8 (w - face) beyond.
+  // The load is 4 w between the faces, and 4 w + 4 (w - face) beyond a face.
   CHECK(told(path.steps[0]) == "1/2: +1; 1:");
   CHECK(told(path.steps[1]) == "2/7: -1; 5/7: +2; 1:");
   CHECK(at(path, 0, 2) == rational(-3, 4));

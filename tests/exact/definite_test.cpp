@@ -1,4 +1,4 @@
-// Semidefinite, or shown not to be.
+// Tests the exact decision whether a matrix is positive semidefinite.
 #include <random>
 
 #include "catch.hpp"
@@ -15,7 +15,7 @@ struct decided {
   exact_problem exactly;
   definiteness what;
 
-  /// Is negative work reported, and confirmed by an independent sum?
+  /// Returns true if negative work is reported and an independent sum confirms it.
   [[nodiscard]] bool shows() const {
     if (!what.shown || what.semidefinite) return false;
     rational sum;
@@ -26,7 +26,7 @@ struct decided {
   }
 };
 
-/// The definiteness of a matrix given by its lower triangle.
+/// Returns the definiteness of a matrix given by its lower triangle.
 decided of(int n, const entries& lower, int fixed = -1) {
   assembled a;
   a.stiffness = {n, lower, {}};
@@ -42,7 +42,7 @@ decided pair_of(double coupling, double last) {
   return of(2, {{0, 0, 1.0}, {1, 0, coupling}, {1, 1, last}});
 }
 
-/// A free chain of springs, with `more` added to the first node's stiffness.
+/// Returns a free chain of springs with `more` added to the stiffness of the first node.
 entries chain(int n, double more) {
   entries all;
   for (int i = 0; i < n; ++i) {

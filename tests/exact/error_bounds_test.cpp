@@ -1,4 +1,4 @@
-// Proved bounds: against exact answers, and with faults put in.
+// Tests proved error bounds against exact answers, also for states with faults.
 #include "contct/certify/error_bounds.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace contct;
 
 namespace {
 
-/// The end of a step as reported, and its exact state.
+/// The reported end of a step.
 struct told_end {
   [[nodiscard]] reported_state handed() const { return {step, displacement, isep, numbers}; }
 
@@ -27,7 +27,7 @@ struct told_end {
   error_bounds bounds;
 };
 
-/// Observes a path, and bounds the errors of its ends.
+/// An observer of a path that bounds the errors at the ends of steps.
 struct prover_of_path final : observer {
   prover_of_path(const problem& p, const linear_structure& s) : what(p), prover(p, s) {}
 
@@ -50,7 +50,7 @@ double off(double told, const rational& true_value) {
   return std::abs(contct::rounded(binary_value(told) - true_value));
 }
 
-/// Moments of a plate under u in 32 digits.
+/// Returns the moments of a plate under u, computed in 32 digits.
 rational_vector plate_values(const problem& p, int step, const rational_vector& u) {
   long_vector rounded;
   for (const rational& x : u) rounded.push_back(contct::long_rounded(x));
@@ -60,7 +60,7 @@ rational_vector plate_values(const problem& p, int step, const rational_vector& 
   return all;
 }
 
-/// Shear at both ends and moment at both ends of each element of a beam.
+/// Returns the shears and then the moments at both ends of each beam element.
 rational_vector beam_values(const problem& p, const beam& b, int step, const rational_vector& u) {
   rational_vector all;
   for (int e = 0; e < b.elements(); ++e) {
@@ -70,7 +70,7 @@ rational_vector beam_values(const problem& p, const beam& b, int step, const rat
   return all;
 }
 
-/// The largest error of each kind in a reported end.
+/// Returns the largest error of each kind in a reported end.
 by_quantity errors_of(const problem& p, const exact_step_end& truly, const told_end& told) {
   by_quantity worst;
   const int per_node = dofs_per_node(p.geometry);
@@ -91,7 +91,7 @@ by_quantity errors_of(const problem& p, const exact_step_end& truly, const told_
   return worst;
 }
 
-/// Every error is within its bound; how many were compared.
+/// Checks that every error is within its bound, and returns the number of compared errors.
 int check_bounds(const by_quantity& errors, const by_quantity& bounds) {
   int compared = 0;
   for (std::size_t q = 0; q < errors.all.size(); ++q) {
@@ -103,7 +103,7 @@ int check_bounds(const by_quantity& errors, const by_quantity& bounds) {
   return compared;
 }
 
-/// Do these bounds certify a state of a beam of length 2?
+/// Returns true if these bounds certify a state of a beam of length 2.
 bool certified(const error_bounds& b) {
   return b.not_proved.empty() && worst_bound(b.error, allowed_errors().of(b, 2.0)).empty();
 }
@@ -113,7 +113,7 @@ const std::string beam_over_stop =
     "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.0037\nstiffness = 1e5\n"
     "[[step]]\npoint = [ { node = 4, w = -60 } ]\n";
 
-/// Steps end in the states that the path reaches, refined.
+/// Returns limits under which a step ends in the refined state that the path reached.
 path_limits refined_by(error_prover& prover) {
   return {0, [&prover](int step, const full_load_state* reached) {
             if (reached == nullptr) return found_end();
@@ -123,7 +123,7 @@ path_limits refined_by(error_prover& prover) {
           }};
 }
 
-/// The one step of a problem, reported by a refined path.
+/// The single step of a problem, as reported by a refined path.
 struct one_end {
   explicit one_end(const std::string& text)
       : what(parse_problem(text, "b.toml")), structure(structure_of(what)), watch(what, structure) {
@@ -131,7 +131,7 @@ struct one_end {
     truly = follow_corrected_path(exact_problem_of(what)).steps.back();
     end = watch.ends.back();  // NOLINT(cppcoreguidelines-prefer-member-initializer): the path comes first
   }
-  /// Bounds for numbers with a fault in them.
+  /// Returns the bounds for the numbers of `end`, which a test may change.
   error_bounds again() { return watch.prover.bound(end.handed()); }
 
   problem what;
@@ -148,7 +148,7 @@ TEST_CASE(
 #ifdef CONTCT_HAS_GMP
   constexpr int problems = 40;
 #else
-  constexpr int problems = 4;  // Boost's own integers take minutes for a long one
+  constexpr int problems = 4;  // Boost's integers take minutes for one long problem
 #endif
   int steps = 0;
   int compared = 0;
@@ -291,14 +291,15 @@ TEST_CASE("the error of an unloaded state is at least its largest number at any 
   };
   for (std::size_t where = 0; where < 20; ++where) {
     const by_quantity error = errors_with(where, -0.25);
-    // Of each element: shear at both ends, moment at both ends.
+    // Each element has shears at both ends, and then moments at both ends.
     const quantity q = where < 2             ? quantity::force
                        : where < 4           ? quantity::reaction
                        : (where - 4) % 4 < 2 ? quantity::shear
                                              : quantity::moment;
     CAPTURE(where);
     CHECK(*error[q] >= 0.25);
-    CHECK(*error[q] <= (where < 4 ? 0.25 : 0.75) * (1 + 1e-8));  // inside its element the line follows it
+    // Inside its element, a moment or shear may differ more from 0 than at the node.
+    CHECK(*error[q] <= (where < 4 ? 0.25 : 0.75) * (1 + 1e-8));
     for (const quantity other : {quantity::force, quantity::reaction, quantity::shear, quantity::moment})
       if (other != q && (where < 4 || other == quantity::force || other == quantity::reaction))
         CHECK(*error[other] == 0.0);
@@ -309,7 +310,7 @@ TEST_CASE("a structure that is not certainly held is not proved, and the reason 
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
       "0\nstiffness = 1e6\n"
-      "[[step]]\npoint = [ { node = 2, w = -1 } ]\n",  // over one pair: the other holds, and takes no force
+      "[[step]]\npoint = [ { node = 2, w = -1 } ]\n",  // pair 1 holds the beam without a force
       "b.toml");
   const linear_structure s = structure_of(p);
   prover_of_path watch(p, s);
@@ -327,14 +328,14 @@ TEST_CASE("the reactions of a fixed dof that settles and has a spring are certif
       "[[support]]\nnode = 3\nfix = \"w\"\n"
       "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.1\nstiffness = 10\n"
       "[[step]]\npoint = [{ node = 2, w = -1 }]\nsettlement = [{ node = 1, w = -0.3 }]\n");
-  CHECK(e.end.numbers.reactions[0] == Approx(-1359.0 / 830).epsilon(1e-15));  // contct exact
+  CHECK(e.end.numbers.reactions[0] == Approx(-1359.0 / 830).epsilon(1e-15));  // from contct exact
   CHECK(e.end.numbers.reactions[2] == Approx(1.5).epsilon(1e-15));
   CHECK(certified(e.end.bounds));
 }
 
 namespace {
 
-/// A beam on its middle alone: faces at its ends are out of reach.
+/// A beam on a pair in its middle, with pairs at its ends that are out of reach.
 std::string balanced(const std::string& loads) {
   return "[beam]\nx = [0, 0.7, 1.4]\nEI = 1e4\n"
          "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e6\n"
@@ -373,7 +374,8 @@ TEST_CASE(
       "pb.toml");
   const linear_structure s = structure_of(p);
   error_prover prover(p, s);
-  const std::vector<double> displacement = {0.0, 1.5e-24, 0.0, 0.0};  // truly 0: the load is at a support
+  // The exact displacements are 0, because the load is at a support.
+  const std::vector<double> displacement = {0.0, 1.5e-24, 0.0, 0.0};
   const error_bounds b = prover.bound({1, displacement, {}, {{}, {1.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}}});
   const std::optional<double> slope = b.error[quantity::slope];
   CHECK((!slope || *slope >= 1.5e-24));
@@ -382,7 +384,7 @@ TEST_CASE(
 TEST_CASE(
     "a matrix is not certified if the last digits of a whole row could free it, even if no single digit "
     "could") {
-  // An arrow: dof 1 is coupled with all others by entries that are written with 6 digits.
+  // Dof 1 is coupled with all other dofs by entries that are written with 6 digits.
   const auto proved = [](int others) {
     problem p;
     assembled a;
@@ -395,7 +397,7 @@ TEST_CASE(
     }
     for (int i = 1; i < n; ++i) {
       a.stiffness.entries.push_back({i, 0, -0.0001});
-      a.stiffness.last_digits.push_back(-2);  // half a unit: 0.005
+      a.stiffness.last_digits.push_back(-2);  // half a unit of this digit is 0.005
     }
     a.rows.resize(n);
     for (int i = 0; i < n; ++i) a.rows[i] = i;

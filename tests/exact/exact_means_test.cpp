@@ -1,4 +1,4 @@
-// Paths that fail in doubles end like exact ones; residuals without rounding.
+// Tests that paths that fail in doubles end like exact paths, and that residuals are exact.
 #include "contct/exact/exact_means.hpp"
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST_CASE(
     "reported") {
   problem p = referee_problem("held-by-a-hair");
   CHECK(judged_run(p, "corrected").end.status == path_status::solved);
-  p.steps[0].points[1].value = -4e-17;  // it tips the other way
+  p.steps[0].points[1].value = -4e-17;  // the load turns the beam the other way
   p.steps[0].points[0].value = 0.032;
   const found_end end = exact_means_of(p)->end_of(1);
   CHECK_FALSE(end.state);
@@ -90,7 +90,7 @@ TEST_CASE("the residual of an exact state is only the rounding of u, and at a fi
     const rational_vector& reactions = path.steps[static_cast<std::size_t>(step) - 1].reactions;
     CHECK((*needed)[0].hi == Approx(contct::rounded(reactions[0])).epsilon(1e-12));
     for (std::size_t dof = 2; dof < u.size(); ++dof, ++checked)
-      CHECK(std::abs((*needed)[dof].hi) < 1e-12);  // 12 EI / h^3 is 1e17 here, times 2^-106
+      CHECK(std::abs((*needed)[dof].hi) < 1e-12);  // 12 EI / h^3 = 1e17 times a rounding of 2^-106
   }
   CHECK(checked == 20);
 }
@@ -102,7 +102,7 @@ TEST_CASE("the residual of a state in 32 digits is exact on either side of a fac
   const rational h = decimal_of(8e-11);
   const rational bends = 12 * decimal_of(7e-4) / (h * h * h);
   const double_double near = contct::long_rounded(face);
-  for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of its last digit
+  for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of the last digit of 32
     std::vector<double_double> u(6, 0.0);
     u[4] = {near.hi, near.lo + off};
     const rational at = binary_value(u[4].hi) + binary_value(u[4].lo);

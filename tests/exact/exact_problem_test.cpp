@@ -1,4 +1,4 @@
-// Exact problems from a problem file's decimals.
+// Tests exact problems made from the decimals of problem files.
 #include "catch.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/read/problem_file.hpp"
@@ -80,7 +80,7 @@ TEST_CASE("in exact arithmetic, element_size makes equal elements between the co
   const exact_problem e =
       of("[beam]\nlength = 1\nelement_size = 0.25\nEI = 1\n" + clamped +
          "[[contact]]\nx = 0.7\nsurface = \"below\"\nface = -1\nstiffness = 1\n" + unloaded);
-  const rational h = rational(7, 30);  // three elements to 0.7, two from there
+  const rational h = rational(7, 30);  // three elements to x = 0.7 and two beyond
   CHECK(e.dofs() == 12);
   CHECK(e.stiffness[1].at(0) == 6 / (h * h));
   CHECK(e.stiffness[10].at(11) == -6 / (rational(3, 20) * rational(3, 20)));
@@ -92,7 +92,7 @@ TEST_CASE("in exact arithmetic, a bed's polynomial face is exact, and so is the 
                              "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);
   CHECK(e.pairs[0].face == rational(-12, 100000));
   CHECK_FALSE(e.pairs[0].closed);
-  // 0.3 - 0.1 x - 0.2 x^2 is -5.6e-17 at 1 in doubles.
+  // In doubles 0.3 - 0.1 x - 0.2 x^2 is -5.6e-17 at x = 1.
   const std::string at_1 = "[beam]\nx = [0, 1]\nEI = 1\n" + bed;
   const exact_problem touches = of(at_1 + "face = { polynomial = [0.3, -0.1, -0.2] }\n" + unloaded);
   CHECK(touches.pairs[0].face == 0);

@@ -1,4 +1,4 @@
-// Proved bounds on extremes inside elements, against lines in rational numbers.
+// Tests proved bounds on extremes inside elements against exact polynomials.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -25,8 +25,8 @@ struct range {
   rational least, most;
 };
 
-/// At both ends, and where the derivative changes its sign between neighbours of 33 places, each bisected
-/// until the value changes by less than 1e-20 of itself.
+/// Takes the values at both ends and at sign changes of the derivative between 33 points, bisected until the
+/// value changes by less than 1e-20 of itself.
 void take_extremes(const rational_vector& p, range& known) {
   const rational_vector slope = derivative_of(p);
   const auto take = [&](const rational& t) {
@@ -72,7 +72,7 @@ outcome outcome_of(const problem& p) {
   return o;
 }
 
-/// The number of extremes compared; each is within the bound of its kind.
+/// Checks that each extreme is within its bound, and returns the number of extremes.
 int check_extremes(const outcome& o) {
   int compared = 0;
   const quantity kinds[] = {quantity::w, quantity::moment, quantity::shear};
@@ -89,8 +89,8 @@ int check_extremes(const outcome& o) {
   return compared;
 }
 
-/// A beam far from x = 0 on three supports and a stop, under a polynomial about its left end, multiplied out.
-/// Hinged: it is clamped, and has a hinge over the stop.
+/// Returns a beam far from x = 0 on three supports and a stop, under a load whose polynomial about the left
+/// end is multiplied out in x. With `hinged` it is clamped and has a hinge over the stop.
 problem far_beam(random_numbers& random, bool hinged = false) {
   const double left = std::pow(10.0, 3 + random.whole(0, 3)) * (1 + random.whole(0, 2));
   const int degree = random.whole(1, 6);

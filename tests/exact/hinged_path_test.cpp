@@ -1,4 +1,4 @@
-// Beams with hinges and sections without rounding.
+// Tests beams with hinges and sections in exact arithmetic.
 #include "catch.hpp"
 #include "contct/exact/path.hpp"
 #include "contct/model/elements.hpp"
@@ -28,7 +28,8 @@ TEST_CASE("The moment at the hinge of a two-span Gerber beam is 0, and its react
   CHECK(forces[4][2] == 0);
   CHECK(forces[3][2] == -60);
   CHECK(forces[3][1] == 20);
-  // With spans of 6 and 2, P = q 4 / 2 at the tip: -(P 2^2 8 / 3 + q 2^3 30 / 24 - q 6^3 2 / 24) / EI.
+  // The hinge is the tip of an overhang of 2 next to a span of 6, with P = q 4 / 2: -(P 2^2 8 / 3 + q 2^3 30
+  // / 24 - q 6^3 2 / 24) / EI.
   CHECK(end.displacement[8] == rational(-400, 3) / 52857);
 }
 

@@ -1,4 +1,4 @@
-// The number of correct digits of a path.
+// Tests the number of correct digits of a kernel's path.
 #include "contct/exact/kernel_digits.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using contct::path_status;
 
 namespace {
 
-/// A cantilever that reaches its stop at a third of the load, and leaves it in the next step.
+/// A cantilever that reaches its stop at a third of the first step's load, and leaves it in the second step.
 struct stop_run {
   contct::problem what = contct::parse_problem(
       "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\n"
@@ -23,7 +23,7 @@ struct stop_run {
       "problem.toml");
   exact_path exactly = follow_corrected_path(exact_problem_of(what));
 
-  /// A path with this error in its first event's share and in the first step's deflection.
+  /// Returns the digits of a path with these errors in its first share and in the first step's deflection.
   [[nodiscard]] kernel_digits with(double share_error, double w_error, change first = change::make,
                                    path_status ended = path_status::solved) const {
     digit_counter counter(what, exactly);

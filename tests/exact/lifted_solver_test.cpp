@@ -1,4 +1,4 @@
-// Exact solutions, one prime digit after the other.
+// Tests exact solutions that are computed digit by digit modulo a prime.
 #include "contct/exact/lifted_solver.hpp"
 
 #include <numeric>
@@ -27,7 +27,7 @@ rational_vector product(const contct::rational_rows& k, const std::vector<added_
   return y;
 }
 
-/// A chain of springs of stiffness 1/3 + i, held nowhere.
+/// Returns a free chain of springs with stiffnesses 1/3 + i.
 contct::rational_rows chain(std::size_t n) {
   contct::rational_rows k(n);
   for (std::size_t i = 0; i + 1 < n; ++i) {

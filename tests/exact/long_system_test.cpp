@@ -1,4 +1,4 @@
-// The equations of a problem in 32 digits, against the same in rational numbers.
+// Tests that a problem's equations in 32 digits equal its equations in rational numbers.
 #include "contct/certify/long_system.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ double off(const double_double& x, const rational& true_value) {
   return std::abs(contct::rounded(exactly(x) - true_value));
 }
 
-/// Compare all numbers of the two systems within their allowed differences.
+/// Compares all numbers of the two systems with their allowed differences, and returns how many there are.
 int compare(const problem& p) {
   const long_system t = long_system_of(p);
   const exact_problem e = exact_problem_of(p);
@@ -82,7 +82,7 @@ TEST_CASE("moments and shears of an element are those of its cubic in 32 digits,
   const problem p =
       parse_problem("[beam]\nx = [100000000, 100000000.1]\nEI = 3.0\n[[step]]\nuniform = 0.0\n", "b.toml");
   const long_system t = long_system_of(p);
-  // w = 1e6 + 1e3 s + s^2 over s = 0 to 1/10
+  // w = 1e6 + 1e3 s + s^2 for s from 0 to 1/10.
   const long_vector u = {1e6, 1e3, double_double(1e6) + 100 + contct::number_of<double_double>(0.01),
                          double_double(1e3) + contct::number_of<double_double>(0.2)};
   const std::vector<element_value> v = t.element_values(1, u);
