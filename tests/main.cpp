@@ -1,4 +1,4 @@
-// Catch2 2 wants one file with its main; Catch2 3 does too when linked without its own.
+// Catch2 2 needs one file that defines its main(); Catch2 3 needs one if its own main is not linked.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_session.hpp>
 int main(int argc, char** argv) {

@@ -94,7 +94,7 @@ TEST_CASE("moments and shears of an element are those of its cubic in 32 digits,
 }
 
 TEST_CASE("shear and moment of a beam's element are at most a factor times the square root of its energy") {
-  // Elements as long as the one before, and as the one after.
+  // An element with equal neighbours, next to a longer or a shorter element.
   for (const char* mesh : {"[0.0, 0.4, 0.8, 2.8]\nEI = [5.0, 5.0, 7.0]", "[0.0, 0.4, 2.4, 4.4]\nEI = 5.0",
                            "[0.0, 2.0, 4.0, 4.4]\nEI = [5.0, 7.0, 7.0]"}) {
     const problem p =
@@ -108,7 +108,7 @@ TEST_CASE("shear and moment of a beam's element are at most a factor times the s
       return sum.hi;
     };
     for (std::size_t e = 0; e < 3; ++e) {
-      // Both ends turn alike, which is all shear, and the element's line is continued unbent to either side.
+      // Both ends rotate alike, which gives the element only shear, and its neighbours move without bending.
       long_vector sheared(8);
       for (std::size_t node = 0; node < 4; ++node) {
         if (node <= e) sheared[2 * node] = x_of(p, node) - x_of(p, e);

@@ -1,4 +1,4 @@
-// Moved faces, and pairs between two dofs, in rational numbers.
+// Tests moved faces, and pairs between two dofs, in exact arithmetic.
 #include <cmath>
 #include <string>
 
@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-// 3 EI / l^3 = 3750 at the tip, k = 50000.
+// A cantilever with 3 EI / l^3 = 3750 at its tip, and a stop with k = 50000.
 const std::string raised_stop =
     "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[contact]]\nnode = "
     "3\n"
@@ -41,7 +41,7 @@ TEST_CASE(
 TEST_CASE("The value and the factor of a face's move are multiplied as decimals") {
   problem p = parse_problem(raised_stop, "p.toml");
   p.steps[0].moves[0].value = 0.1;
-  p.steps[0].moves[0].factor = 0.1;  // their doubles' product is another double than 0.01
+  p.steps[0].moves[0].factor = 0.1;  // in doubles 0.1 * 0.1 differs from 0.01
   CHECK(exact_problem_of(p).steps[0].moved[4] == rational(1, 100));
 }
 

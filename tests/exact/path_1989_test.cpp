@@ -1,4 +1,4 @@
-// The listing's decisions where arithmetic is exact: one call, and a path.
+// Tests the exact 1989 rule in one call and on a path.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -41,8 +41,8 @@ TEST_CASE(
   const std::vector<listing_pair> pairs = {
       open_pair(-1, 0, 0),                // no response
       open_pair(rational(-1, 7), 0, -1),  // advancing
-      open_pair(0, 0, d_star),            // at its face, pushed against it
-      {0, 0, d_star, true, face_below},   // at its face, kept there
+      open_pair(0, 0, d_star),            // at its face, and pressed against it
+      {0, 0, d_star, true, face_below},   // in contact at its face, and still pressed
   };
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s == rational_vector{1, rational(1, 7), 3 * ten_to_minus(20), 1});
@@ -63,8 +63,8 @@ TEST_CASE(
 TEST_CASE("the exact 1989 rule toggles every pair within EPSMUL, but only tied pairs have the least s") {
   const std::vector<listing_pair> pairs = {
       open_pair(rational(-1, 2), 0, -1), open_pair(-2, -1, -2),
-      open_pair(rational(-1, 2) - rational(1, 1024), 0, -1),  // 1/512 later: within 1/256
-      open_pair(rational(-1, 2) - rational(1, 512), 0, -1),   // exactly 1/256 later
+      open_pair(rational(-1, 2) - rational(1, 1024), 0, -1),  // later by 1/512, within EPSMUL
+      open_pair(rational(-1, 2) - rational(1, 512), 0, -1),   // later by exactly EPSMUL
   };
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s[0] == a.s_min);
@@ -84,13 +84,15 @@ TEST_CASE("the exact 1989 rule makes contact with a single stop exactly at its f
 TEST_CASE(
     "by the exact 1989 rule, a pair within EPSMUL is toggled before it touches, and the displacements keep "
     "the error") {
-  // Two stops at one node: 1 is reached at a third, 1.001 within 1/256 of that.
+  // Of two stops at one node, the face at -1 is reached at s = 1/3, and the face at -1.001 within 1/256 of
+  // it.
   const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
                                  "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
-  // At -1.001 it breaks, for a pair in contact has an event wherever it meets its face, and is made again.
+  // Pair 2 is in contact too early, so it breaks when it meets its face at -1.001, and then makes contact
+  // again.
   REQUIRE(path.steps[0].increments.size() == 4);
   CHECK(path.steps[0].increments[0].events.size() == 2);
-  // -9 = 3 w + 3 (w + 1) + 6 (w + 1): the second spring acts from -1 on, not from -1.001, and keeps that
+  // -9 = 3 w + 3 (w + 1) + 6 (w + 1): the second spring acts from -1 instead of -1.001, and keeps this extra
   // force.
   CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < ten_to_minus(19));
 }
@@ -107,7 +109,7 @@ TEST_CASE("the exact 1989 rule toggles a stationary pair after DELTA of the resi
 TEST_CASE("for the exact 1989 rule, a gap below EPSGAP is stationary in any unit of length") {
   const exact_path path =
       listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
-  // Contact is made too early, at a share of DELTA / d*: the true path makes it at 1/20.
+  // Contact is made at a share of DELTA / d*, and not at the true share of 1/20.
   REQUIRE(path.steps[0].increments.size() == 2);
   CHECK(path.steps[0].increments[0].fraction < rational(1, 1000000));
 }
@@ -117,7 +119,7 @@ TEST_CASE(
     "gives") {
   struct divergence {
     const char* name;
-    double error;  // of w at the ends of steps that the rule reaches, relative to the largest
+    double error;  // largest error of w at the ends of steps, relative to the largest w
     bool ends_early;
   };
   for (const auto& [name, error, ends_early] :

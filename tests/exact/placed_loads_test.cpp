@@ -1,4 +1,4 @@
-// Loads that need not follow the mesh in rational numbers, and proved bounds on extremes inside elements.
+// Tests loads between nodes in exact arithmetic, and proved bounds on extremes inside elements.
 #include <algorithm>
 #include <sstream>
 
@@ -13,7 +13,7 @@ using namespace contct;
 
 namespace {
 
-/// The consistent loads of the only step of a beam of one element from 0 to 1.
+/// Returns the nodal forces of the only step of a beam with one element from 0 to 1.
 rational_vector work_of(const std::string& step) {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1]\nEI = 0.3\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\n" + step,
@@ -30,7 +30,7 @@ TEST_CASE("A force at a quarter of an element does the exact work on its cubic s
 
 TEST_CASE(
     "A load on a tenth of an element does exact work, and a curvature does the work of its two end moments") {
-  // q (L - L^3 + L^4 / 2) and so on, from 0 to 1/10.
+  // The integrals of the shape functions from 0 to 1/10, such as L - L^3 + L^4 / 2.
   CHECK(work_of("uniform = [ { value = 1, to = 0.1 } ]\n") ==
         rational_vector{rational(1981, 20000), rational(523, 120000), rational(19, 20000),
                         rational(-37, 120000)});
@@ -43,10 +43,10 @@ namespace {
 
 struct drawn_load {
   std::string text;
-  std::vector<int> places;  // in sixteenths
+  std::vector<int> places;  // in sixteenths of the element
 };
 
-/// Loads that begin, end and act at sixteenths of a beam from 0 to 4.
+/// Returns loads that begin, end and act at sixteenths of a beam from 0 to 4.
 drawn_load draw_load(random_numbers& random) {
   std::ostringstream text;
   drawn_load drawn;

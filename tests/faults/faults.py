@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 PROGRAM, LIBRARY, PLUGIN = (Path(a).resolve() for a in sys.argv[1:4])
-TIMES = 6 if "--more" in sys.argv[4:] else 1  # how often a sample is taken
+TIMES = 6 if "--more" in sys.argv[4:] else 1  # number of samples
 PROBLEM = """title = "Faults"
 [beam]
 x = [0.0, 1.0, 2.0]
@@ -43,7 +43,7 @@ point = [ { dof = "2", value = 2.0 } ]
 STIFFNESS = "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n"
 OUTPUTS = ["--json", "o.json", "--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu", "--log", "o.log",
            "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md"]
-# The error of each system call, and the number of failing calls if not eight.
+# The error number of each system call. SAMPLE has the size of a sample if it is not eight calls.
 ERRORS = {"write": 28, "read": 5, "openat": 13, "close": 5, "rename": 28, "fsync": 5, "pread": 5, "fcntl": 9,
           "lseek": 29, "fchmod": 1, "mkdir": 13}
 SAMPLE = {"write": 24, "openat": 16}
@@ -112,7 +112,7 @@ def call_fails(command: Command, kind: str, number: int, more: bool) -> None:
     status, files, said = command.run(fault)
     new = [line for line in said.splitlines() if line not in command.said.splitlines()]
     check(status in (command.status, 2), f"{what}: exit {status}: {said}")
-    # All later writes fail too: then no message can be written.
+    # If all later writes fail too, no message can be written.
     check(status != 2 or (len(new) == 1 and new[0].startswith("contct: ")) or (more and kind == "write" and not new),
           f"{what}: {len(new)} messages for exit 2: {said}")
     check(status == 2 or files == command.made, f"{what}: exit {status}, but other files: {said}")
@@ -156,10 +156,10 @@ def memory_is_limited(command: Command) -> None:
         status, files, said = command.run({}, limited)
         what = f"{command.name}: {mib} MiB: exit {status}"
         has_begun |= status in (0, 2)
-        if has_begun or status == 127:  # the loader's own message
+        if has_begun or status == 127:  # 127: the message is the loader's
             check(status in (0, 2, 127), f"{what}: {said}")
             check(said.count("\n") == (status != 0), f"{what}: {said}")
-        else:  # before main: glibc's loader does not look whether it got memory, and libgfortran ends with its own message
+        else:  # before main(), where the loader does not check its memory and libgfortran has its own message
             check(status == -signal.SIGSEGV or (status == 1 and said.endswith("Memory allocation failed\n")), f"{what}: {said}")
         command.check_files(what, files)
         counts["solved in little memory" if status == 0 else "ended for memory"] += 1

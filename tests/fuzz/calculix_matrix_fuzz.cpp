@@ -1,4 +1,4 @@
-// The readers of the matrix that CalculiX writes, and of its labels: JOB.dof, a line =====, and JOB.sti.
+// Fuzzes the readers of CalculiX's matrix and its labels. An input is JOB.dof, a line =====, and JOB.sti.
 #include <cmath>
 #include <set>
 

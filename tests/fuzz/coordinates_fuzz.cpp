@@ -1,5 +1,5 @@
-// The reader of coordinates, and what finds the dofs of a matrix by them: coordinates, a line =====, and
-// labels.
+// Fuzzes the reader of coordinates, which places the dofs of a matrix. An input is coordinates, a line =====,
+// and labels.
 #include <cmath>
 #include <set>
 
@@ -11,7 +11,7 @@ namespace {
 using namespace contct::fuzz;
 using namespace contct;
 
-/// A matrix that couples each dof with the next.
+/// Returns a matrix that couples each dof with the next dof.
 assembled chain_of(std::vector<std::string> labels) {
   assembled a;
   a.stiffness.order = static_cast<int>(labels.size());

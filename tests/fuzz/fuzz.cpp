@@ -24,7 +24,7 @@ bool is_read(const std::function<void()>& read) {
     const std::string_view message(e.what());
     require(!message.empty(), "a refusal says why");
     require(message.size() <= longest_message, "a refusal is no longer than a message may be", message);
-    // The name of a missing file is not escaped here, but when the message is printed.
+    // A missing file's name is escaped only when the message is printed.
     require(message.find("cannot be read") != std::string_view::npos ||
                 std::ranges::none_of(message, [](char c) { return static_cast<unsigned char>(c) < 0x20; }),
             "a refusal has one line, without control characters", message);
@@ -38,7 +38,7 @@ std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) 
   for (std::size_t end = 0; parts.size() + 1 < most; text.remove_prefix(end + marker.size())) {
     end = text.find(marker);
     if (end == std::string_view::npos) break;
-    parts.push_back(text.substr(0, end + 1));  // the line end before the marker belongs to the part
+    parts.push_back(text.substr(0, end + 1));  // the part includes its last line end
   }
   parts.push_back(text);
   return parts;

@@ -1,4 +1,4 @@
-// What the fuzzers share: an input as text, and the checks on every refusal.
+// Functions of all fuzzers: an input as text, and the checks of every refusal.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace contct::fuzz {
 
-/// A fuzzer's input as text; it lives as long as `data`.
+/// Returns a fuzzer's input as text, which is valid as long as `data`.
 [[nodiscard]] inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// End the program, which libFuzzer reports with the input, unless `holds`. `words` say what was expected,
-/// `found` what there was.
+/// Ends the program unless `holds`, so that libFuzzer reports the input. The message has `words`, which is
+/// the expectation, and `found`.
 void require(bool holds, std::string_view words, std::string_view found = {});
 
-/// Call `read`; false where it refuses its input. A refusal is an input_error of one line without control
-/// characters, not longer than a message may be; anything else that is thrown ends the program.
+/// Calls `read`, and returns false if it refuses its input. A refusal must be an input_error of one line with
+/// a limited length and without control characters. Any other exception ends the program.
 bool is_read(const std::function<void()>& read);
 
-/// The parts of an input that the marker, on a line of its own, separates: at most `most`, the last one with
-/// the rest. For readers of several files.
+/// Splits an input at lines with the marker into at most `most` parts, one for each file of a reader. The
+/// last part has the rest.
 [[nodiscard]] std::vector<std::string_view> parts_of(std::string_view text, std::size_t most);
 
 }  // namespace contct::fuzz

@@ -1,4 +1,4 @@
-// The reader of meshes in CalculiX's input files.
+// Fuzzes the reader of meshes in CalculiX's input files.
 #include <cmath>
 #include <set>
 

@@ -1,5 +1,5 @@
-// The readers of Matrix Market files, stiffness matrices and load vectors: a matrix that is read and written
-// again is the same.
+// Fuzzes the readers of Matrix Market matrices and load vectors. A matrix that is written must be read as the
+// same matrix.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void require_sound(const sparse_matrix& m) {
   }
 }
 
-/// Every row has its diagonal in such a file, 0 or not.
+/// Returns the file of a matrix. Every row has its diagonal entry, even if it is 0.
 std::string written(const sparse_matrix& m) {
   std::string lines;
   std::vector<char> has_diagonal(m.order, 0);

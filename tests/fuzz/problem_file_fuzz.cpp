@@ -1,4 +1,4 @@
-// The reader of problem files. The files that they name are those of reference/structures.
+// Fuzzes the reader of problem files. Named files are those of reference/structures.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace {
 
-#ifndef CONTCT_REFERENCE  // clang-tidy reads this without the build of fuzzers
+#ifndef CONTCT_REFERENCE  // for clang-tidy, which has no build of the fuzzers
 #define CONTCT_REFERENCE "reference"
 #endif
 
@@ -24,7 +24,7 @@ void check_pairs(const problem& p) {
     require(b.first_pair + b.share.size() <= p.pairs.size(), "a bed's pairs are there");
 }
 
-/// Invariants on which all users of a problem rely.
+/// Checks the invariants of a problem on which its users rely.
 void check(const problem& p) {
   require(nodes(p.geometry) > 0 && !p.steps.empty(), "a problem has nodes and steps");
   const auto is_dof = [&p](int node, int dof) {

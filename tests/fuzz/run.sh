@@ -1,10 +1,10 @@
 #!/bin/sh
-# Feeds every reader with inputs that libFuzzer makes up, under AddressSanitizer and
-# UndefinedBehaviorSanitizer: sh tests/fuzz/run.sh [SECONDS] [NAME]...
-# SECONDS: for each fuzzer, 60 unless given; NAME: of tests/fuzz/targets.txt, all unless given.
-# Inputs are kept in build/fuzz-corpus; CONTCT_CORPUS in the environment names another folder. What is found stays beside them.
-# Exit 0: nothing found; 1: an input that is not handled, takes 10 s or 2.5 GiB, or a fuzzer with too few runs; 2: usage;
-# 77: skipped, clang or libFuzzer cannot be had.
+# Runs libFuzzer on every reader under AddressSanitizer and UndefinedBehaviorSanitizer.
+# usage: sh tests/fuzz/run.sh [SECONDS] [NAME]...
+# SECONDS for each fuzzer: 60 by default; NAME: a fuzzer of tests/fuzz/targets.txt, by default all.
+# Inputs are kept in build/fuzz-corpus or in the folder CONTCT_CORPUS, with any failing input.
+# Exit 0: no failure; 1: an input fails, takes 10 s or 2.5 GiB, or a fuzzer had too few runs; 2: usage; 77: skipped,
+# clang or libFuzzer is missing.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh
@@ -35,7 +35,8 @@ fi
 corpora=${CONTCT_CORPUS:-build/fuzz-corpus}
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=malloc_context_size=6
 
-# fuzz NAME LONGEST LEAST SEED|OPTION..: libFuzzer would cut a seed in two that is longer than an input may be.
+# fuzz NAME LONGEST LEAST SEED|OPTION..: runs a fuzzer. A seed longer than LONGEST is skipped, because libFuzzer would
+# cut it.
 fuzz() {
   name=$1 longest=$2 least=$(($3 * seconds / 60))
   shift 3

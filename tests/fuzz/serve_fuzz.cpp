@@ -1,5 +1,5 @@
-// The functions of the C interface, their options made up: a line that names the function, then its options
-// as JSON.
+// Fuzzes the options of the C interface. An input is a line with the function's name, and then its options in
+// JSON.
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace contct::fuzz;
 
-/// The answer to one request, with a problem of six dofs.
+/// Returns the answer of a function for a problem of six dofs.
 std::string answer_to(std::string_view function, const std::string& options) {
   using asked = char* (*)(const char*, const char*);
   constexpr std::array<std::pair<std::string_view, asked>, 5> functions = {{{"run", contct_run},
@@ -33,7 +33,7 @@ std::string answer_to(std::string_view function, const std::string& options) {
   return "";
 }
 
-/// Names of kernels may be commands and libraries, which are not to be run here.
+/// Returns true if the options could name a command or a library as a kernel, which the fuzzer must not run.
 bool names_a_command(std::string_view options) {
   return options.find('\\') != std::string_view::npos || options.find("pipe") != std::string_view::npos ||
          options.find("plugin") != std::string_view::npos;

@@ -1,4 +1,4 @@
-// The reader of traces: a trace that is read and written again is the same.
+// Fuzzes the reader of traces. A trace that is written must be read as the same trace.
 #include "contct/kernel/trace.hpp"
 #include "fuzz/fuzz.hpp"
 
@@ -13,7 +13,7 @@ struct read_trace {
 };
 
 read_trace read_whole(std::string_view text) {
-  constexpr std::size_t most_dofs = 100'000;  // two calls of millions take all the time there is
+  constexpr std::size_t most_dofs = 100'000;  // in all calls together, for speed
   trace_reader reader(text, "f.trace");
   read_trace all{reader.read_header(), {}};
   recorded_call c;

@@ -13,7 +13,7 @@ using contct::face_below;
 using contct::in_contact;
 using contct::separated;
 
-/// The state of one pair: D, d*, c, ISEP, ISURF.
+/// The state of one pair: D, d*, c, ISEP and ISURF.
 template <class Real>
 struct pair_at {
   Real dd, dtest, cc;
@@ -21,7 +21,7 @@ struct pair_at {
   int isurf = face_above;
 };
 
-/// Pair i at node i + 1, one dof a node.
+/// Returns a call with pair i at node i + 1 and one dof a node.
 template <class Real>
 call_inputs<double> at_own_nodes(const std::vector<pair_at<Real>>& pairs) {
   call_inputs<double> in;
@@ -50,7 +50,7 @@ class cases {
  private:
   static constexpr int bytes = sizeof(Real);
   static std::string named(const std::string& name) { return name + (bytes == 4 ? "-r4" : ""); }
-  /// A decimal number as every machine reads it: no power function has a say.
+  /// Returns a decimal number, without a power function whose rounding depends on the machine.
   static Real decimal(const std::string& text) {
     return static_cast<Real>(std::strtod(text.c_str(), nullptr));
   }
@@ -66,9 +66,9 @@ class cases {
   static inline const Real tiny = limits::denorm_min();
   static inline const Real half = Real(0.5);
   static constexpr Real subnormal_gap =
-      bytes == 4 ? Real(1e-6) : Real(1e-9);  // divided by the largest number
+      bytes == 4 ? Real(1e-6) : Real(1e-9);  // subnormal after division by the largest number
   static constexpr Real gap_of_tiny =
-      bytes == 4 ? Real(0x1p-21) : Real(0x1p-50);  // divided by the largest number: the smallest
+      bytes == 4 ? Real(0x1p-21) : Real(0x1p-50);  // the smallest number after division by the largest number
 
   golden_trace quiet() const {
     return {named("quiet"),
@@ -198,7 +198,8 @@ class cases {
          one("two events exactly at full load: none", {{0, 1, 1}, {0, 2, 2}})}};
   }
 
-  /// Two pairs on dofs of their own kind, decoys in between.
+  /// Returns a call with two pairs, whose other dofs have decoy values, so that a wrong address changes the
+  /// answer.
   static golden_call laid_out(int indof, int ndofpn, int first, int second) {
     call_inputs<double> in;
     in.dof = {indof, ndofpn};
@@ -225,7 +226,7 @@ class cases {
         {}};
     for (const int ndofpn : {1, 2, 3, 6})
       for (int indof = 1; indof <= ndofpn; ++indof) t.calls.push_back(laid_out(indof, ndofpn, 2, 4));
-    t.calls.push_back(laid_out(3, 2, 1, 2));  // INDOF beyond NDOFPN addresses the dof of the formula
+    t.calls.push_back(laid_out(3, 2, 1, 2));  // INDOF beyond NDOFPN still addresses the dof of the formula
     t.calls.push_back(laid_out(1, 2, 5, 1));
     t.calls.push_back(laid_out(2, 3, 3, 3));
     t.calls.push_back(laid_out(1, 1, 1, 5));
@@ -280,7 +281,7 @@ class cases {
     const int least = bytes == 4 ? -30 : -290;
     for (int decade = 0; decade >= least; decade -= decade > -12 ? 1 : 26) {
       const auto s = decimal("0.123456E" + std::to_string(decade));
-      // A pair at its face has s = DELTA / d*; the others need a gap that EPSGAP does not see.
+      // A gap below EPSGAP would count as zero, with s = DELTA / d*, so a small s needs a large response.
       const Real response = decade > -9 ? Real(1) : Real(1e-3) / s;
       t.calls.push_back(one("a scale factor of about 1e" + std::to_string(decade),
                             {{0, response, decade > -9 ? s : Real(1e-3)}}));
@@ -316,7 +317,7 @@ class cases {
     return t;
   }
 
-  /// The numbers of pairs overflow, too.
+  /// Returns a call with pair numbers above 999, which overflow I3.
   static golden_call thousand_pairs() {
     golden_call c{"a thousand pairs on one node; the last is toggled, and its number is ***", {}};
     c.in.dd = {0.0, 0.0};
@@ -329,7 +330,7 @@ class cases {
     return c;
   }
 
-  /// reference/DIVERGENCES.md, way 5.
+  /// Way 5 of reference/DIVERGENCES.md.
   golden_trace inconsistent() const {
     const Real deep = decimal("0.1");
     return {

@@ -1,4 +1,4 @@
-// The golden set: calls that reach every outcome of every IF of the listing, and every edge of its numbers.
+// The golden set: calls with every outcome of every IF of the listing, and at every limit of its numbers.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct golden_call {
   contct::call_inputs<double> in;
 };
 
-/// A trace of the golden set: reference/traces/<name>.trace.
+/// A trace of the golden set, written to reference/traces/NAME.trace.
 struct golden_trace {
   std::string name;
   int real_bytes;
@@ -22,11 +22,11 @@ struct golden_trace {
   std::vector<golden_call> calls;
 };
 
-/// All of them, in both precisions. The traces of whole paths are not among these: their inputs come from
-/// solves, and reference/traces/paths.sh recorded them.
+/// Returns the traces of calls in both precisions. tests/golden/paths.sh records the traces of whole paths,
+/// whose inputs come from solves.
 std::vector<golden_trace> all_traces();
 
-/// What such a trace looks like, answered by the 1989 code of this build.
+/// Returns the text of such a trace with the answers of the 1989 code in this build.
 std::string recorded(const golden_trace& t);
 
 }  // namespace golden

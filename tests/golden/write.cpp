@@ -1,4 +1,4 @@
-// Writes the golden set to a folder: contct_golden reference/traces
+// Writes the golden set to a folder. usage: contct_golden reference/traces
 #include <cstdio>
 #include <exception>
 

@@ -1,4 +1,4 @@
-// Calls beyond the limits of 32-bit whole numbers.
+// Tests calls beyond the limits of 32-bit integers.
 #include "contct/kernel/call.hpp"
 
 #include <limits>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int least = std::numeric_limits<int>::min();
 
-/// The check's verdict on one pair at the second of two dofs, or "accepted".
+/// Returns the message about a call with one pair at dof 2 of 2, or "accepted".
 std::string verdict(int id, dof_layout layout, int isep, int isurf) {
   const call_inputs<double> in{{0.0, 0.0}, {1.0, 1.0}, {0.5}, {id}, {isep}, {isurf}, layout};
   call_outputs out;
@@ -49,7 +49,8 @@ TEST_CASE("a call is refused if a dof is outside its arrays, or inside them only
         "computed "
         "within 32 bits");
   CHECK_THAT(verdict(0, {1, 1}, 1, 1), Contains("found ID 0, which is dof 0"));
-  CHECK_THAT(verdict(65537, {1, 65536}, 1, 1), Contains("which is dof 4294967297"));  // 1 in 32 bits
+  // 1 after a 32-bit overflow.
+  CHECK_THAT(verdict(65537, {1, 65536}, 1, 1), Contains("which is dof 4294967297"));
   CHECK_THAT(verdict(65537, {-2147483647, 32768}, 1, 1), Contains("which is dof 1 with INDOF -2147483647"));
   CHECK_THAT(verdict(least, {1, 0}, 1, 1), Contains("which is dof 1 with INDOF 1 and NDOFPN 0"));
 }

@@ -1,4 +1,4 @@
-// Commands that crash, hang or answer nonsense: the failure is reported, and the run continues.
+// Tests that a command that crashes, hangs or gives a wrong answer is reported, and that the run continues.
 #include <sys/stat.h>
 
 #include <fstream>
@@ -10,7 +10,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A command that answers every call that nothing happens to its two pairs.
+/// A command that answers every call of two pairs with no event.
 const std::string well_behaved =
     "while read -r line; do [ \"$line\" = ask ] && "
     "printf 'smin 0x1p+0\\npair 1 ss 0x1p+0 isep 1\\npair 2 ss 0x1p+0 isep -1\\nend\\n'; done";
@@ -24,7 +24,7 @@ std::string put_to_pipe(const std::string& command) {
 TEST_CASE("a second answer to a call is not used as the answer to the next call") {
   const leftovers left;
   {
-    // The second answer comes after the first was read, and the next call is asked after it was written.
+    // The command writes its second answer after the first was read; the next call comes after that.
     const scratch_folder folder;
     const std::string go = folder.at("go");
     const std::string said = folder.at("said");

@@ -1,4 +1,4 @@
-// Facts about contact, one call at a time.
+// Tests the C++ kernel of the 1989 rule, one call at a time.
 #include "contct/kernel/contct.hpp"
 
 #include <limits>
@@ -10,7 +10,7 @@ using namespace contct;
 
 TEMPLATE_TEST_CASE("a pair makes contact at the share of the load that brings it to its face (eq. 4)", "",
                    float, double) {
-  // 1 of 4 units of the test response are used up when the structure meets the face below it.
+  // The structure meets the face below it after 1 of the 4 units of its response.
   small_call<TestType> c({{TestType(-1), TestType(-4), TestType(-2), apart, below}});
   c.ask();
   CHECK(c.smin == TestType(0.25));
@@ -20,7 +20,7 @@ TEMPLATE_TEST_CASE("a pair makes contact at the share of the load that brings it
 }
 
 TEMPLATE_TEST_CASE("a pair in contact separates at the share that eq. 4 gives", "", float, double) {
-  // Pressed to D = -3 against a face at -2, lifted by 4: after a quarter it passes the face.
+  // The pair is at D = -3, below its face at -2, and rises by 4, so it passes the face at a quarter.
   small_call<TestType> c({{TestType(-3), TestType(4), TestType(-2), touching, below}});
   c.ask();
   CHECK(c.smin == TestType(0.25));
@@ -35,10 +35,10 @@ TEST_CASE("the s of eq. 4 is the same for a face above and a face below") {
 }
 
 TEST_CASE("a pair has no event if its face is out of reach or behind it, or if it does not respond") {
-  small_call<double> c({{0.0, -1.0, -2.0, apart, below},    // s = 2, beyond the load
+  small_call<double> c({{0.0, -1.0, -2.0, apart, below},    // s = 2, beyond full load
                         {0.0, 1.0, -2.0, apart, below},     // s = -2, moving away
                         {0.0, 0.0, -2.0, apart, below},     // d* = 0
-                        {0.0, -1.0, -1.0, apart, below}});  // s = 1: exactly at full load
+                        {0.0, -1.0, -1.0, apart, below}});  // s = 1, exactly at full load
   c.ask();
   CHECK(c.smin == 1.0);
   CHECK(c.events.empty());
@@ -58,15 +58,15 @@ TEMPLATE_TEST_CASE("a stationary pair separates at once if it is pulled, at an s
                    "", float, double) {
   using Real = TestType;
   small_call<Real> c({{Real(0), Real(0.5), Real(0), touching, below},     // pulled off its face
-                      {Real(0), Real(-0.5), Real(0), touching, below},    // pressed on: quiet
+                      {Real(0), Real(-0.5), Real(0), touching, below},    // pressed: no event
                       {Real(0), Real(-0.5), Real(0), apart, below},       // pushed towards its face: makes
-                      {Real(0), Real(0.25), Real(0), touching, below}});  // pulled, but less
+                      {Real(0), Real(0.25), Real(0), touching, below}});  // pulled with a smaller response
   c.ask();
   CHECK(c.smin == Real(2) * constants<Real>::delta);
   CHECK(c.smin < Real(1e-19));
   CHECK(c.ss[1] == Real(1));
   CHECK(c.ss[3] == Real(4) * constants<Real>::delta);
-  // The largest |d*| wins, whether it makes or breaks.
+  // The pair with the largest |d*| has the least s, for a make and for a break.
   CHECK(c.events == std::vector<event>{{0, change::break_}, {2, change::make}});
 }
 
@@ -88,23 +88,23 @@ TEMPLATE_TEST_CASE(
     return c.ask().events.size();
   };
   CHECK(ask(half) == 2);
-  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // has not reached its face, and makes contact all the same
+  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // it makes contact before its face
   CHECK(ask(edge) == 1);
   CHECK(ask(std::nextafter(edge, Real(1))) == 1);
 }
 
 TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257, a defect of the listing") {
-  // Pair 2 is on a fixed dof, d* = 0, a unit away from its face; it ends "in contact".
+  // Pair 2 is at a fixed dof, d* = 0, one unit from its face, and is still toggled.
   small_call<double> c({{0.0, 1.0, 0.9999, apart, above}, {0.0, 0.0, -1.0, apart, below}});
   c.ask();
   CHECK(c.smin == 0.9999);
   CHECK(c.isep == std::vector<int>{touching, touching});
 }
 
-// An initial state that its faces contradict: problem files refuse it (reference/DIVERGENCES.md, way 5).
+// Problem files refuse such an initial state (reference/DIVERGENCES.md, way 5).
 TEST_CASE("a pair that starts beyond its face gets the wrong status at its event, without an error") {
   small_call<double> pressed({{0.0, -1.0, 0.1, apart, below}});  // the face is inside the structure
-  CHECK(pressed.ask().smin == 1.0);                              // which ends 1.1 deep
+  CHECK(pressed.ask().smin == 1.0);                              // the structure ends 1.1 beyond the face
   CHECK(pressed.ss[0] == -0.1);
   small_call<double> leaves({{0.0, 1.0, 0.1, apart, below}});
   CHECK(leaves.ask().smin == 0.1);
@@ -115,11 +115,11 @@ TEST_CASE("a pair that starts beyond its face gets the wrong status at its event
 }
 
 TEST_CASE("EPSGAP is an absolute length, so that every gap counts as zero in small units") {
-  // The same structure in units in which it measures 1e-10: a real gap is taken for contact at rest.
+  // In units in which the structure measures 1e-10, a real gap counts as zero.
   small_call<double> c({{0.0, -4e-11, -1e-11, apart, below}});
   c.ask();
-  CHECK(c.smin < 1e-8);          // and not 0.25
-  CHECK(c.isep[0] == touching);  // in contact a whole gap too early
+  CHECK(c.smin < 1e-8);          // the right s is 0.25
+  CHECK(c.isep[0] == touching);  // the pair has not reached its face
 }
 
 TEST_CASE("a call with NaN has no event") {
@@ -132,7 +132,7 @@ TEST_CASE("a call with NaN has no event") {
 }
 
 TEST_CASE("a pair's dof is found through ID, INDOF and NDOFPN, and one node may have several pairs") {
-  // Two nodes of three dofs each; the second dof deflects.
+  // Two nodes have three dofs each, of which the second deflects.
   std::vector<double> dd(6, 0.0);
   std::vector<double> dtest = {9, 9, 9, 9, 2.0, 9};
   std::vector<double> cc = {1.0, -1.0};

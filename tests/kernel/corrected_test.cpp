@@ -1,4 +1,4 @@
-// The corrected rule, one call at a time.
+// Tests the corrected kernel, one call at a time.
 #include <cmath>
 #include <limits>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// The one event of a call, from its statuses before and after.
+/// Returns the event of a call, from its statuses before and after; the test fails if there are several.
 std::optional<event> event_between(const std::vector<int>& before, const std::vector<int>& after) {
   std::optional<event> found;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -25,7 +25,7 @@ std::optional<event> event_between(const std::vector<int>& before, const std::ve
   return found;
 }
 
-/// A call answered by the corrected rule.
+/// A call answered by the corrected kernel.
 struct answered : small_call<double> {
   std::optional<event> happened;
 
@@ -46,7 +46,7 @@ std::optional<event> breaks(int pair) {
   return event{pair, change::break_};
 }
 
-/// A pair anywhere: at its face, before it, a rounding or more beyond it, quiet or not.
+/// Returns a random pair at its face, before it or beyond it by rounding or more, with or without a response.
 pair_at<double> random_pair(random_numbers& r) {
   pair_at<double> p{};
   p.isep = r.chance(0.5) ? apart : touching;
@@ -64,7 +64,7 @@ std::vector<pair_at<double>> random_pairs(random_numbers& r) {
   return pairs;
 }
 
-/// Random pairs, and the same with each pair `changed`, have one answer.
+/// Checks that random pairs and the same pairs after `changed` have the same answer.
 template <class Change>
 void check_unchanged(const Change& changed) {
   random_numbers r(101);
@@ -103,11 +103,11 @@ TEST_CASE(
 }
 
 TEST_CASE("the corrected kernel makes contact only on approach, and breaks contact only on retreat") {
-  // Each of these has s in (0, 1) by eq. 4 and the wrong direction: it is past its face, and comes back.
-  const answered c({{-3.0, 4.0, -2.0, apart, below},      // separated, below its face, on its way up
-                    {3.0, -4.0, 2.0, apart, above},       // the same above
-                    {-1.0, -4.0, -2.0, touching, below},  // in contact, above its face, on its way down
-                    {1.0, 4.0, 2.0, touching, above}});   // the same above
+  // By eq. 4 each pair has an s in (0, 1), but it returns from beyond its face.
+  const answered c({{-3.0, 4.0, -2.0, apart, below},      // separated, below its face, moving up
+                    {3.0, -4.0, 2.0, apart, above},       // the same for a face above
+                    {-1.0, -4.0, -2.0, touching, below},  // in contact, above its face, moving down
+                    {1.0, 4.0, 2.0, touching, above}});   // the same for a face above
   CHECK(c.happened == nothing);
   CHECK(c.smin == 1.0);
   CHECK(c.ss == std::vector<double>{1, 1, 1, 1});
@@ -117,11 +117,11 @@ TEST_CASE("the corrected kernel makes contact only on approach, and breaks conta
 TEST_CASE(
     "the corrected kernel has no event without a response or at full load and beyond, and all s are 1") {
   const answered c({{0.0, -1.0, -1.0, apart, below},      // exactly at full load
-                    {0.0, -1.0, -2.0, apart, below},      // beyond it
+                    {0.0, -1.0, -2.0, apart, below},      // beyond full load
                     {0.0, 1.0, -2.0, apart, below},       // moving away
                     {0.0, 0.0, -2.0, apart, below},       // no response
                     {0.0, 0.0, 0.0, apart, below},        // no response at its face
-                    {-1.0, 0.0, 0.0, touching, below}});  // pressed, no response
+                    {-1.0, 0.0, 0.0, touching, below}});  // pressed, without a response
   CHECK(c.happened == nothing);
   CHECK(c.smin == 1.0);
   CHECK(c.ss == std::vector<double>(6, 1.0));
@@ -133,11 +133,11 @@ TEST_CASE("the corrected kernel's answer does not depend on the places of the pa
   for (int round = 0; round < 2000; ++round) {
     const std::vector<pair_at<double>> pairs = random_pairs(random);
     const answered in_order(pairs);
-    // The same pairs at nodes from the last to the first, three dofs a node, of which the second deflects.
+    // The pairs are at nodes in reverse order with three dofs a node, of which the second deflects.
     small_call<double> elsewhere(pairs);
     const std::size_t n = pairs.size();
     elsewhere.dd.assign(3 * n, 77.0);
-    elsewhere.dtest.assign(3 * n, 9e30);  // a rotation does not affect which response is negligible
+    elsewhere.dtest.assign(3 * n, 9e30);  // rotations do not count as the largest response
     for (std::size_t i = 0; i < n; ++i) {
       elsewhere.id[i] = static_cast<int>(n - i);
       elsewhere.dd[3 * (n - 1 - i) + 1] = pairs[i].d;
@@ -167,7 +167,7 @@ TEST_CASE("the corrected kernel counts a face as reached if it is overshot by an
 }
 
 TEST_CASE("the corrected kernel treats a gap of any size as a gap") {
-  // The listing takes everything below 1e-10 for contact at rest.
+  // The listing treats every gap below 1e-10 as zero.
   const answered c({{0.0, -4e-11, -1e-11, apart, below}});
   CHECK(c.smin == 0.25);
   const answered tiny({{0.0, -4e-300, -1e-300, apart, below}});
@@ -176,13 +176,13 @@ TEST_CASE("the corrected kernel treats a gap of any size as a gap") {
 
 TEST_CASE("the corrected kernel ignores an approach of less than 1e-10 of the largest response") {
   const auto ask = [](double d_star, int isep) {
-    // A pair at its face, next to a pair that responds by 1 and has no event.
+    // The first pair is at its face; the second has a response of 1 and no event.
     return answered({{0.0, isep * -d_star, 0.0, isep, below}, {0.0, 1.0, -5.0, apart, below}}).happened;
   };
-  CHECK(ask(1e-10, apart) == nothing);  // at the threshold itself
+  CHECK(ask(1e-10, apart) == nothing);  // exactly at the threshold
   CHECK(ask(std::nextafter(1e-10, 0.0), apart) == nothing);
   CHECK(ask(std::nextafter(1e-10, 1.0), apart) == makes(0));
-  // A break is never too small: it would lock in a force.
+  // A break is never ignored, because it would lock in a force.
   CHECK(ask(1e-10, touching) == breaks(0));
   CHECK(ask(1e-200, touching) == breaks(0));
   CHECK(ask(std::numeric_limits<double>::denorm_min(), touching) == breaks(0));
@@ -191,7 +191,7 @@ TEST_CASE("the corrected kernel ignores an approach of less than 1e-10 of the la
 TEST_CASE("the corrected kernel's largest response is that of all pairs, above or below, in any status") {
   for (const int isep : {apart, touching}) {
     for (const double other : {-1.0, 1.0}) {
-      // The other pair's event is far ahead, or already passed.
+      // The other pair has no event in this call.
       const double face = isep * other > 0 ? 9.0 : -9.0;
       const answered c({{0.0, -1e-11, 0.0, apart, below}, {0.0, other, face * isep, isep, above}});
       CHECK(c.happened == nothing);

@@ -66,7 +66,7 @@ TEST_CASE("each reading of unit 26 returns exactly the text written since the re
   const std::string line = "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n";
   std::size_t characters = 0;
   for (int take = 0; take < 3000; ++take) {
-    // A power of two now and then: a whole number of the blocks in which the file is read.
+    // 8192 calls are a whole number of the blocks in which the file is read.
     const int calls = take % 1000 == 999 ? 8192 : take % 20;
     std::string written;
     for (int i = 0; i < calls; ++i) {
@@ -111,7 +111,7 @@ TEST_CASE("a signal at any moment leaves no file of unit 26") {
 
 TEST_CASE("COMMON /DOF/ is set for every call, so that calls from several threads do not mix") {
   const auto many = [](int indof, bool& right) {
-    // Node 1 has dofs 1..3; only dof `indof` responds.
+    // Node 1 has the dofs 1 to 3, of which only dof `indof` responds.
     const std::vector<double> dd(3, 0.0);
     std::vector<double> dtest(3, 0.0);
     dtest[static_cast<std::size_t>(indof) - 1] = 4.0;

@@ -1,4 +1,4 @@
-// The facts and answers of every kernel, and kernels by name: built in, plug-ins and commands.
+// Tests the facts and answers of all kernels, and the names of built-in kernels, plug-ins and commands.
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -31,7 +31,7 @@ TEST_CASE("every built-in kernel can be created, and its facts have name, precis
     CHECK(k->facts().name == name);
     CHECK((k->facts().real_bytes == 4 || k->facts().real_bytes == 8));
     CHECK_FALSE(k->facts().compiler.empty());
-    // The facts can be had without the kernel, and while it lives.
+    // The facts are available without creating the kernel.
     const kernel_facts facts = facts_of_kernel(name);
     CHECK(facts.name == name);
     CHECK(facts.real_bytes == k->facts().real_bytes);

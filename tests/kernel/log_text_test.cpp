@@ -12,7 +12,7 @@ using namespace contct;
 
 namespace {
 
-/// The texts of gfortran and C++ for one pair, at `node`, with this gap and response.
+/// Returns the texts of gfortran and C++ for one pair at `node` with this gap and response.
 template <class Real>
 std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
   small_call<Real> c({{Real(0), response, gap, separated, face_above}});
@@ -75,13 +75,14 @@ TEMPLATE_TEST_CASE("the C++ kernel's text rounds digits as gfortran does, from t
                                Real(1) - std::numeric_limits<Real>::epsilon() / 2};
   for (int e = 1; e < std::numeric_limits<Real>::max_exponent10; ++e)
     factors.push_back(Real(1) / Real(3) * std::pow(Real(10), Real(-e)));
-  // Ties of the decimal rounding: multiples of 2^-17 with five digits after the fourth.
+  // Ties of the decimal rounding: multiples of 2^-17, whose decimals continue with a 5 after the fourth
+  // digit.
   for (int i = 1; i < 400; ++i)
     factors.push_back(static_cast<Real>(i) / Real(131072) * Real(4) + Real(0.0078125));
   int checked = 0;
   for (const Real s : factors) {
     if (!(s > Real(0) && s < Real(1))) continue;
-    const auto [f, cpp] = texts(Real(1), Real(1) / s, 1);  // gap 1: never stationary
+    const auto [f, cpp] = texts(Real(1), Real(1) / s, 1);  // a gap of 1 is never stationary
     REQUIRE(cpp == f);
     ++checked;
   }

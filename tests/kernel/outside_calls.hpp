@@ -1,4 +1,4 @@
-// Calls to external kernels, and the files and processes that they leave behind.
+// Calls to external kernels, and checks of the files and processes that these leave.
 #pragma once
 
 #include <sys/wait.h>
@@ -25,13 +25,13 @@ inline outside_limits short_patience() {
   return limits;
 }
 
-/// A call whose first face tells misbehaves.c what to do.
+/// Returns a call whose first face selects a fault of misbehaves.c.
 inline small_call<double> call_for(double fault) {
   return small_call<double>(
       {{0.5, 2.0, fault, separated, face_above}, {0.0, 1.0, 4.0, in_contact, face_below}});
 }
 
-/// The reported failure of a kernel; empty if it answered correctly that there is no event.
+/// Returns the reported failure of a kernel, or an empty text if it answers correctly that there is no event.
 inline std::string put(kernel& k, double fault) {
   small_call<double> c = call_for(fault);
   call<double> arguments = c.arguments();
@@ -51,13 +51,13 @@ inline long open_descriptors() {
   return count;
 }
 
-/// Counts the files and processes that a kernel leaves behind.
+/// Checks that a kernel leaves no open file and no child process.
 class leftovers {
  public:
   void check() const {
     CHECK(open_descriptors() == descriptors_);
     errno = 0;
-    CHECK(waitpid(-1, nullptr, WNOHANG) == -1);  // no child, running or dead
+    CHECK(waitpid(-1, nullptr, WNOHANG) == -1);  // no child process exists
     CHECK(errno == ECHILD);
   }
 

@@ -1,4 +1,4 @@
-// A function of this process as a kernel.
+// Tests a function of this process as a kernel.
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
 #include "contct/kernel/child_kernel.hpp"

@@ -1,5 +1,5 @@
-// Plug-ins that crash, hang, write outside their outputs or cannot be loaded: the failure is reported, and
-// the run continues.
+// Tests that a plug-in that crashes, hangs, writes outside its outputs or cannot be loaded is reported, and
+// that the run continues.
 #include <fcntl.h>
 
 #include <csignal>
@@ -28,7 +28,7 @@ std::string why_refused(const std::string& path) {
   return "nothing";
 }
 
-/// The current folder is a folder of the test's own while this object lives: FORTRAN writes fort.26 there.
+/// Changes to a new folder while this object lives, since FORTRAN writes fort.26 to the current folder.
 class in_own_folder {
  public:
   in_own_folder() { std::filesystem::current_path(folder_.path()); }
@@ -43,7 +43,7 @@ class in_own_folder {
   scratch_folder folder_;
 };
 
-/// The file descriptor `stream`, led to a file while this object lives.
+/// Redirects the file descriptor `stream` to a file while this object lives.
 class caught_stream {
  public:
   explicit caught_stream(int stream) : stream_(stream), kept_(dup(stream)), file_(std::tmpfile()) {
@@ -80,7 +80,7 @@ TEST_CASE("a plug-in that hangs three times is stopped, and not started again") 
       CHECK(put(*k, behaves).empty());
       CHECK_THAT(put(*k, hangs), Contains("it did not answer within 500 ms"));
     }
-    left.check();  // the child that did not answer has ended, and no other is started
+    left.check();  // the hanging child has ended, and no other is started
     CHECK_THAT(put(*k, behaves), Contains("not called again after 3 failures; the last: it did not answer"));
     left.check();
   }
@@ -90,7 +90,7 @@ TEST_CASE("a plug-in that hangs three times is stopped, and not started again") 
 TEST_CASE("a plug-in is not called again after the allowed number of quick failures, 1000 by default") {
   const leftovers left;
   {
-    outside_limits limits;  // forty stand for the thousand: under a sanitizer each takes a while
+    outside_limits limits;  // 40 failures instead of 1000, which take long under a sanitizer
     CHECK(limits.most_failures == 1000);
     limits.most_failures = 40;
     const auto k = make_plugin(plugin("misbehaves"), limits);
@@ -207,7 +207,8 @@ TEST_CASE("a plug-in's printed output goes to standard error") {
   const caught_stream out(STDOUT_FILENO);
   const caught_stream err(STDERR_FILENO);
   std::string words;
-  (void)std::fputs("not yet printed", stdout);  // the child has a copy of this, and must not print it
+  // The child has a copy of this buffer, which it must not print.
+  (void)std::fputs("not yet printed", stdout);
   {
     const auto k = make_plugin(plugin("misbehaves"), short_patience());
     words = put(*k, talks) + put(*k, exits_0);

@@ -1,5 +1,5 @@
-// Calls as text: calls are read back to the bit; the allowed forms of a trace, and the refusal of anything
-// else with file and line, what was found and what is allowed.
+// Tests traces: calls are read to the bit as they were written, all allowed forms are read, and everything
+// else is refused with file and line.
 #include "contct/kernel/trace.hpp"
 
 #include <bit>
@@ -18,7 +18,7 @@ namespace {
 
 using limits = std::numeric_limits<double>;
 
-/// Numbers of every kind, both signs of each.
+/// Returns numbers of every kind, each with both signs.
 std::vector<double> numbers() {
   std::vector<double> all;
   for (const double x : {0.0, 1.0, 0.1, 1.0 / 3.0, limits::min(), limits::max(), limits::denorm_min(),
@@ -28,7 +28,7 @@ std::vector<double> numbers() {
     all.push_back(x);
     all.push_back(-x);
   }
-  // And bits as they come, of every exponent.
+  // Random bits give numbers of every exponent.
   std::uint64_t bits = 1989;
   for (int i = 0; i < 2000; ++i) {
     bits = bits * 6364136223846793005U + 1442695040888963407U;
@@ -37,7 +37,7 @@ std::vector<double> numbers() {
   return all;
 }
 
-/// A call with every number as a deflection, a response and a face, and an answer of the same.
+/// Returns a call that has each number as a deflection, a response, a face and an s.
 recorded_call call_with(const std::vector<double>& x) {
   recorded_call c;
   c.number = 1;
@@ -115,7 +115,7 @@ struct read_result {
   std::string refused;  // the message, or empty
 };
 
-/// Read all there is. Anything but an input_error leaves this function, and the test fails.
+/// Reads a whole trace. Any exception except an input_error fails the test.
 read_result read_all(const std::string& text) {
   read_result r;
   trace_reader reader(text, "bad.trace");
@@ -129,7 +129,7 @@ read_result read_all(const std::string& text) {
   return r;
 }
 
-/// The good trace with its first `from` replaced.
+/// Returns the good trace with its first `from` replaced by `to`.
 std::string with(const std::string& from, const std::string& to) {
   std::string text = good;
   const std::size_t at = text.find(from);
@@ -140,7 +140,7 @@ std::string with(const std::string& from, const std::string& to) {
 struct attack {
   std::string what;
   std::string text;
-  int line;           // of the refusal; 0 if the text has none
+  int line;           // the line of the refusal, 0 for an empty text
   std::string found;  // required part of the message
 };
 
@@ -223,7 +223,8 @@ std::vector<attack> attacks() {
   };
 }
 
-/// Is `message` one line of the form FILE:LINE: found ...; allowed: ...? An empty text has no line.
+/// Returns true if `message` is one line FILE:LINE: found ...; allowed: ... The line is missing for an empty
+/// text.
 bool well_formed(const std::string& message) {
   const std::string file = "bad.trace";
   const std::size_t found = message.find(": found ");
@@ -235,7 +236,7 @@ bool well_formed(const std::string& message) {
          (line[0] == ':' && line.size() > 1 && line.find_first_not_of("0123456789", 1) == std::string::npos);
 }
 
-/// The reader's value of one number.
+/// Returns the number that the reader finds in a trace with this word.
 double read_number(const std::string& word) {
   const std::string text = "call 1\nindof 1 ndofpn 1 dofs 1 nc 1\ndof 1 dd " + word +
                            " dtest 1\npair 1 id 1 isep 1 isurf 1 cc 1\nask\n";
@@ -263,7 +264,7 @@ TEST_CASE("numbers of every kind are read from a trace as they were written, to 
   for (const double x : numbers()) {
     c.out.smin = x;
     CHECK(same_bits(read_back(written(c)).out.smin, x));
-    if (std::isnan(x)) break;  // the special ones have been
+    if (std::isnan(x)) break;  // the special numbers come before the random bits
   }
 }
 
@@ -343,7 +344,7 @@ TEST_CASE("a trace that is cut anywhere is refused, except between its calls") {
     const read_result r = read_all(good.substr(0, length));
     if (r.refused.empty()) {
       ++whole;
-      // Between calls, or in the header, where no call remains to be replayed.
+      // The rest is complete if it ends between calls, or in the header, which then has no calls.
       const bool behind_call_1 = length >= good.find("\n\ncall 2") && length <= good.find("call 2");
       const bool behind_call_2 = length >= good.size() - 1;
       CHECK(r.calls == (behind_call_2 ? 2 : behind_call_1 ? 1 : 0));

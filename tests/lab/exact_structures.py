@@ -151,7 +151,7 @@ class Beam:
         h, (w0, slope0, w1, slope1) = self.x[e + 1] - self.x[e], u[2 * e : 2 * e + 4]
         pieces, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
         missing, turn = w1 - w, slope1 - slope
-        if e + 1 in self.hinges:  # the slope at its right end is its own: without moment there instead
+        if e + 1 in self.hinges:  # the hinge at its right end has no moment, and the slope there is free
             _, length, line = pieces[-1]
             bent = at(line["moment"], length)
             shear = -3 * self.EI[e] * (missing + bent * h**2 / (2 * self.EI[e])) / h**3
@@ -203,7 +203,7 @@ class Plate:
     """A plate's problem: x, y [grid lines], D, nu."""
 
     dofs = ("w", "wx", "wy")
-    # Of the element's w: x^i y^j.
+    # The exponents (i, j) of the terms x^i y^j of an element's w.
     monomials = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3), (3, 1), (1, 3))
 
     def __init__(self, problem):

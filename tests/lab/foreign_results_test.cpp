@@ -1,4 +1,4 @@
-// The numbers of another program, judged by a small table.
+// Tests the judgement of another program's numbers by a small table.
 #include "contct/lab/foreign_results.hpp"
 
 #include "catch.hpp"
@@ -21,7 +21,7 @@ expected_number number(std::string quantity, std::string exact, int node = 0, in
   return e;
 }
 
-/// Two deflections, with two sources for the first, two forces, a state and a count.
+/// Two deflections, the first with two sources, two forces, a state and a number of contacts.
 std::vector<verification_case> small_table() {
   expected_number state = number("state", "separated", 0, 2);
   state.value = separated;
@@ -40,7 +40,7 @@ foreign_results judged(const std::string& entries, const std::string& tolerance 
   return judge_results(file, small_table());
 }
 
-/// The refusal, without the file's folder.
+/// Returns the message about these entries, without the file's folder.
 std::string refused(const std::string& entries, const std::string& tolerance = "1e-3") {
   std::string said = "accepted";
   try {

@@ -1,4 +1,4 @@
-// A found case as a trace; app/fuzz_test.cpp reads the result of a run.
+// Tests the trace of a found case. app/fuzz_test.cpp tests the result of a run.
 #include "catch.hpp"
 #include "contct/lab/fuzz.hpp"
 #include "contct/lab/random_calls.hpp"
@@ -7,7 +7,7 @@ using namespace contct;
 
 namespace {
 
-/// A case of one adversarial call with a few pairs.
+/// Returns a case of one adversarial call with a few pairs.
 found_case a_case() {
   call_source source(1989, 8);
   std::uint64_t number = 2;

@@ -1,5 +1,5 @@
-// Fuzz runs on calls and on whole problems: their counts, their report on a follower that differs, and the
-// missing counts of a run that compared too little.
+// Tests fuzz runs on calls and on whole problems: their counts, their report on a different follower, and
+// their failure if too little was compared.
 #include "contct/lab/fuzz.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ fuzz_result of_calls(std::vector<std::string> kernels, std::int64_t calls = 1, i
   return run_fuzz({std::move(kernels), calls, 0, 5, shard, shards}).result;
 }
 
-/// An answered call with one pair at its face and one a unit away.
+/// An answered call in which a pair at its face breaks and a pair one unit away makes contact.
 struct two_toggles {
   std::vector<double> dd = {0.0, 0.0}, dtest = {1.0, 1.0}, cc = {1e-11, 1.0}, ss = {0.5, 0.5};
   std::vector<int> id = {1, 2}, before = {in_contact, separated}, after = {separated, in_contact},
@@ -69,7 +69,7 @@ TEST_CASE("a fuzz run counts events by kind, and those of pairs within EPSGAP of
   two_toggles t;
   fuzz_result r;
   r.count(t.c, t.before);
-  r.count(t.c, t.after);  // nothing toggled
+  r.count(t.c, t.after);  // a call without events
   CHECK(r.calls == 2);
   CHECK(r.events.make == 1);
   CHECK(r.events.break_ == 1);

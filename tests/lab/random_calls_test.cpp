@@ -1,4 +1,5 @@
-// Random and adversarial calls are near the listing's thresholds, and the same everywhere.
+// Tests that adversarial calls are near the listing's thresholds, and that calls are the same on every
+// machine.
 #include "contct/lab/random_calls.hpp"
 
 #include <array>
@@ -14,7 +15,7 @@ using namespace contct;
 
 namespace {
 
-/// A number that says whether two calls are the same.
+/// Returns a hash of a call.
 std::uint64_t digest(const call_inputs<double>& in) {
   std::uint64_t sum = in.pairs();
   const auto mix = [&sum](double x) {
@@ -36,7 +37,7 @@ TEMPLATE_TEST_CASE(
     double) {
   using Real = TestType;
   random_calls<Real> source(1989);
-  std::map<branch, std::array<int, 3>> near;  // exactly on it; true and false by one ULP
+  std::map<branch, std::array<int, 3>> near;  // on the threshold; true and false by one ULP
   std::vector<Real> ss;
   std::vector<int> isep;
   std::vector<event> events;
@@ -60,7 +61,7 @@ TEMPLATE_TEST_CASE(
     CHECK(near[b][0] >= 20);
     CHECK(near[b][1] + near[b][2] >= 20);
   }
-  CHECK(near[branch::within_epsmul][0] >= 20);  // one ULP of SS is many of DIFF, whose numbers are closer
+  CHECK(near[branch::within_epsmul][0] >= 20);  // one ULP of SS changes DIFF by many ULPs
   CHECK(near[branch::check_positive][0] >= 20);
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("a random call depends only on its seed and its number") {
     call_source other(8, real_bytes);
     int same = 0;
     for (std::uint64_t n = 1; n <= 200; ++n) same += digest(other.at(n)) == seen[n] ? 1 : 0;
-    CHECK(same < 10);  // except calls without pairs
+    CHECK(same < 10);  // calls without pairs are the same
   }
 }
 

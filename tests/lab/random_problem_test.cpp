@@ -1,5 +1,5 @@
-// Random problems have their declared properties, and thousands of them are judged. The floors keep a check
-// from passing because there was nothing to check.
+// Tests that random problems have their declared properties, and judges thousands of them. Minimum counts
+// ensure that enough was checked.
 #include "contct/lab/random_problem.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ const beam* beam_of(const random_problem& p) {
   return std::get_if<beam>(&p.geometry.kind);
 }
 
-/// Most of a problem's numbers, in a row.
+/// Returns most of a problem's numbers.
 std::vector<double> numbers_of(const random_problem& p) {
   std::vector<double> all{p.unit, static_cast<double>(nodes(p.geometry))};
   for (const contact_pair& c : p.pairs) {
@@ -59,7 +59,7 @@ TEST_CASE("a random problem depends only on its seed and its number, and no two 
 }
 
 TEST_CASE("random problems of fixed seeds do not change between versions") {
-  // Faces went through a solve, and units through pow: they are compared loosely.
+  // Faces come from a solve and units from pow(), so their last digits are not compared.
   struct pinned {
     std::uint64_t seed, number;
     bool held;
@@ -104,7 +104,7 @@ TEST_CASE("every random problem has valid supports, pairs and steps") {
     REQUIRE_FALSE(p.pairs.empty());
     for (const contact_pair& c : p.pairs) {
       CHECK((c.node >= 0 && c.node < count));
-      // If no other node is drawn, it is the middle one, fixed or not.
+      // A pair is at a fixed node only if no other node was drawn; this is the middle node.
       CHECK((!fixed.contains(c.node) || c.node == count / 2));
       CHECK((c.surface == face_above || c.surface == face_below));
       CHECK(c.stiffness > 0.0);
@@ -112,7 +112,7 @@ TEST_CASE("every random problem has valid supports, pairs and steps") {
       CHECK(c.closed == (c.face == 0.0));
     }
     CHECK((!p.steps.empty() && p.steps.size() <= 5));
-    // A load on the middle is its own mirror image: it is left out.
+    // An antisymmetric problem has no load in the middle, so its first step may be empty.
     CHECK((!is_nothing(p.steps[0]) || p.layout == face_layout::antisymmetric));
     for (const load& l : p.steps) {
       for (const point_load& f : l.points) {

@@ -1,4 +1,5 @@
-// Mismatches are made small: fewer calls, fewer pairs, rounder numbers, and the answers still differ.
+// Tests that a mismatch is shrunk to fewer calls, fewer pairs and rounder numbers that still give different
+// answers.
 #include <cmath>
 
 #include "catch.hpp"
@@ -10,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// Does some pair of the call come to a face above it from below, at less than a third?
+/// Returns true if a pair of the call in contact has an s between 0.1 and 1/3.
 bool approaches(const call_inputs<double>& in) {
   for (std::size_t i = 0; i < in.pairs(); ++i) {
     const std::size_t dof = in.dof_of_pair(i);
@@ -43,7 +44,7 @@ TEST_CASE("a difference that needs one pair of one call is shrunk to this pair, 
   CHECK(small[0].dof.ndofpn == 1);
   CHECK(small[0].dd[0] == 0.0);
   CHECK(small[0].dtest[0] == 1.0);
-  CHECK(std::abs(small[0].cc[0] * 10 - std::round(small[0].cc[0] * 10)) < 1e-12);  // one digit is enough
+  CHECK(std::abs(small[0].cc[0] * 10 - std::round(small[0].cc[0] * 10)) < 1e-12);  // one digit
   CHECK(small[0].isurf[0] == face_above);
 }
 
@@ -80,7 +81,7 @@ TEST_CASE("a mismatch is reproduced with new kernels, and the case has the leade
   const auto leader = make_kernel("fortran");
   const fresh_kernel in_single_precision = [] { return make_kernel("cpp-r4"); };
   const call_sequence calls = some_calls(3);
-  // Single precision answers otherwise: its numbers are another kernel's to these calls.
+  // Single precision gives different answers to these calls, like another kernel.
   const auto found = reproduce(*leader, in_single_precision, calls, "");
   REQUIRE(found);
   CHECK(found->what.call == 3);

@@ -1,4 +1,4 @@
-// Paths, certificates and kernels in many threads at once. Under ThreadSanitizer (preset tsan) a data race
+// Tests paths, certificates and kernels in many threads. Under ThreadSanitizer (preset tsan) a data race
 // fails the test.
 #include <atomic>
 #include <thread>
@@ -27,8 +27,8 @@ TEST_CASE("sixteen threads follow different paths, and each gets the same answer
   random_problem_kind kind;
   kind.most_elements = 8;
   kind.most_lines = 3;
-  // The result of thread t for its problem i. Unit 26 belongs to the whole process: one thread has the
-  // listing.
+  // Returns the result of thread t for its problem i. Only one thread uses the listing, because unit 26
+  // belongs to the whole process.
   const auto result_of = [&](std::size_t t, std::size_t i) {
     const random_problem p = make_random_problem(2026, t * problems + i + 1, kind);
     const char* const leader = t == 0 ? "fortran" : (t + i) % 2 == 0 ? "cpp" : "corrected";

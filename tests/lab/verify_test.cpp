@@ -1,4 +1,4 @@
-// Measurements and judgements of contct verify; app/verify_test.cpp verifies every problem.
+// Tests the measurements and judgements of contct verify. app/verify_test.cpp verifies every problem.
 #include "contct/lab/verify.hpp"
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 const std::filesystem::path reference = CONTCT_REFERENCE;
 
-/// A problem of the reference, and FORTRAN's path through it.
+/// A reference problem and FORTRAN's path.
 struct followed {
   explicit followed(const char* name) : p(read_problem((reference / "problems" / name).string())) {
     path.go({});
@@ -44,7 +44,7 @@ TEST_CASE("verification.toml lists exactly the files of reference/problems") {
 
 namespace {
 
-/// A number of one third, exactly known.
+/// Returns a number with the exact value 1/3.
 expected_number third() {
   expected_number e;
   e.quantity = "w";
@@ -54,7 +54,7 @@ expected_number third() {
   return e;
 }
 
-/// The error of read_verification for a table of one check with these lines; empty if it is accepted.
+/// Returns the error of read_verification for a table with these lines in its only check, or an empty text.
 std::string refusal_of(const std::string& lines) {
   const scratch_folder here;
   const std::string file = here.write(
@@ -91,7 +91,7 @@ TEST_CASE(
   CHECK(exact_disagreement(e, 1.0 / 3 + 1e-9, 1e-8).empty());
   CHECK_THAT(exact_disagreement(e, 1.0 / 3 + 1e-7, 1e-8), Contains("exactly 1/3; allowed: 1e-08 apart"));
   CHECK_THAT(exact_disagreement(e, std::nan(""), 1e-8), Contains("computed nan"));
-  // Without a certificate's measure, the table's tolerance holds.
+  // Without a certificate the table's tolerance applies.
   CHECK(exact_disagreement(e, 0.333334, 0.0).empty());
   CHECK_THAT(exact_disagreement(e, 0.33334, 0.0), Contains("allowed: 3e-06 apart"));
   e.value = 0.333;
@@ -176,12 +176,12 @@ TEST_CASE(
   tip.tolerance = 2e-9;
   expected_number wrong = tip;
   wrong.value *= 1 + 1e-8;
-  expected_number differs = wrong;  // FORTRAN's value is right, and the corrected kernel's is not
+  expected_number differs = wrong;  // FORTRAN's value is right, and the corrected kernel's is wrong
   differs.faithful = tip.value;
   expected_number exact = tip;
   exact.exact = "-26/5375";
   expected_number wrongly_exact = exact;
-  wrongly_exact.tolerance = 1.0;  // so that the certificate alone is close
+  wrongly_exact.tolerance = 1.0;  // so that only the certified accuracy detects the error
   wrongly_exact.exact = "-27/5375";
   const verified_case c = verify_case({"a file", {tip, wrong, differs, exact, wrongly_exact}}, p);
   CHECK(c.failure.empty());

@@ -100,7 +100,7 @@ class ExactPath:
         if " " in quantity:
             *place, bound, what = quantity.split(" ")
             value, places = self.structure.extreme(u, number, what, bound == "max")
-            # If a symmetric structure has two such places, the table may name either.
+            # A symmetric structure may have the extreme at several places, of which the table may name any.
             return min(places, key=lambda x: abs(x - check["value"])) if place else value
         return self.structure.place(u, number, quantity, check["element"], check.get("end", check.get("corner")))
 

@@ -10,10 +10,10 @@ import struct
 import sys
 
 APART, TOUCHING, ABOVE, BELOW = 1, -1, 1, -1
-EDGE = 0.00390625  # EPSMUL. Multiples of it are exact, so a tie can be placed on its edge and one bit beside it.
+EDGE = 0.00390625  # EPSMUL: multiples of it are exact, so a tie can be exactly at EPSMUL or one bit beside it
 TIE = 0.5 * (1.0 + EDGE)
 
-# A pair: its node, D and D* at its dof, its face, ISEP on entry, ISURF. Two pairs at one node must agree in D and D*.
+# A pair is (node, D, D*, face, ISEP on entry, ISURF). Two pairs at one node must have the same D and D*.
 
 
 def makes_at(node, s):
@@ -31,7 +31,7 @@ def at_face(node, d_star, isep, isurf):
     return node, 0.0, d_star, 0.0, isep, isurf
 
 
-SINGLE_PAIRS = {  # the first has a single pair at node 1: the one call that `DIMENSION X(1)` allows
+SINGLE_PAIRS = {  # the first call alone is possible with `DIMENSION X(1)`
     "one pair at node 1 makes": [makes_at(1, 0.5)],
     "one pair at node 1, out of reach": [makes_at(1, 2.0)],
     "no pairs": [],
@@ -89,7 +89,7 @@ STATIONARY_PAIRS = {
     "a gap of EPSGAP": [(2, 0.0, -1.0, -1.0e-10, APART, BELOW)],
     "overshot by less than EPSGAP": [(2, -0.999e-10, -1.0, 0.0, APART, BELOW)],
     "a stationary factor with an exponent of three digits": [at_face(2, -1.0e100, APART, BELOW)]}
-LAYOUTS = {  # INDOF and NDOFPN behind the pairs
+LAYOUTS = {  # (pairs, INDOF, NDOFPN)
     "two dofs a node, the second deflects": ([makes_at(2, 0.5), breaks_at(5, 0.25)], 2, 2),
     "two dofs a node, the first deflects": ([makes_at(2, 0.5), breaks_at(5, 0.25)], 1, 2),
     "three dofs a node, the third deflects": ([makes_at(1, 0.5), makes_at(6, 0.75)], 3, 3),
@@ -100,7 +100,7 @@ LAYOUTS = {  # INDOF and NDOFPN behind the pairs
     "node 1000 of three dofs breaks": ([breaks_at(1000, 0.5)], 2, 3)}
 BATTERY = {name: (pairs, 1, 1) for name, pairs in {**SINGLE_PAIRS, **SEVERAL_PAIRS, **TIES, **STATIONARY_PAIRS}.items()} | LAYOUTS
 
-FOREIGN, UNSET = 77.0, -5.0  # what no call may touch or leave behind: dofs of no pair, and SS and SMIN on entry
+FOREIGN, UNSET = 77.0, -5.0  # D and D* of dofs without pairs; SS and SMIN on entry
 
 
 def ask(contct, common, pairs, indof, ndofpn):

@@ -1,7 +1,6 @@
 # cmake -DLISTING=fortran/contct.f -DCHECKSUM=reference/contct.f.sha256 -P checksum.cmake
-#
-# Fails when LISTING is not, byte for byte, the file whose SHA-256 is written in CHECKSUM.
-get_filename_component(LISTING "${LISTING}" ABSOLUTE)  # a script resolves names from its working folder
+# Fails unless the SHA-256 of LISTING is the one in CHECKSUM.
+get_filename_component(LISTING "${LISTING}" ABSOLUTE)  # a script's working folder is the base of relative names
 file(STRINGS "${CHECKSUM}" line LIMIT_COUNT 1)
 file(SHA256 "${LISTING}" found)
 if(NOT line STREQUAL "${found}  fortran/contct.f")

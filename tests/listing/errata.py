@@ -36,7 +36,7 @@ def try_out(source, options):
     """A copy, compiled and put to the battery."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "copy.f").write_text(source)
-        # The linker requires a definition of CONTCT, so that a subroutine of another name does not pass.
+        # The linker requires a definition of CONTCT, so that a subroutine of another name fails.
         compiled = subprocess.run([FORTRAN, "-shared", "-fPIC", "-fdefault-real-8", "-ffp-contract=off", "-std=legacy", "-ffixed-form",
                                    "-Wl,--require-defined=contct_", *options, "copy.f", "-o", "copy.so"],
                                   cwd=folder, capture_output=True, text=True, timeout=60, check=False)

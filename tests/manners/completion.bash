@@ -1,10 +1,10 @@
-# completion.bash PROGRAM SCRIPT: what bash offers, in a real bash.
+# completion.bash PROGRAM SCRIPT: tests the completions of SCRIPT in bash.
 set -eu
 program=$1
 # shellcheck source=/dev/null
 source "$2"
 
-# offered WORDS...: what comes for the last of these words.
+# offered WORDS...: prints the completions of the last word.
 offered() {
   COMP_WORDS=("$program" "${@:2}")
   COMP_CWORD=$(($# - 1))
@@ -12,7 +12,7 @@ offered() {
   echo "${COMPREPLY[*]-}"
 }
 
-# expect WANTED WORDS...
+# expect WANTED WORDS...: checks that WANTED are the completions of the last of WORDS.
 failures=0
 expect() {
   local wanted=$1 got

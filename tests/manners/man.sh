@@ -1,5 +1,5 @@
-# man.sh SCRIPT ROOT CHECKER...: the manual pages of the packages are ones that CHECKER has nothing to say of, and have every
-# heading and every key of the pages that they are made of.
+# man.sh SCRIPT ROOT CHECKER...: makes the manual pages of the packages. CHECKER must accept them, and they must have
+# every heading and key of the pages from which they are made.
 set -eu
 script=$1
 root=$2
@@ -10,7 +10,7 @@ count=0
 for page in "contct 1 running" "contct-problem 5 problem-file" "contct-result 5 result-file"; do
   # shellcheck disable=SC2086
   set -- $page "$@"
-  made=$folder/$1.$2 # mandoc takes what stands behind the point for the section
+  made=$folder/$1.$2 # mandoc takes the section from the file's extension
   source=$root/reference/$3.md
   python3 "$script" "$1" "$2" "what it is" 1.0.0 2000-01-01 "$source" >"$made"
   shift 3

@@ -30,10 +30,10 @@ stiffness = 1.0e4
 [[step]]
 uniform = -1.0
 """
-# Nothing holds this beam at first: the exact path begins with a rigid-body motion, and ends in a mechanism.
+# Nothing holds this beam, so its exact path begins with a rigid-body motion and ends in a mechanism.
 FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
 
-# The keys that contct_bench writes for CHOLMOD alone: none in a build without it.
+# The keys that contct_bench writes for CHOLMOD; a build without CHOLMOD writes none of them.
 OF_PEERS = {"method", "steps", "digits", "wrong_statuses", "values"}
 
 

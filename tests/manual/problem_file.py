@@ -21,7 +21,7 @@ BEAM = "[beam]\nlength = 2\nelements = 2\n%s\n"
 PLATE = "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0\n"
 MATRIX = '[matrix]\nstiffness = "frame.mtx"\n'
 STRUCTURES = {"beam": BEAM % "EI = 1", "plate": PLATE, "matrix": MATRIX}
-# Each section with a table of keys, and such a table; %s is replaced by the key that does not exist.
+# Each section with a table of keys, and a TOML table of this kind, in which %s is replaced by an unknown key.
 OWN_TABLES = {
     "Top level": (None, "%s\n[beam]\n"),
     "`[units]`": (None, "[units]\n%s\n[beam]\n"),
@@ -154,7 +154,7 @@ def examples(text):
             continue
         is_whole = b.text in whole.values()
         base = whole[structure_of(b.text) or "beam"]
-        if "[[case]]" in b.text:  # combinations stand in the place of steps
+        if "[[case]]" in b.text:  # combinations replace the steps
             base = "".join(text for name, text in chunks(base) if name != "step")
         problem = b.text if is_whole else merged(base, b.text)
         yield b.line, problem, behind.text if behind and behind.language == "text" else None
@@ -174,7 +174,7 @@ def wrong_example(run, line, problem, message):
         return None
     if status == 0 and not said:
         status, said = run("run", problem)
-    if "[plate]" in problem and ", under a point load: " in said:  # true of any plate with one
+    if "[plate]" in problem and ", under a point load: " in said:  # right for any plate with a point load
         said = ""
     if status or said:
         return f"line {line}: found exit status {status} and \"{said.strip()}\"; allowed: 0 and nothing\n{problem}"

@@ -17,7 +17,7 @@ from documented import first_difference, objects, parsed, result_of, same, seen_
 from manual import blocks
 
 
-# No reference problem's path is given up.
+# Every state of a reference problem is reached by its path.
 UNSEEN = {("A step", "ended_by")}
 LEAST_RUNS, LEAST_KEYS = 134, 255
 

@@ -17,7 +17,7 @@ extern "C" void dpbcon_(const char* uplo, const int* n, const int* kd, const dou
 
 namespace {
 
-/// A simply supported beam of `n` elements of length h.
+/// Returns a simply supported beam of `n` elements of length h.
 linear_structure simple_span(int n, double h) {
   const std::vector<support> ends = {{0, 0, true}, {n, 0, true}};
   return build(even_beam(n * h, n, 1.0), ends, {});
@@ -55,7 +55,7 @@ TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
   for (const int n : {1, 2, 7, 50, 400}) {
     const linear_structure s = simple_span(n, 1.0);
     const double ours = rcond_of(s);
-    // dpbcon on the same scaled matrix.
+    // Computes the estimate by dpbcon for the same scaled matrix.
     stiffness_matrix scaled = s.stiffness;
     std::vector<double> d;
     for (const double entry : scaled.diagonal_with({})) d.push_back(1.0 / std::sqrt(entry));
@@ -78,7 +78,7 @@ TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
 }
 
 TEST_CASE("the condition number of a 2 by 2 matrix is exact") {
-  band_matrix a(2, 1);  // 1 .5 / .5 1: norm 1.5, inverse 4/3 (1 -.5 / -.5 1) of norm 2
+  band_matrix a(2, 1);  // scaled [[1, .5], [.5, 1]]: norm 1.5, its inverse 2
   a.add(0, 0, 4.0);
   a.add(1, 1, 25.0);
   a.add(1, 0, 5.0);
@@ -105,6 +105,6 @@ TEST_CASE("LAPACK is identified by its version and the library that contains dpb
   CHECK(identity.rfind("LAPACK 3.", 0) == 0);
   const std::size_t comma = identity.find(", ");
   REQUIRE(comma != std::string::npos);
-  CHECK(identity.find('/') == std::string::npos);  // its folder is left out
+  CHECK(identity.find('/') == std::string::npos);  // the library is named without its folder
   CHECK(identity.size() > comma + 2);
 }

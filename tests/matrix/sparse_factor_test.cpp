@@ -1,4 +1,4 @@
-// Only where CHOLMOD is built in.
+// Tests sparse factors; compiled only with CHOLMOD.
 #include "contct/matrix/sparse_factor.hpp"
 
 #include <algorithm>

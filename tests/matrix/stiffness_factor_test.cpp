@@ -1,4 +1,5 @@
-// One stiffness in two storages, factored by two libraries. Only where CHOLMOD is built in.
+// Tests that a band factored by LAPACK and sparse columns factored by CHOLMOD agree; compiled only with
+// CHOLMOD.
 #include "catch.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "support/matrices.hpp"
@@ -38,7 +39,7 @@ TEST_CASE("a matrix that is not positive definite has no factor as a band and in
   CHECK_FALSE(f.factor({}));
   CHECK(f.reciprocal_condition({}) == 0.0);
   const std::vector<spring_at> enough = {{20, 10.0}};
-  CHECK(f.factor(enough));  // and the failure leaves nothing behind
+  CHECK(f.factor(enough));  // the failed factorisation has no effect on this
 }
 
 TEST_CASE(

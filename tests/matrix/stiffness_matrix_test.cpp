@@ -1,4 +1,4 @@
-// One stiffness in two storages: every function gives the same answer.
+// Tests that every function gives the same answer for a matrix as a band and by columns.
 #include "contct/matrix/stiffness_matrix.hpp"
 
 #include "catch.hpp"
@@ -96,8 +96,8 @@ TEST_CASE("a band stores the entry (row, column) of its lower half at column * (
   a.add(2, 2, 7.0);
   CHECK(a.at(1, 0) == 5.0);
   CHECK(a.at(2, 2) == 7.0);
-  CHECK(a.data()[1] == 5.0);  // second place of column 0
-  CHECK(a.data()[4] == 7.0);  // first place of column 2
+  CHECK(a.data()[1] == 5.0);  // position 1 of column 0
+  CHECK(a.data()[4] == 7.0);  // position 0 of column 2
 }
 
 namespace {
@@ -114,7 +114,7 @@ TEST_CASE("a product with a band uses both triangles of the matrix") {
 TEST_CASE("the order of rows determines the width of a band, its memory and the positions of its entries") {
   CHECK(subdiagonals_of(small, {}) == 2);
   CHECK(bytes_of_band(small, {}) == 3L * 3 * 8);
-  const std::vector<int> rows = {0, 2, 1};  // row 2 of the matrix next to row 0
+  const std::vector<int> rows = {0, 2, 1};  // row 2 of the matrix is next to row 0
   CHECK(subdiagonals_of(small, rows) == 1);
   CHECK(bytes_of_band(small, rows) == 3L * 2 * 8);
   const band_matrix band = band_of(small, rows);
@@ -132,7 +132,7 @@ TEST_CASE("entries in any order become columns in ascending order, each with its
   CHECK(k.order() == 4);
   CHECK(k.starts == std::vector<int>{0, 2, 5, 6, 7});
   CHECK(k.rows == std::vector<int>{0, 3, 1, 2, 3, 2, 3});
-  CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 has nothing on its diagonal
+  CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 has no diagonal entry in the file
 }
 
 TEST_CASE("the columns of a band omit its zeros, except those on the diagonal") {
