@@ -1,5 +1,4 @@
-// A structure of which only the matrix is known: its properties, and the rigid-body motions that it leaves
-// free.
+// Tests a structure given by its matrix: its properties and its rigid-body motions.
 #include "catch.hpp"
 #include "contct/model/rigid_modes.hpp"
 #include "support/beams.hpp"
@@ -9,7 +8,7 @@ using namespace contct;
 
 namespace {
 
-/// Its elements are 0.5 long.
+/// Returns a beam with elements of length 0.5.
 beam beam_of(int elements) {
   return even_beam(0.5 * elements, elements, 3e4);
 }
@@ -23,7 +22,7 @@ plate small_plate() {
   return p;
 }
 
-/// The same structure by its matrix alone.
+/// Returns the same structure given by its matrix.
 linear_structure by_matrix(const linear_structure& s, std::span<const support> supports,
                            std::vector<contact_pair> pairs) {
   assembled a;
@@ -32,7 +31,7 @@ linear_structure by_matrix(const linear_structure& s, std::span<const support> s
   return build(a, supports, std::move(pairs));
 }
 
-/// A pair at a dof of a matrix.
+/// Returns a pair at a dof of a matrix.
 contact_pair at_dof(int dof) {
   return {dof, -1, 0.0, 1.0, true};
 }
@@ -118,7 +117,7 @@ TEST_CASE("a pair at a dof that no rigid-body motion moves removes no rigid-body
   body.stiffness = braced(box_at(0), 1e5);
   std::vector<support> only_x_is_left;
   for (const int dof : {2, 5, 8, 1, 4})
-    only_x_is_left.push_back({dof, 0, true});  // z at three corners, y at two
+    only_x_is_left.push_back({dof, 0, true});  // z at three corners and y at two
   REQUIRE(build(body, only_x_is_left, {}).rigid_motions == 1);
   for (const int dof : {7, 10, 14, 20, 23}) CHECK(rank_of(build(body, only_x_is_left, {at_dof(dof)})) == 0);
   CHECK(rank_of(build(body, only_x_is_left, {at_dof(21)})) == 1);
@@ -131,8 +130,8 @@ TEST_CASE(
   CHECK(by_matrix(build(beam_of(1000), {}, {}), clamp, {}).rigid_motions == 0);
   assembled longer;
   longer.stiffness = entries_of(build(beam_of(2500), {}, {}));
-  CHECK(build(longer, clamp, {}).rigid_motions == 0);     // 1.3e-14, against 1e-16 of doubles
-  for (const matrix_entry& e : longer.stiffness.entries)  // to 14 digits
+  CHECK(build(longer, clamp, {}).rigid_motions == 0);     // 1.3e-14 exceeds the 1e-16 of doubles
+  for (const matrix_entry& e : longer.stiffness.entries)  // entries of 14 digits
     longer.stiffness.last_digits.push_back(
         static_cast<std::int16_t>(std::floor(std::log10(std::abs(e.value))) - 13));
   CHECK(build(longer, clamp, {}).rigid_motions > 0);
@@ -182,6 +181,6 @@ TEST_CASE("the order of a matrix's rows changes neither its rigid-body motions n
   l.points.push_back({0, 0, 3.0});
   const std::vector<double> r = reactions(a, l, supports, u);
   REQUIRE(r.size() == 2);
-  CHECK(r[0] == -3.0);  // nothing deforms near it: the load goes into the support
+  CHECK(r[0] == -3.0);  // no element deforms, so the support has the whole load
   CHECK(r[1] == 12.5);
 }

@@ -1,4 +1,4 @@
-// Hermite beams against what every textbook has.
+// Tests Hermite beams against textbook formulas.
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -22,9 +22,10 @@ TEST_CASE("a cantilever under a tip load P has the deflection P L^3 / 3 EI and l
   CHECK(u[8] == Approx(-3.0 * 8 / 150).epsilon(1e-13));
   CHECK(u[9] == Approx(-3.0 * 4 / 100).epsilon(1e-13));
   const element_results forces = results_in_elements(b, l, u);
-  CHECK(forces.at(0, 1)[0] == Approx(-6.0).epsilon(1e-12));  // hogging: negative
+  CHECK(forces.at(0, 1)[0] == Approx(-6.0).epsilon(1e-12));  // hogging is negative
   CHECK(forces.at(1, 1)[1] == Approx(-3.0).epsilon(1e-12));
-  for (std::size_t e = 0; e < forces.elements(); ++e)  // the support pushes up on what lies right of the cut
+  // The shear is positive if the left part pushes the right part up.
+  for (std::size_t e = 0; e < forces.elements(); ++e)
     for (const double shear : forces.at(e, 0)) CHECK(shear == Approx(3.0).epsilon(1e-12));
   const auto r = reactions(b, l, clamped_left, u);
   CHECK(r[0] == Approx(3.0).epsilon(1e-12));
@@ -39,7 +40,7 @@ TEST_CASE(
   const auto u = displaced(b, ends, l);
   CHECK(u[6] == Approx(-5.0 * 2 * 1e4 / (384 * 7)).epsilon(1e-12));
   const element_results forces = results_in_elements(b, l, u);
-  CHECK(forces.at(2, 1)[1] == Approx(25.0).epsilon(1e-12));  // sagging: positive
+  CHECK(forces.at(2, 1)[1] == Approx(25.0).epsilon(1e-12));  // sagging is positive
   CHECK(forces.at(3, 1)[0] == Approx(25.0).epsilon(1e-12));
   CHECK(forces.at(0, 0)[0] == Approx(10.0).epsilon(1e-12));
   CHECK(forces.at(5, 0)[1] == Approx(-10.0).epsilon(1e-12));
@@ -51,11 +52,10 @@ TEST_CASE(
 }
 
 TEST_CASE("the EI of a beam may differ from element to element") {
-  // Cantilever, root half twice as stiff: w = P/3 (L^3/EI2 + (1/EI1 - 1/EI2) (L/2)^3 7 ...), by unit loads.
   beam b = even_beam(2.0, 2, 1.0);
   b.EI = {2.0, 1.0};
   const auto u = displaced(b, clamped_left, {{{2, 0, 1.0}}, {}});
-  // Integral of (2 - x)^2 / EI from 0 to 2: (8 - 1) / 3 / 2 + 1 / 3.
+  // w = integral of (2 - x)^2 / EI from 0 to 2 = (8 - 1) / 3 / 2 + 1 / 3.
   CHECK(u[4] == Approx(7.0 / 6 + 1.0 / 3).epsilon(1e-13));
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("the nodal forces of a polynomial load have its exact resultant and mo
   b.x = {0.0, 0.3, 1.0, 1.1, 2.0};
   b.EI.assign(4, 1.0);
   std::vector<double> f(10, 0.0);
-  add_consistent_loads(b, {{}, {{{20.0, -20.0, 5.0}, {}}}}, f);  // 5 (x - 2)^2, as in SSNL130
+  add_consistent_loads(b, {{}, {{{20.0, -20.0, 5.0}, {}}}}, f);  // the load 5 (x - 2)^2 of SSNL130
   double force = 0.0;
   double moment = 0.0;
   for (std::size_t i = 0; i < 5; ++i) {

@@ -105,7 +105,7 @@ TEST_CASE(
 TEST_CASE("A plate's largest moments are at corners of elements, and name the nodes there") {
   const plate p{{0, 1, 2}, {0, 2, 4}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
-  for (std::size_t node = 0; node < 9; ++node) {  // w = x^2: mx = 2 D, my = 2 nu D
+  for (std::size_t node = 0; node < 9; ++node) {  // for w = x^2, mx = 2 D and my = 2 nu D
     const double x = p.x[node % 3];
     u[3 * node] = x * x;
     u[3 * node + 1] = 2 * x;
@@ -124,8 +124,8 @@ TEST_CASE("A plate's largest moments are at corners of elements, and name the no
 TEST_CASE("the places of a plate's largest and least deflections have the x and y of the node") {
   const plate p{{0, 1, 3}, {0, 2, 5, 9}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
-  u[21] = 2.0;   // the middle node of the third line
-  u[15] = -1.0;  // the last node of the second one
+  u[21] = 2.0;   // middle node of the third line
+  u[15] = -1.0;  // last node of the second line
   const value_range w = range_named(ranges_of({p}, {}, u, {}), "w");
   CHECK((w.most.node == 7 && w.most.x == 1.0 && w.most.y == 5.0));
   CHECK((w.least.node == 5 && w.least.x == 3.0 && w.least.y == 2.0));
@@ -184,7 +184,7 @@ TEST_CASE("a moment that is constant along a beam has its extreme at the first n
 }
 
 TEST_CASE("a deflection that is largest just before the end of an element is found there") {
-  // w = -0.24 + 0.91 t - 0.24 t^4, which is bent by a load of -24 * 0.24 alone.
+  // The deflection w = -0.24 + 0.91 t - 0.24 t^4 needs only a load of -24 * 0.24.
   const beam b{{0, 1}, {1.0}};
   const std::vector<double> u = {-0.24, 0.91, 0.43, 0.91 - 4 * 0.24};
   const value_range w = range_named(ranges_of({b}, even(-24 * 0.24), u, {}), "w");

@@ -1,4 +1,4 @@
-// Beams with hinges, against closed forms.
+// Tests beams with hinges against closed forms.
 #include <cmath>
 #include <vector>
 
@@ -39,7 +39,7 @@ TEST_CASE(
   const std::vector<support> supports = {{0, 0, true}, {0, 1, true}, {2, 0, true}};
   const std::vector<double> u = displaced(b, supports, l);
   CHECK(u[2] == Approx(-0.28).epsilon(hinge_rounding));  // -(q a^4 / 8 + R a^3 / 3) / EI, R = 6
-  CHECK(u[3] == Approx(0.12).epsilon(hinge_rounding));   // of the right part: 0.28 / 2 - q h^3 / 24 EI
+  CHECK(u[3] == Approx(0.12).epsilon(hinge_rounding));   // slope of the right part: 0.28 / 2 - q h^3 / 24 EI
   const auto forces = elements_of<double>(b).end_forces(l, u);
   CHECK(forces[0][2] == Approx(-24).epsilon(hinge_rounding));  // -(q a^2 / 2 + R a)
   CHECK(forces[0][3] == 0.0);
@@ -72,8 +72,8 @@ TEST_CASE("A hinge over a support makes two simple beams of a beam with two span
 }
 
 TEST_CASE("A load that grows along an element with a hinge at its right end is condensed exactly") {
-  // A clamp, 3 long, and a hinge at a prop: q = -2 x has the propped cantilever's clamp moment, 7 q0 L^2 /
-  // 120.
+  // The left element is clamped, and its hinge is on a prop. Under q = -2 x it has the clamp moment of a
+  // propped cantilever, 7 q0 L^2 / 120.
   const beam b = hinged({0, 3, 5}, {1}, 7);
   const load l = {{}, {{{0.0, -2.0}, {0}}}};
   const std::vector<support> supports = {{0, 0, true}, {0, 1, true}, {1, 0, true}, {2, 0, true}};

@@ -1,4 +1,5 @@
-// The meaning of numbers in a file, and faces and loads that are polynomials in x, where their terms cancel.
+// Tests the exact meaning of a file's numbers, and faces and loads that are polynomials in x whose terms
+// cancel.
 #include "contct/model/line.hpp"
 
 #include <cmath>
@@ -18,7 +19,7 @@ std::vector<element_piece> pieces_on(const beam& b, const load& l, int element) 
   return pieces == nullptr ? std::vector<element_piece>{} : *pieces;
 }
 
-/// The coefficients of the load on an element that it does not break.
+/// Returns the coefficients of a load that is one polynomial on the element.
 std::vector<double> load_on(const beam& b, const load& l, int element) {
   const std::vector<element_piece> pieces = pieces_on(b, l, element);
   REQUIRE(pieces.size() == 1);
@@ -75,7 +76,7 @@ TEST_CASE("decimals are added exactly before rounding, so that 0.1, 0.2 and -0.3
 
 TEST_CASE("a number times a factor is the product of their decimals, rounded once") {
   CHECK(contct::product_of<rational>(0.1, 1.1) == rational(11, 100));
-  CHECK(contct::product_of<double>(0.1, 3.0) == 0.3);  // 0.1 * 3.0 in doubles is 0.30000000000000004
+  CHECK(contct::product_of<double>(0.1, 3.0) == 0.3);  // in doubles 0.1 * 3.0 is 0.30000000000000004
   CHECK(contct::product_of<double_double>(0.1, 1.1) == decimal(0.11));
   CHECK(contct::product_of<double>(0.1, 1.0) == 0.1);
 }
@@ -140,6 +141,6 @@ TEST_CASE("Equal elements under the same constant loads have a common list of lo
   REQUIRE(all.size() == 3);
   CHECK(all.at(0).last == 0);
   CHECK(all.at(1).last == 2);
-  CHECK(all.at(3).last == 3);  // of another length
+  CHECK(all.at(3).last == 3);  // this element has another length
   CHECK(pieces_at(all, 2)->at(0).q[0] == 6.0);
 }

@@ -1,4 +1,4 @@
-// Loads that need not follow the mesh, against what every textbook has.
+// Tests loads between nodes against textbook formulas.
 #include "contct/model/placed_loads.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ load curved(double curvature, double from, double to) {
   return placed({{load_kind::curvature, from, to, {curvature}}});
 }
 
-/// A beam of length L, in one element unless said otherwise.
+/// Returns a beam of length L, with nodes at the ends and at `inside`.
 beam bar(double L, double EI, std::vector<double> inside = {}) {
   beam b;
   b.x = std::move(inside);
@@ -45,7 +45,7 @@ std::vector<support> on_two_supports(const beam& b) {
 
 const std::vector<support> held_left = {{0, 0, true}, {0, 1, true}};
 
-/// w, moment and shear.
+/// Returns the ranges of w, moment and shear.
 std::vector<value_range> solved(const beam& b, const std::vector<support>& supports, const load& l) {
   return ranges_of({b}, l, displaced(b, supports, l), {});
 }
@@ -57,7 +57,7 @@ constexpr double few_roundings = 1e-13;
 TEST_CASE("A simple beam under a load q from a to b has its largest moment R (a + R / 2q) at a + R / q") {
   for (const beam& b : {bar(10, 1e4), bar(10, 1e4, {1.0, 3.0, 4.5, 8.0})}) {
     const auto r = solved(b, on_two_supports(b), uniform(-40, 2, 5));
-    const double R = 40 * 3 * 0.65;  // the load's middle is 6.5 from the right end
+    const double R = 40 * 3 * 0.65;  // the middle of the load is 6.5 from the right end
     CHECK(r[1].most.value == Approx(R * (2 + R / 80)).epsilon(few_roundings));
     CHECK(r[1].most.x == Approx(2 + R / 40).epsilon(1e-7));
     CHECK(r[2].most.value == Approx(R).epsilon(few_roundings));
@@ -119,7 +119,8 @@ TEST_CASE(
   const auto u = displaced(b, held_left, curved(0.02, 1, 3.5));
   CHECK(u[4] == Approx(0.02 * 2.5 * (5 - 2.25)).epsilon(few_roundings));
   CHECK(u[5] == Approx(0.02 * 2.5).epsilon(few_roundings));
-  CHECK(u[2] == Approx(0.02 * 0.5).epsilon(few_roundings));  // 1 from where it begins: curvature / 2
+  // The deflection is c / 2 at a distance of 1 from the start of the curvature.
+  CHECK(u[2] == Approx(0.02 * 0.5).epsilon(few_roundings));
 }
 
 TEST_CASE("An imposed curvature c between two clamps makes the moment -EI c, without deflection") {
@@ -179,7 +180,7 @@ load rectangle(double pressure, std::array<double, 2> x, std::array<double, 2> y
   return placed({{load_kind::force, x[0], x[1], {pressure}, y}});
 }
 
-/// The work on x^m y^n, which the elements' shape functions have.
+/// Returns a load's work on x^m y^n, which the elements reproduce exactly.
 double work_on(const plate& p, const load& l, int m, int n) {
   std::vector<double> f(p.dofs());
   add_consistent_loads(p, l, f);

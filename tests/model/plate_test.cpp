@@ -1,4 +1,4 @@
-// Adini-Clough-Melosh plates against fields they must reproduce, and Navier's series.
+// Tests Adini-Clough-Melosh plates against fields that they reproduce exactly, and against Navier's series.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ plate uneven_plate(double scale_x = 1.0, double scale_y = 1.0) {
   return p;
 }
 
-/// From the dofs' order to the rows' and back.
+/// Returns K u for u in the order of the dofs.
 std::vector<double> multiply(const linear_structure& s, const std::vector<double>& u) {
   std::vector<double> in(u.size());
   for (int d = 0; d < s.dofs(); ++d) in[s.row_of(d)] = u[d];
@@ -39,7 +39,7 @@ std::vector<double> multiply(const linear_structure& s, const std::vector<double
   return f;
 }
 
-/// A field and its slopes at every node.
+/// A deflection field and its slopes along x and y.
 struct field {
   std::function<double(double, double)> w, wx, wy;
 };
@@ -56,7 +56,7 @@ element_results moments_in(const plate& p, const field& of) {
   return results_in_elements(p, {}, at_nodes(p, of));
 }
 
-/// Largest deflection, or slope, by which two answers differ, against the largest of its kind.
+/// Returns the largest difference between two answers, relative to the largest w, wx or wy.
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double worst = 0.0;
   for (std::size_t kind = 0; kind < 3; ++kind) {
@@ -71,7 +71,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   return worst;
 }
 
-/// Moments along the edges that bend the plate to M_x and M_y everywhere, without other loads.
+/// Returns moments along the edges that bend the plate to M_x and M_y everywhere without other loads.
 load edge_moments(const plate& p, double m_x, double m_y) {
   load l;
   const int right = p.columns() - 1;
@@ -90,7 +90,7 @@ load edge_moments(const plate& p, double m_x, double m_y) {
   return l;
 }
 
-/// The field that these moments make, level at the first node.
+/// Returns the field of these moments, level at the first node.
 field bent_by(const plate& p, double m_x, double m_y) {
   const double stiff = p.D * (1 - p.nu * p.nu);
   const double k_x = (m_x - p.nu * m_y) / stiff;
@@ -101,7 +101,7 @@ field bent_by(const plate& p, double m_x, double m_y) {
           [=](double x, double) { return k_x * (x - x0); }, [=](double, double y) { return k_y * (y - y0); }};
 }
 
-/// Forces at the corners, 2 M_xy each, which twist a free plate to M_xy everywhere.
+/// Returns corner forces of 2 M_xy that twist a free plate to M_xy everywhere.
 load corner_forces(const plate& p, double m_xy) {
   const int right = p.columns() - 1;
   const int top = p.rows() - 1;
@@ -121,17 +121,18 @@ field twisted_by(const plate& p, double m_xy) {
           [=](double x, double) { return twist * (x - x0); }};
 }
 
-/// Held at the lower left node only: w, wx and wy.
+/// Returns supports of w, wx and wy at the lower left node only.
 std::vector<support> held_at_first_node() {
   return {{0, 0, true}, {0, 1, true}, {0, 2, true}};
 }
 
-/// PP1, bilateral: a quarter of a simply supported square plate of side 1.
+/// Returns a quarter of PP1's simply supported square plate, with side 1 and supports that also pull.
 plate quarter_of_square(int n) {
   return {even_lines(0.5, n), even_lines(0.5, n), 1.0, 0.3};
 }
 
-/// w = 0 and no slope along the edges x = 0 and y = 0; symmetry about the other two.
+/// Returns supports of w and of the slope along the edges x = 0 and y = 0, and symmetry at the other two
+/// edges.
 std::vector<support> simply_supported_quarter(const plate& p) {
   const int n = p.columns() - 1;
   std::vector<support> s;
@@ -147,7 +148,7 @@ std::vector<support> simply_supported_quarter(const plate& p) {
 
 const load unit_pressure_down{{}, {{{-1.0}, {}}}};
 
-/// The stiffness matrix with the absolute value of every entry: the measure of rounding in K u.
+/// Returns K with absolute values, which measures the rounding in K u.
 linear_structure magnitudes(linear_structure s) {
   const std::size_t entries =
       static_cast<std::size_t>(s.dofs()) * static_cast<std::size_t>(s.stiffness.band().subdiagonals() + 1);
@@ -172,7 +173,7 @@ TEST_CASE("the three rigid-body motions of a plate need no force") {
       const auto rounding = multiply(of_signs, u);
       for (std::size_t i = 0; i < u.size(); ++i) CHECK(std::abs(force[i]) <= 1e-14 * rounding[i]);
     }
-    // And they are three: up by 1 at the middle, 1 at the right edge, 1 at the upper edge.
+    // The motions are up by 1 at the middle, 1 up at the right edge, and 1 up at the upper edge.
     CHECK(s.rigid_rows.front() == rigid_row{1, -1, -1});
     CHECK(s.rigid_rows[s.rigid_rows.size() - 3] == rigid_row{1, 1, 1});
     const double half_x = (p.x.back() - p.x.front()) / 2;
@@ -196,13 +197,13 @@ TEST_CASE(
 TEST_CASE(
     "patch test at an aspect ratio of 1:1000: constant curvature and twist need only forces at the edges") {
   for (const double narrow : {1.0 / 1024, 1024.0}) {
-    // All numbers here are exact in binary: a rounding of w alone would weigh eps aspect^4, 1e-3.
+    // All numbers are exact in binary. Otherwise the rounding of w would give an error of eps aspect^4, 1e-3.
     const plate p{{0.0, 1.0, 2.5}, {0.0, narrow, 2.5 * narrow}, 2.0, 0.25};
     std::vector<support> all;
     for (int node = 0; node < p.nodes(); ++node) {
       for (int d = 0; d < 3; ++d) all.push_back({node, d, true});
     }
-    // Largest number among forces, and moments over the length of an element their way.
+    // Returns the largest force, or moment divided by the element's length in its direction.
     const std::array<double, 3> lever = {1.0, 1.0, narrow};
     const auto excess = [&](const field& f, const load& l) {
       double applied = 0.0;
@@ -251,11 +252,11 @@ TEST_CASE(
       CHECK(moments.at(e, 2)[k] == Approx(p.D * (1 - p.nu) * xy).margin(1e-11));
     }
   }
-  // Under its self-weight on simple supports a plate sags.
+  // A plate on simple supports sags under a pressure.
   const plate square = quarter_of_square(8);
   const element_results sag = results_in_elements(
       square, {}, displaced(square, simply_supported_quarter(square), unit_pressure_down));
-  CHECK(sag.at(63, 0)[2] == Approx(0.0479).epsilon(0.01));  // 0.0479 q a^2, as tabled
+  CHECK(sag.at(63, 0)[2] == Approx(0.0479).epsilon(0.01));  // the tabulated 0.0479 q a^2
   CHECK(sag.at(63, 1)[2] == Approx(sag.at(63, 0)[2]).epsilon(1e-12));
 }
 
@@ -280,7 +281,7 @@ TEST_CASE("a quarter of a simply supported square plate has the deflections and 
     const auto u = displaced(p, supports, unit_pressure_down);
     CHECK(u[u.size() - 3] == Approx(-e.w).margin(5e-9));
     const auto r = reactions(p, unit_pressure_down, supports, u);
-    CHECK(r[0] == Approx(-e.corner).margin(5e-6));  // the corner would rise, and is pulled down
+    CHECK(r[0] == Approx(-e.corner).margin(5e-6));  // the support pulls the corner down
   }
 }
 
@@ -305,7 +306,7 @@ TEST_CASE("the deflection of a plate with elements of size h converges to Navier
 }
 
 TEST_CASE("a strip of a plate along x or along y bends like a beam") {
-  // nu = 0, one end clamped: the strip bends as a beam of EI = D times its width does.
+  // With nu = 0 and one end clamped, the strip bends like a beam with EI = D times its width.
   const double width = 0.5;
   for (const bool along_x : {true, false}) {
     plate p{even_lines(10.0, 40), even_lines(width, 2), 3.0, 0.0};
@@ -370,12 +371,12 @@ TEST_CASE("the nodal forces of a pressure on some elements of a plate have its r
   CHECK(whole[0] == Approx(-2.0 * 9).epsilon(1e-14));
   CHECK(whole[1] == Approx(-2.0 * 9 * 0.5).epsilon(1e-14));
   CHECK(whole[2] == Approx(-2.0 * 9 * 1.5).epsilon(1e-14));
-  // Element 4 is (1, 1): 0.3 by 0.3 about (0.35, 0.85).
+  // Element 4 is 0.3 by 0.3 with its middle at (0.35, 0.85).
   const auto part = resultant({{{0, 2, 5.0}}, {{{1.0}, {4}}, {{2.0}, {4}}}});
   CHECK(part[0] == Approx(3.0 * 0.09).epsilon(1e-14));
   CHECK(part[1] == Approx(3.0 * 0.09 * 0.35).epsilon(1e-14));
   CHECK(part[2] == Approx(3.0 * 0.09 * 0.85 + 5.0).epsilon(1e-14));
-  // The moments that keep a clamped element straight: q a^2 b / 3 at each corner.
+  // With half lengths a and b, a pressure q has the corner moments q a^2 b / 3 and q a b^2 / 3.
   std::vector<double> f(12, 0.0);
   add_consistent_loads(plate{{0, 2}, {0, 4}, 1.0, 0.3}, {{}, {{{1.0}, {}}}}, f);
   CHECK(f == std::vector<double>{2, 2.0 / 3, 4.0 / 3, 2, -2.0 / 3, 4.0 / 3, 2, 2.0 / 3, -4.0 / 3, 2, -2.0 / 3,
@@ -399,7 +400,7 @@ TEST_CASE("a plate's reactions balance the loads at fixed corners, edges and inn
   const auto u = displaced(p, supports, l);
   const auto r = reactions(p, l, supports, u);
   REQUIRE(r.size() == supports.size());
-  CHECK(r.back() == 0.0);  // fixed a second time
+  CHECK(r.back() == 0.0);  // the dof is already fixed by the first support
   std::vector<double> f(u.size(), 0.0);
   add_consistent_loads(p, l, f);
   for (std::size_t i = 0; i < supports.size(); ++i) f[3 * supports[i].node + supports[i].dof] += r[i];

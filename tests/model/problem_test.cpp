@@ -1,4 +1,4 @@
-// One set of verbs for beams and plates.
+// Tests functions that beams, plates and matrices have in common.
 #include "contct/model/problem.hpp"
 
 #include <string>
@@ -43,7 +43,7 @@ TEST_CASE("the resultant of a load has a force, and one moment for each slope of
   CHECK(b.force == Approx(-8.0));
   REQUIRE(b.moments.size() == 1);
   CHECK(b.moments[0] == Approx(-4.0 * 1 - 4.0 * 2 + 0.5));
-  // Element 2 covers x from 2 to 4, y from 0 to 1; node 4 is at (1, 1).
+  // Element 2 covers x from 2 to 4 and y from 0 to 1; node 4 is at (1, 1).
   const resultant p =
       resultant_of(model{small}, {{{3, 0, -4.0}, {0, 1, 0.5}, {0, 2, 0.25}}, {{{-1.0}, {1}}}});
   CHECK(p.force == Approx(-6.0));
@@ -74,7 +74,8 @@ TEST_CASE("point loads at one dof add up") {
 TEST_CASE("the reaction of a fixed dof that settles also balances the force of its spring") {
   const std::vector<support> supports = {{1, 0, true}, {1, 0, false, 4.0}, {1, 0, true}};
   const load l{{{1, 0, -3.0}}, {}, {{1, 0, 0.5}}};
-  const std::vector<double> all_up = {0.5, 0, 0.5, 0, 0.5, 0};  // the elements are not bent
+  const std::vector<double> all_up = {0.5, 0, 0.5, 0, 0.5, 0};  // no element is bent
   const std::vector<double> r = reactions(two_spans, l, supports, all_up);
-  CHECK(r == std::vector<double>{5.0, -2.0, 0.0});  // 5 - 2 = 3 of the load; the first fixed one has all
+  // The reactions balance the load, 5 - 2 = 3, and the second fixed support has none of it.
+  CHECK(r == std::vector<double>{5.0, -2.0, 0.0});
 }

@@ -13,7 +13,7 @@ using namespace contct;
 
 namespace {
 
-/// The rank after all dofs with these rows are held, one after the other.
+/// Returns the rank after all dofs with these rows are held, one after the other.
 int rank_of(const std::vector<rigid_row>& rows) {
   rigid_rank rank(rows, 1e-12);
   for (std::size_t dof = 0; dof < rows.size(); ++dof) rank.hold(static_cast<int>(dof));
@@ -48,7 +48,7 @@ TEST_CASE(
 
 namespace {
 
-/// Points on a line with a unit spring between neighbours: they move together or not at all.
+/// Returns points on a line with a unit spring between neighbours, which has one rigid-body motion.
 band_matrix chain(int points) {
   band_matrix k(points, 1);
   for (int i = 0; i + 1 < points; ++i) {
@@ -82,7 +82,7 @@ TEST_CASE("scaling the matrix or single dofs does not change the number of rigid
   k.scale(d);
   const free_motions f = find_free_motions(k, {});
   REQUIRE(f.count == 1);
-  // K becomes D K D, so its rigid-body motion becomes D^-1 times the old one; the largest entry is 1.
+  // K becomes D K D, so its rigid-body motion becomes D^-1 times the old one, scaled to a largest entry of 1.
   CHECK(std::abs(f.rows[0][0]) == Approx(1.0).epsilon(1e-9));
   CHECK(std::abs(f.rows[4][0]) <= 1e-10);
 }

@@ -1,4 +1,4 @@
-// Decisions about rigid-body motions by decimals that doubles would get wrong.
+// Tests decisions about rigid-body motions by decimals, which doubles would get wrong.
 #include <array>
 
 #include "catch.hpp"
@@ -25,14 +25,15 @@ std::optional<free_motion> driven(const linear_structure& s, const load& l, std:
   return s.truth->driven_by(s.truth->work_of(l), held, s.rigid_rows);
 }
 
-/// The same from rounded loads.
+/// Returns the driven motion computed from rounded loads.
 std::optional<free_motion> driven_by_rounded(const model& m, const linear_structure& s, const load& l) {
   std::vector<double> f(s.fixed.size());
   add_consistent_loads(m, l, f);
   return s.driven_motion(s.nothing_held(), f, {});
 }
 
-/// Exactly and from rounded loads the motion that is driven is the same, within rounding.
+/// Checks that the motion driven by exact loads and the motion driven by rounded loads are equal within
+/// rounding.
 void agree(const model& m, const load& l) {
   const linear_structure s = build(m, {}, {});
   const auto exactly = driven(s, l);
@@ -50,8 +51,8 @@ int determinant(const numbers& a, const numbers& b, const numbers& c) {
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// Is `sum` in the cone of `parts`? At most three of them are enough (Caratheodory): Cramer's rule for every
-/// three parts, two parts and a unit with a share of 0, and so on.
+/// Returns true if `sum` is in the cone of `parts`. At most three parts are needed (Caratheodory), so
+/// Cramer's rule is tried for any three parts, for two parts and a unit vector with a share of 0, and so on.
 bool by_every_choice(const numbers& sum, const std::vector<numbers>& parts) {
   std::vector<numbers> all = parts;
   all.insert(all.end(), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
@@ -82,7 +83,7 @@ TEST_CASE("loads of 0.1, 0.2 and -0.3 do no work on a free beam, but a load of 1
   CHECK(driven(s, points({{1, 0, 1e12}, {1, 0, -1e12}, {1, 0, 1e-300}})));
   const model m{beam_at({0, 1, 2})};
   CHECK_FALSE(
-      driven_by_rounded(m, s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));  // in doubles 5.6e-17
+      driven_by_rounded(m, s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));  // 5.6e-17 in doubles
 }
 
 TEST_CASE(
@@ -91,10 +92,10 @@ TEST_CASE(
   CHECK_FALSE(driven(s, points({{1, 0, -1.0}}), {2}));
   const auto turn = driven(s, points({{1, 0, -1.0}, {1, 1, -4e-13}}), {2});
   REQUIRE(turn.has_value());
-  CHECK(turn->at(2) == 0.0);  // the node of the support
+  CHECK(turn->at(2) == 0.0);  // the supported node
   CHECK(turn->at(0) * turn->at(4) < 0.0);
   CHECK(turn->at(0) / turn->at(4) == Approx(-0.7 / 1.3).epsilon(1e-14));
-  CHECK(turn->at(1) < 0.0);  // the slope goes as the moment
+  CHECK(turn->at(1) < 0.0);  // the slope has the sign of the moment
 }
 
 TEST_CASE("the driven rigid-body motion is that on which the load does most work") {
@@ -111,7 +112,7 @@ TEST_CASE("the work of a plate's pressures and forces on its rigid-body motions 
   load l = points({{5, 0, 0.25}, {2, 1, 0.5}, {7, 2, -0.125}});
   l.distributed = {{{0.3}, {}}, {{-0.2}, {1, 2, 3, 5}}};
   agree(p, l);
-  // A uniform pressure on the whole plate, minus the same force at the middle, does no work.
+  // A uniform pressure and the opposite force at the middle together do no work.
   p.x = {0, 0.3, 0.6};
   p.y = {0, 0.7, 1.4};
   const linear_structure even = build(p, {}, {});
@@ -146,7 +147,7 @@ TEST_CASE("two supports hold a beam however close they are, and three a plate un
   const auto w = [&p](int i, int j) { return 3 * p.node_at(i, j); };
   const auto hold = [&](std::vector<int> held, int dof) { return even.truth->is_independent(held, dof); };
   CHECK_FALSE(hold({w(0, 0), w(1, 0)}, w(3, 0)));
-  CHECK_FALSE(hold({w(0, 0), w(1, 1)}, w(3, 3)));  // 0.1 + 0.2 is not 0.3 in doubles
+  CHECK_FALSE(hold({w(0, 0), w(1, 1)}, w(3, 3)));  // in doubles 0.1 + 0.2 is not 0.3
   CHECK(hold({w(0, 0), w(1, 1)}, w(3, 2)));
   CHECK(hold({w(0, 0), w(0, 0) + 1}, w(0, 0) + 2));
   CHECK_FALSE(hold({w(0, 0), w(0, 0) + 1}, w(3, 0)));
@@ -174,7 +175,7 @@ TEST_CASE(
     return s.has_equilibrium(s.truth->work_of(l));
   };
   CHECK(carried(bare, points({{1, 0, -2.0}})) == true);
-  CHECK(carried(bare, points({{2, 0, -2.0}})) == true);  // over one of them
+  CHECK(carried(bare, points({{2, 0, -2.0}})) == true);  // over the second pair
   CHECK(carried(bare, points({{2, 0, -2.0}, {2, 1, 1e-300}})) == true);
   CHECK(carried(bare, points({{2, 0, -2.0}, {2, 1, -1e-300}})) == false);
   CHECK(carried(bare, points({{1, 0, 1.0}})) == false);

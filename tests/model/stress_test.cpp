@@ -1,4 +1,4 @@
-// Stresses at the extreme fibres, against formulas by hand.
+// Tests stresses at the extreme fibres against formulas.
 #include <cmath>
 
 #include "catch.hpp"

@@ -10,7 +10,7 @@ using namespace contct;
 
 namespace {
 
-/// Two nodes of two dofs without any coupling; `rows` reverses the order of the dofs.
+/// Returns two nodes of two dofs each, with the rows in reverse order.
 linear_structure four_dofs() {
   linear_structure s;
   s.dofs_per_node = 2;
@@ -26,7 +26,7 @@ linear_structure four_dofs() {
 }  // namespace
 
 TEST_CASE("gaps and forces have the same signs above and below, and tension is a negative force") {
-  const contact_pair below = {0, -1, -0.5, 100.0, false};  // a face below, at -0.5
+  const contact_pair below = {0, -1, -0.5, 100.0, false};  // a face below the node, at -0.5
   CHECK(gap_of(below, 0.0, false) == 0.5);
   CHECK(gap_of(below, -0.5, false) == 0.0);
   CHECK(gap_of(below, 0.0, true) == 0.0);

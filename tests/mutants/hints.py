@@ -57,7 +57,7 @@ def as_text(table):
 
 
 def main(scratch, build_file, write=False):
-    os.chdir(scratch)  # where the mutants write unit 26
+    os.chdir(scratch)  # the mutants write unit 26 to the current folder
     build, table, calls = json.loads(Path(build_file).read_text()), hint.read_table(), hint.golden_calls()
     sources = [s for s in tomllib.loads((HERE / "mutants.toml").read_text())["source"] if s["file"].endswith((".f", "contct.hpp"))]
     trials = [(s["file"], name, edits) for s in sources for name, edits in
@@ -68,7 +68,7 @@ def main(scratch, build_file, write=False):
     for (file, name, _), (found, quantity) in zip(trials, results):
         key = f"cpp-{name}" if file.endswith(".hpp") else name
         if file.endswith(".hpp") and found["digest"] in {t["digest"] for t in seen.values()}:
-            continue  # the same fault as one of the listing
+            continue  # the C++ kernel has the same fault as the listing
         if quantity is None:
             wrong += [f"{key}: it has a sentence, but its numbers are right"] * (key in table)
             continue

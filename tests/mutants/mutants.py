@@ -24,10 +24,10 @@ ROOT = HERE.parent.parent
 sys.path.insert(0, str(HERE.parent / "support"))
 from edits import edited  # noqa: E402
 
-CPU_SECONDS = 5  # a mutant that lives takes a tenth of a second
+CPU_SECONDS = 5  # other mutants need a tenth of a second
 LEAST = 100
-LEAST_TOLD = 0.98  # of all mutants that have a line
-LEAST_TOLD_LATER = 0.9  # of those that are held out
+LEAST_TOLD = 0.98  # of all mutants that belong to a line
+LEAST_TOLD_LATER = 0.9  # of the mutants in held_out
 UNMUTATED = "(as it is)"
 
 

@@ -28,7 +28,7 @@ TEMPLATE_TEST_CASE("the distance in ULPs counts the representable numbers betwee
   CHECK(ulps_between(-denormal, denormal) == 3);
   CHECK(ulps_between(Real(1), std::numeric_limits<Real>::quiet_NaN()) ==
         std::numeric_limits<std::uint64_t>::max());
-  // From the most negative to the most positive number: no overflow on the way.
+  // The distance between the largest negative and positive numbers does not overflow.
   CHECK(ulps_between(-std::numeric_limits<Real>::infinity(), std::numeric_limits<Real>::infinity()) ==
         2 * static_cast<std::uint64_t>(place_of(std::numeric_limits<Real>::infinity())) + 1);
 }

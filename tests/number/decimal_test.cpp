@@ -1,4 +1,4 @@
-// Literals digit by digit.
+// Tests decimal literals and their last digits.
 #include "contct/number/decimal.hpp"
 
 #include "catch.hpp"

@@ -1,4 +1,4 @@
-// Sums of two doubles.
+// Tests double-doubles, which are sums of two doubles.
 #include "contct/number/double_double.hpp"
 
 #include "catch.hpp"
@@ -10,7 +10,7 @@ TEST_CASE("a sum of two doubles keeps digits that one double would round away") 
   CHECK(x.hi == 1.0);
   CHECK(x.lo == 0x1p-80);
   CHECK((x - 1.0).hi == 0x1p-80);
-  CHECK(((x * x) - 1.0).hi == 0x1p-79);  // 2^-160 is too small to matter
+  CHECK(((x * x) - 1.0).hi == 0x1p-79);  // 2^-160 is below the precision
 }
 
 TEST_CASE("products and quotients of double-doubles have a relative error of at most 2^-100") {

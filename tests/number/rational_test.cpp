@@ -1,4 +1,4 @@
-// Decimals in and out of exact numbers.
+// Tests conversions between decimals, doubles and exact rationals.
 #include "contct/number/rational.hpp"
 
 #include <bit>
@@ -34,7 +34,7 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
   CHECK(rounded(0) == 0.0);
   const integer huge = boost::multiprecision::pow(integer(10), 5000U);
   CHECK(rounded(rational(integer(huge + 1), integer(huge * 4))) == 0.25);
-  const integer between = (integer(1) << 53U) + 1;  // of two doubles
+  const integer between = (integer(1) << 53U) + 1;  // halfway between two doubles
   CHECK(rounded(rational(between)) == 0x1p53);
   CHECK(rounded(rational(integer((between << 200U) + 1), integer(integer(1) << 200U))) == 0x1p53 + 2);
   const double_double third = long_rounded(rational(1, 3));
@@ -46,7 +46,7 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
 }
 
 TEST_CASE("a rational is rounded to the nearest double, and a tie to the even double") {
-  // Halfway between a double and the next one up; a little less; a little more, by a bit that is far off.
+  // Halfway between a double and the next double up, and a tiny amount below and above it.
   const double least = std::numeric_limits<double>::denorm_min();
   const rational hair(integer(1), integer(1) << 2000U);
   std::size_t compared = 0;

@@ -1,9 +1,7 @@
 #!/bin/sh
-# contct-replay as one static file, and the jobs of reference/adopt, on machines without other software: an
-# empty root folder, and a
-# bare Debian.
+# Tests contct-replay as one static file, and the jobs of reference/adopt, in an empty root folder and in a bare Debian.
 # usage: sh tests/package/adopt.sh
-# Exit 0: all checks passed; 77: skipped, a tool cannot be had; 1 otherwise.
+# Exit 0: all checks passed; 77: skipped, a tool is missing; 1 otherwise.
 set -u
 title="adopting"
 . "$(dirname "$0")/bare.sh"
@@ -20,7 +18,7 @@ trap 'remove_root; rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 quietly() { "$@" >"$log" 2>&1 || { tail -n 30 "$log"; fail "$*: failed"; }; }
 
-# ends STATUS WORDS COMMAND..: it ends with that exit status, and says the words.
+# ends STATUS WORDS COMMAND..: checks that the command has this exit status, and WORDS in its output.
 ends() {
   status=$1
   words=$2

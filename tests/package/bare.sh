@@ -1,8 +1,7 @@
-# Sourced by debian.sh and adopt.sh, which set $title: a bare Debian like this one, as a folder $root. File
-# systems are mounted in a namespace of the script, so that they disappear whenever it ends.
+# Functions of debian.sh and adopt.sh, which set $title and source this file. They make a bare Debian like this system
+# in the folder $root. File systems are mounted in a private namespace, so that they disappear when the script ends.
 if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
-  # In a chroot, whose root is not a mount, mounts cannot be made private; they are unmounted at the end
-  # anyway.
+  # In a chroot without its own mount, mounts cannot be made private; they are unmounted at the end.
   for propagation in private unchanged; do
     ! unshare --mount --propagation $propagation true 2>/dev/null ||
       CONTCT_NAMESPACE=own exec unshare --mount --propagation $propagation sh "$0" "$@"
@@ -14,7 +13,7 @@ sources=/etc/apt/sources.list.d/debian.sources
 
 skip() { echo "$title: SKIPPED: $1"; exit 77; }
 fail() { echo "$title: $1" >&2; exit 1; }
-# value NAME: from the system's description of itself
+# value NAME: prints a value of /etc/os-release.
 value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
 can_be_bare() {
   [ "$(value ID)" = debian ] || skip "this is no Debian, and has packages for itself only"
@@ -26,20 +25,19 @@ remove_root() {
   rm -rf --one-file-system "$root"
 }
 
-# make_bare TAR: its base is kept in TAR for the next time, changes in it are not. The output of debootstrap
-# goes to $log.
+# make_bare TAR: makes a bare Debian. TAR keeps its base for the next time. The output of debootstrap goes to $log.
 make_bare() {
   remove_root
   if [ ! -s "$1" ]; then
     mirror=$(sed -n 's/^URIs: *//p' $sources | head -n 1)
     debootstrap --variant=minbase --include=ca-certificates "$(value VERSION_CODENAME)" "$root" "$mirror" >"$log" 2>&1 ||
       { tail -n 5 "$log"; skip "debootstrap finds no Debian at $mirror"; }
-    umount "$root/proc" "$root/sys" 2>/dev/null  # what debootstrap leaves
+    umount "$root/proc" "$root/sys" 2>/dev/null  # debootstrap may leave these mounted
     tar -C "$root" --one-file-system -cf "$1.part" . && mv "$1.part" "$1" || exit 1
   else
     mkdir -p "$root" && tar -C "$root" -xf "$1" || exit 1
   fi
-  # The network and apt are set up as they are here.
+  # Copies this system's network and apt settings.
   cp /etc/hosts /etc/resolv.conf "$root/etc/" && rm -f "$root/etc/apt/sources.list" &&
     cp $sources "$root/etc/apt/sources.list.d/" && cp -r /etc/apt/apt.conf.d "$root/etc/apt/" || exit 1
   [ ! -d /usr/local/share/ca-certificates ] || cp -r /usr/local/share/ca-certificates "$root/usr/local/share/"
@@ -48,7 +46,7 @@ make_bare() {
   ln -s /proc/self/fd "$root/dev/fd"
 }
 
-# in_bare COMMAND..
+# in_bare COMMAND..: runs a command in the bare Debian.
 in_bare() {
   env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive chroot "$root" "$@"
 }

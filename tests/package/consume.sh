@@ -1,12 +1,12 @@
 #!/bin/sh
-# consume.sh PROGRAM WORK PREFIX: configures, builds and runs the project in the folder PROGRAM against the copy
-# installed in PREFIX. The program says how many facts it has looked at, and how many were wrong.
+# consume.sh PROGRAM WORK PREFIX: configures, builds and runs the project in the folder PROGRAM with the files installed
+# in PREFIX. The program prints how many facts it checked, and how many were wrong.
 set -eu
 program=$1
 work=$2
 prefix=$3
 rm -rf "$work"
-# One call of CONTCT needs no LAPACK, nor anything else.
+# A program that only calls CONTCT needs neither LAPACK nor any other library.
 set --
 if ! grep -q COMPONENTS "$program/CMakeLists.txt"; then
   for package in LAPACK BLAS tomlplusplus nlohmann_json fmt; do set -- "$@" -DCMAKE_DISABLE_FIND_PACKAGE_$package=ON; done
@@ -19,7 +19,7 @@ if ! grep -q 'LANGUAGES Fortran' "$program/CMakeLists.txt" && grep '^CMAKE_Fortr
   echo "a project without Fortran had to look for a Fortran compiler" >&2
   exit 1
 fi
-# Whoever compiles our templates must compile them strictly.
+# The templates in our headers must be compiled with strict floating point.
 if grep '"command":.*\.cpp"' "$work/compile_commands.json" | grep -v -e ' -ffp-contract=off '; then
   echo "compiled without -ffp-contract=off (above)" >&2
   exit 1

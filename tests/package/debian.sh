@@ -1,9 +1,8 @@
 #!/bin/sh
-# The Debian packages: made, judged by lintian, then installed, used and removed in a bare Debian.
+# Builds the Debian packages, checks them with lintian, and installs, uses and removes them in a bare Debian.
 # usage: sh tests/package/debian.sh [BUILD]
-# BUILD: a build of the preset "package", which is brought up to date and packed; without it everything is built anew in
-# build/package.
-# Exit 0: all is as it should be; 77: skipped, a tool cannot be had; 1 otherwise.
+# BUILD: a build of the preset "package", which is updated and packed; by default build/package is built anew.
+# Exit 0: all checks passed; 77: skipped, a tool is missing; 1 otherwise.
 set -u
 title="Debian packages"
 . "$(dirname "$0")/bare.sh"
@@ -44,9 +43,9 @@ if grep -rlF -e "$PWD" "$installed" >&2; then fail "the folder of the sources is
 echo "$count files, none of which names $PWD"
 
 echo "-- lintian"
-# Debian has no bug that asks for the packages; their pages are Markdown, which doc-base does not take; and C and C++ programs
-# need no gfortran, so it is recommended instead. The compiler stores a text as constants of 16 bytes, whose ends lintian takes for
-# misspelt words of the programs.
+# No Debian bug requests these packages; their pages are Markdown, which doc-base does not accept; gfortran is only
+# recommended, because C and C++ programs do not need it. Text is stored in constants of 16 bytes, whose ends lintian
+# takes for misspelt words.
 lintian --no-cfg --pedantic --display-info --display-experimental --tag-display-limit 0 \
   --fail-on error,warning,info,pedantic,experimental --suppress-tags \
   initial-upload-closes-no-bugs,possible-documentation-but-no-doc-base-registration,missing-prerequisite-for-gfortran-module,spelling-error-in-binary \

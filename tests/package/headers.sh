@@ -1,6 +1,6 @@
 #!/bin/sh
-# headers.sh SOURCE PREFIX [KIND..]: every public header that reference/library.md documents is installed and compiles
-# alone. Nothing of the laboratory is installed. KIND: the folders whose headers this build does not have.
+# headers.sh SOURCE PREFIX [KIND..]: tests that every public header in reference/library.md is installed and compiles
+# alone, and that no header of the laboratory is installed. KIND: a folder whose headers this build does not have.
 set -eu
 source=$1
 prefix=$2

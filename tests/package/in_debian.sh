@@ -1,17 +1,17 @@
-# in_debian.sh: run by debian.sh inside a bare Debian that has the packages in /given and this folder in /given/tests.
-# Installs each package with apt, uses it, removes it, and compares the names of all files before and after.
+# in_debian.sh: debian.sh runs this in a bare Debian with the packages in /given and this folder in /given/tests. It
+# installs each package with apt, uses it, removes it, and compares the names of all files before and after.
 set -eu
 cd /given
 export CMAKE=cmake GENERATOR=Ninja
 fail() { echo "$1" >&2; exit 1; }
-# files FILE: writes the names of all files except the own files of apt and of the dynamic loader.
+# files FILE: writes the names of all files except those of apt and of the dynamic loader.
 files() {
   find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /tmp -o -path /given -o -path /var/cache -o \
     -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort >"$1"
 }
 quietly() { "$@" >/tmp/said 2>&1 || { cat /tmp/said; fail "$*: failed"; }; }
 install() { quietly apt-get install -y --no-install-recommends "$@"; }
-# remove PACKAGE..: with all that came along for them. Nothing may be left that was not there before.
+# remove PACKAGE..: removes packages and their dependencies. No new file may remain.
 remove() {
   quietly apt-get purge -y "$@"
   quietly apt-get autoremove -y --purge
@@ -19,7 +19,7 @@ remove() {
   diff /tmp/before /tmp/after || fail "$*: files are left behind (>) or missing (<), above"
   echo "-- $*: removed; the $(wc -l </tmp/after) names of files are those of before"
 }
-# says WORDS COMMAND..: the output of the command has a line with the words.
+# says WORDS COMMAND..: checks that a line of the command's output contains WORDS.
 says() {
   words=$1
   shift

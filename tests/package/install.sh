@@ -1,6 +1,6 @@
 #!/bin/sh
-# install.sh SOURCE BUILD FIRST PREFIX: installs the build into FIRST, moves that to PREFIX, and looks whether anything
-# still names the places that it came from.
+# install.sh SOURCE BUILD FIRST PREFIX: installs the build into FIRST, moves it to PREFIX, and checks that no installed
+# file names the former folders.
 set -eu
 source=$1
 build=$2
@@ -11,14 +11,14 @@ DESTDIR='' "$CMAKE" --install "$build" --prefix "$first" >/dev/null
 mkdir -p "$(dirname "$prefix")"
 mv "$first" "$prefix"
 
-# Texts alone: a library may keep a path for the debugger.
+# Only text files are searched: a library may contain a path for the debugger.
 for place in "$source" "$build" "$first"; do
   if grep -rIF -e "$place" "$prefix" >&2; then
     echo "$place is named by what was installed (above)" >&2
     exit 1
   fi
 done
-# Nor a library by its full path: where else the copy goes, it may lie elsewhere.
+# No file may name a library by its full path, which may differ on another system.
 if grep -rInE '/[^ ;"]*/lib[^/ ;"]+[.](a|so)([^a-z]|$)' "$prefix" --include='*.cmake' --include='*.pc' |
   grep -v '_IMPORT_PREFIX}/' >&2; then
   echo "a library is named by its full path (above)" >&2

@@ -1,6 +1,6 @@
 #!/bin/sh
-# page.sh SOURCE: every line that "In your own program" of reference/library.md shows is in a program here.
-# page.sh SOURCE KIND: prints the block of that kind (sh, cmake, c, cpp, fortran).
+# page.sh SOURCE: checks that every line in "In your own program" of reference/library.md is in an example program.
+# page.sh SOURCE KIND: prints the block of this kind (sh, cmake, c, cpp, fortran).
 set -eu
 source=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
@@ -10,7 +10,7 @@ block() {
     "$source/reference/library.md"
 }
 
-# shown KIND FILE
+# shown KIND FILE: checks that every line of the page's block is in FILE.
 shown() {
   block "$1" | sed 's/^ *//; s/ *$//' | grep -v '^$' >lines-of-page || { echo "the page has no $1" >&2; exit 1; }
   while read -r line; do

@@ -1,6 +1,6 @@
 #!/bin/sh
-# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines that reference/library.md shows, word for word,
-# on the programs in this folder, and then runs the results.
+# pkg_config.sh SOURCE WORK PCFILES: runs the compiler lines of reference/library.md on the programs in this folder, and
+# then runs these programs.
 set -eu
 source=$1
 work=$2

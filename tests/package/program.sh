@@ -1,6 +1,6 @@
 #!/bin/sh
-# program.sh BIN DATA VERSION: the installed contct knows its version, and verifies the problems installed
-# with it; without them it names the folders that it searched.
+# program.sh BIN DATA VERSION: tests that the installed contct prints its version and verifies the installed problems.
+# Without these problems it must name the folders that it searched.
 set -eu
 bin=$1
 data=$2

@@ -1,4 +1,4 @@
-# python.sh LIBDIR VERSION: the installed contct.py loads the installed library, by itself. Exit 77 without Python 3.11.
+# python.sh LIBDIR VERSION: tests that the installed contct.py finds the installed library. Exit 77 without Python 3.11.
 set -eu
 python3 -c 'import tomllib' 2>/dev/null || exit 77
 cd /

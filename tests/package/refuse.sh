@@ -1,9 +1,9 @@
 #!/bin/sh
-# refuse.sh WORK PREFIX: asks for a component that there is not, and for a version that there is not.
+# refuse.sh WORK PREFIX: requests a component and a version that do not exist.
 set -eu
 work=$1
 prefix=$2
-# refused WANTED WORDS: find_package(contct WANTED) fails, and says WORDS.
+# refused WANTED WORDS: checks that find_package(contct WANTED) fails with WORDS in its message.
 refused() {
   rm -rf "$work"
   mkdir -p "$work"

@@ -1,8 +1,8 @@
 #!/bin/sh
-# The programs and libraries are the same to the bit when the sources and the build are in other folders.
+# Tests that programs and libraries are the same to the bit if sources and build are in other folders.
 # usage: sh tests/package/same_binaries.sh [BUILD]      (default: build/release, up to date)
 # Copies the sources to a new folder, builds them there by the preset "release" and compares.
-# Exit 0: all is equal; 1 otherwise.
+# Exit 0: all are equal; 1 otherwise.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 given=$(cd "${1:-build/release}" && pwd) || exit 1

@@ -1,6 +1,6 @@
 #!/bin/sh
-# contributing.sh SOURCE CONTCT: the examples of reference/CONTRIBUTING.md have 20 lines or fewer; those in C++ compile, under
-# the warnings that this project has; the problem can be run, and has the numbers that its verification says.
+# contributing.sh SOURCE CONTCT: tests that each example in reference/CONTRIBUTING.md has at most 20 lines, that the C++
+# compiles without warnings, and that the problem has the numbers of its verification.
 set -eu
 source=$1
 contct=$2

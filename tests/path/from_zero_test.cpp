@@ -1,4 +1,4 @@
-// Steps that start from the unloaded structure, as combinations do.
+// Tests steps that start from the unloaded structure, as combinations do.
 #include "catch.hpp"
 #include "support/beams.hpp"
 
@@ -6,7 +6,8 @@ using namespace contct;
 
 namespace {
 
-/// A clamped beam between stops, which the first load presses against those below, the second on one above.
+/// A clamped beam between stops. The first load presses it on the stops below, and the second load on a stop
+/// above.
 beam_problem between_stops() {
   beam_problem p;
   p.geometry = even_beam(4.0, 8, 100.0);

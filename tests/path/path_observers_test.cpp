@@ -1,4 +1,4 @@
-// Observers of a path: the explanation of its calls, the toggles that came too early, and its trace.
+// Tests observers of a path: the explanation of its calls, its early toggles, and its trace.
 #include "contct/path/path_observers.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// PB1 explained, with `second` as the second kernel.
+/// The explained increments of PB1, with `second` as the second kernel.
 struct explained_pb1 {
   struct told {
     int step, number;
@@ -32,7 +32,7 @@ struct explained_pb1 {
   }
 };
 
-/// A call with one pair, with given inputs, SMIN and status after it.
+/// Passes a call with one pair to the observer, with these inputs, SMIN and final status.
 void call_with(observer& o, double d, double d_star, double c, double smin, int isep_after) {
   const std::vector<double> dd = {d}, dtest = {d_star}, cc = {c};
   std::vector<double> ss = {smin};
@@ -80,11 +80,11 @@ TEST_CASE(
   early_toggles early;
   const event makes{0, change::make};
   const std::vector<event> events = {makes};
-  call_with(early, 0.0, -2.0, -1.0, 0.5, in_contact);  // reaches -1, its face
+  call_with(early, 0.0, -2.0, -1.0, 0.5, in_contact);  // reaches its face at -1
   early.incremented({1, 1, 0.5, 0.5, events});
   CHECK(early.all().empty());
-  call_with(early, 0.0, -2.0, -1.25, 0.5, in_contact);  // a quarter short of it
-  early.incremented({1, 2, 0.5, 1.0, {}});              // the driver took the toggle back
+  call_with(early, 0.0, -2.0, -1.25, 0.5, in_contact);  // is 0.25 before its face
+  early.incremented({1, 2, 0.5, 1.0, {}});              // the driver has undone the toggle
   CHECK(early.all().empty());
   call_with(early, 0.0, -2.0, -1.25, 0.5, in_contact);
   early.incremented({2, 1, 0.5, 0.5, events});

@@ -1,4 +1,4 @@
-// The paper's loop on problems small enough to solve by hand.
+// Tests the 1989 loop on problems that can be solved by hand.
 #include "contct/path/path.hpp"
 
 #include <cmath>

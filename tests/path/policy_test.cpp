@@ -1,4 +1,4 @@
-// The driver's additions to a rule other than that of 1989.
+// Tests the driver's policy for rules other than that of 1989.
 #include "contct/path/policy.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace contct;
 
 namespace {
 
-/// A free beam above stops at its ends, 0.1 and 0.3 below it.
+/// Returns a free beam above stops at its ends, at distances of 0.1 and 0.3.
 beam_problem beam_above_stops() {
   return {even_beam(4.0, 4, 1e3),
           {},
@@ -30,7 +30,7 @@ std::vector<bool> snaps_of(const recorder& r) {
   return snaps;
 }
 
-/// An equilibrium for beam_above_stops, too wrong to be found by a solve.
+/// Returns a made-up final state of beam_above_stops, so wrong that no solve can give it.
 full_load_state made_up_rest() {
   return {std::vector<double>(10, -7.0), {in_contact, in_contact}, {}, true};
 }
@@ -47,8 +47,8 @@ TEST_CASE("a free beam above its stops moves as a rigid body at constant load un
   CHECK(r.increments[0].fraction == 0.0);
   CHECK(r.increments[1].fraction == 0.0);
   CHECK(r.increments[2].fraction == 1.0);
-  // The load is nearer to the second stop, and sinks there faster: up by u and turned by t it moves both
-  // ends by u - t and u + t in the ratio of the work on u and t, 8 and 4, that is by 1/2 and 3/2 of u.
+  // The load is nearer to the second stop, so that end falls faster. The rigid-body motion has the ratio of
+  // the work on translation and rotation, 8 to 4, so the ends move by 1/2 and 3/2 of the middle.
   CHECK(r.events() == std::vector<event>{{1, change::make}, {0, change::make}});
   REQUIRE(r.steps.size() == 1);
   CHECK(r.steps[0].u[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-12));
@@ -69,7 +69,7 @@ TEST_CASE("a free beam moves from the stops below it to the stops above it, and 
   CHECK(r.steps[1].isep == std::vector<int>{separated, separated, in_contact, in_contact});
   CHECK(r.steps[2].u[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-12));
   CHECK(r.steps[2].u[8] == Approx(-0.3 - 6.0 / 50).epsilon(1e-12));
-  // In each step the load does not advance between the separation from one side and the contact with the
+  // In each step, the load does not increase between the separation from one side and the contact with the
   // other.
   for (std::size_t i = 1; i < r.increments.size(); ++i) {
     if (r.increments[i].snaps && r.increments[i].number > 1)
@@ -80,7 +80,7 @@ TEST_CASE("a free beam moves from the stops below it to the stops above it, and 
 }
 
 TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
-  // Both halves are cantilevers under 2 a length: q l^4 / 8 EI at their tips.
+  // Both halves are cantilevers under 2 a length, with q l^4 / 8 EI at their tips.
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
@@ -92,7 +92,7 @@ TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
   CHECK(r.steps[0].u[4] == Approx(middle).epsilon(1e-12));
   CHECK((r.steps[0].u[0] + r.steps[0].u[8]) / 2 == Approx(middle - droop).epsilon(1e-12));
   CHECK(r.steps[0].isep == std::vector<int>{in_contact, separated});
-  CHECK(r.steps[0].rcond > 0.0);  // with the spring that it leans on
+  CHECK(r.steps[0].rcond > 0.0);  // with the pair's spring
 }
 
 TEST_CASE(
@@ -184,8 +184,8 @@ TEST_CASE("the path of the 1989 rule ends at its start if a free beam is above i
 
 namespace {
 
-/// Toggles pair 0 at a standstill for as long as it responds, and else follows the corrected rule.
-/// Remembers the calls in which it did not respond.
+/// Toggles pair 0 without progress of the load as long as it responds, and otherwise follows the corrected
+/// rule. Counts the calls without a response.
 struct restless_first_pair {
   int toggles = 0;
   int quiet = 0;
@@ -202,7 +202,7 @@ struct restless_first_pair {
   }
 };
 
-/// A cantilever with a pair in its middle, pressed all the time, and a stop at its tip.
+/// Returns a cantilever with a pair in its middle that is always pressed, and a stop at its tip.
 beam_problem cantilever_on_two() {
   return {even_beam(2.0, 2, 1e4),
           {{0, 0, true}, {0, 1, true}},
@@ -222,7 +222,7 @@ TEST_CASE(
   CHECK(end.status == path_status::solved);
   recorder sound;
   REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
-  // Two toggles and quiet until the tip has met its stop; in the second step the same again.
+  // In each step pair 0 toggles twice, and then has no response until the tip reaches its stop.
   CHECK(restless.toggles >= 4);
   CHECK(restless.quiet >= 3);
   REQUIRE(r.steps.size() == 2);
@@ -235,7 +235,7 @@ TEST_CASE(
 
 namespace {
 
-/// The corrected rule with a hasty hand: events come a thousandth too early.
+/// Answers by the corrected rule, but with every event at 0.999 of its s.
 void hasty(call<double>& c) {
   contct_corrected(c);
   if (c.smin > 0.0 && c.smin < 1.0) c.smin *= 0.999;
@@ -271,7 +271,7 @@ TEST_CASE("an early toggle under the 1989 rule leaves an error in the displaceme
 
 namespace {
 
-/// Toggles both pairs in turn at a standstill, for ever.
+/// Returns a kernel that toggles both pairs in turn without progress and without end.
 made_kernel endless(contact_rule rule = contact_rule::corrected) {
   return made_kernel(
       [calls = 0](call<double>& c) mutable {
@@ -330,7 +330,7 @@ TEST_CASE(
     return i.step == 2 &&
            std::find(i.events.begin(), i.events.end(), event{0, change::make}) != i.events.end();
   });
-  CHECK(makes_again);  // its pair separated in the answer
+  CHECK(makes_again);  // its pair was separated in the proved state
 }
 
 TEST_CASE(
@@ -346,7 +346,7 @@ TEST_CASE(
   REQUIRE(r.steps.size() == 1);
   CHECK(r.steps[0].fraction == 0.0);
   made_kernel listing = endless(contact_rule::listing);
-  CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule goes its own way
+  CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule has no fallback
 }
 
 TEST_CASE("a path has no fallback under the 1989 rule or if the reference solution finds no state") {
@@ -368,8 +368,8 @@ TEST_CASE("a path has no fallback under the 1989 rule or if the reference soluti
 }
 
 TEST_CASE("a path that cannot continue in one step continues from the reference solution in the next step") {
-  // The first step never ends, and later steps follow the corrected rule. Both pairs press after the first
-  // step, and separate in the second.
+  // The first step never ends, and later steps follow the corrected rule. Both pairs have a force after the
+  // first step, and separate in the second step.
   bool is_found = false;
   made_kernel never = endless();
   made_kernel k([&](call<double>& c) { is_found ? contct_corrected(c) : never.answer(c); });
@@ -409,7 +409,7 @@ TEST_CASE(
   p.steps = {tip_load(3, -8.0)};
   recorder limited;
   CHECK(p.run("corrected", {&limited}, {1, any.ends}).status == path_status::solved);
-  p.geometry.EI.assign(4, 1e30);  // springs are lost to rounding in it
+  p.geometry.EI.assign(4, 1e30);  // the springs are lost to rounding
   recorder lost;
   CHECK(p.run("corrected", {&lost}, any).status == path_status::solved);
   for (const recorder* r : {&limited, &lost}) {
@@ -420,7 +420,7 @@ TEST_CASE(
 }
 
 TEST_CASE("after 20 + 4 n toggles of n pairs at constant load, the pair with the least index is toggled") {
-  // It toggles the second pair and the third in turn, though the first one is at its face as well.
+  // The kernel toggles pairs 2 and 3 in turn, although pair 1 is at its face too.
   made_kernel k([calls = 0](call<double>& c) mutable {
     c.smin = 0.0;
     std::fill(c.ss.begin(), c.ss.end(), 0.0);

@@ -1,5 +1,5 @@
-// Results do not depend on: the way to a load, units of load and length, which way is up and which is left.
-// On random problems, with floors on what was compared.
+// Tests that results do not depend on the way to a load, on units of load and length, or on the orientation.
+// Random problems are used, with minimum counts of comparisons.
 #include <cmath>
 #include <functional>
 
@@ -20,7 +20,7 @@ load times(double factor, load l) {
   return l;
 }
 
-/// All loads and faces `factor` times as large.
+/// Returns a problem with all loads and faces multiplied by `factor`.
 random_problem scaled(double factor, random_problem p) {
   for (load& l : p.steps) l = times(factor, l);
   for (contact_pair& c : p.pairs) c.face *= factor;
@@ -36,7 +36,7 @@ random_problem upside_down(random_problem p) {
   return p;
 }
 
-/// A beam with left and right exchanged. All distributed loads are even, and on the whole beam.
+/// Returns a beam with left and right exchanged. Its distributed loads must be uniform on the whole beam.
 random_problem other_way_round(random_problem p) {
   beam& b = std::get<beam>(p.geometry.kind);
   const int last = b.nodes() - 1;
@@ -51,7 +51,7 @@ random_problem other_way_round(random_problem p) {
   return p;
 }
 
-/// Is every deflection of `a`, at its end, equal to that of `expected`, within the certified errors of both?
+/// Checks that the final deflections of `a` equal `expected` within the certified errors of both.
 void check_deflections(const followed& a, const std::function<double(std::size_t)>& expected) {
   double off = 0.0;
   for (std::size_t node = 0; node < a.nodes(); ++node)
@@ -59,15 +59,15 @@ void check_deflections(const followed& a, const std::function<double(std::size_t
   CHECK(off <= 2 * certified_share * a.largest());
 }
 
-/// Every problem and its like under `change` take the same path to the bit: the same events, and
-/// displacements that are `factor` times as large.
+/// Checks that each problem and its `change`d form have the same events, and displacements with the ratio
+/// `factor` to the bit.
 void check_same_path(std::uint64_t seed, double factor,
                      const std::function<random_problem(const random_problem&)>& change,
                      const random_problem_kind& kind = {}) {
   long events = 0;
   for (std::uint64_t number = 0; number < problems; ++number) {
     const random_problem p = make_random_problem(seed, number, kind);
-    const followed here = follow(p, false);  // refined, they would have the decimals of other doubles
+    const followed here = follow(p, false);  // without refinement, which uses decimals that do not scale
     const followed there = follow(change(p), false);
     INFO(number);
     CHECK(there.end.status == here.end.status);
@@ -115,12 +115,12 @@ TEST_CASE("a structure held by supports returns to its start after loading and u
     check_deflections(f, [](std::size_t) { return 0.0; });
     loaded += f.largest() > 0.0 ? 1 : 0;
   }
-  CHECK(loaded > 900);  // the others have all their load on a support
+  CHECK(loaded > 900);  // the others have all loads on supports
 }
 
 TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements, to the bit") {
   const double factor = std::ldexp(1.0, 30);
-  random_problem_kind held;  // 2^30 x has other decimals, by which the motion of a free structure is decided
+  random_problem_kind held;  // without free structures, whose motion depends on decimals
   held.free_share = 0.0;
   check_same_path(
       6, factor, [factor](const random_problem& p) { return scaled(factor, p); }, held);

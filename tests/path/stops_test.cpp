@@ -1,4 +1,4 @@
-// When the path does not reach its end: mechanisms, cycles, limits.
+// Tests paths that do not reach their end: mechanisms, cycles and limits.
 #include <cmath>
 #include <functional>
 
@@ -10,7 +10,7 @@
 using namespace contct;
 
 TEST_CASE("a mechanism names the pair whose separation caused it, and the share of the step") {
-  // A beam on two springs; a force that moves outside them lifts the other end off.
+  // A beam on two springs. An additional force beyond the second spring lifts the beam off the first.
   beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, 0.0, 10.0, true}, {3, -1, 0.0, 10.0, true}}, {}};
   p.steps = {{{{2, 0, -4.0}}, {}}, {{{2, 0, -4.0}, {4, 0, -6.0}}, {}}};
   recorder r;
@@ -18,9 +18,9 @@ TEST_CASE("a mechanism names the pair whose separation caused it, and the share 
   CHECK(end.status == path_status::mechanism);
   CHECK(end.step == 2);
   CHECK(end.pairs == std::vector<int>{0});
-  // Moments about the other pair: 4 * 1 = F * 1, so F = 4 of 6.
+  // About pair 2 the moments are 4 * 1 = F * 1, so F = 4, a share of 2/3 of 6.
   CHECK(end.fraction == Approx(2.0 / 3).epsilon(1e-10));
-  // At the state reached the contact force is 0.
+  // In the final state the contact force is 0.
   REQUIRE(r.steps.size() == 2);
   CHECK(r.steps[1].fraction == end.fraction);
   CHECK(r.steps[1].u[2] == Approx(0.0).margin(1e-12));
@@ -29,7 +29,7 @@ TEST_CASE("a mechanism names the pair whose separation caused it, and the share 
 }
 
 TEST_CASE("a free beam on a bed can be unloaded and loaded again, although all pairs separate at zero load") {
-  // PB8: its middle, or a part next to it, lifts off. Then all load goes.
+  // In PB8 the middle or a part next to it lifts off. Then all load is removed.
   for (const double force : {4.0, -50.0, -100.0}) {
     beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
     const load heavy{{}, {{{-1.0}, {}}}};
@@ -82,7 +82,7 @@ TEST_CASE("a cycle of statuses without progress ends the path, and its pairs are
 
 namespace {
 
-/// The 1989 way, but one of its responses fails. Tells which springs are in.
+/// The engine refactor, except that one response fails. It records which springs are applied.
 class failing_engine final : public stiffness_engine {
  public:
   failing_engine(const linear_structure& s, int failing_response)
@@ -124,7 +124,7 @@ TEST_CASE("a path whose factorisation fails ends with the share of the step that
 }
 
 TEST_CASE("after a failed solve, the next step has the springs of the pairs in contact") {
-  // A beam balanced on its first pair: the second one's spring holds it for a solve.
+  // The beam balances on pair 1. The spring of pair 2 is applied only to make the matrix regular.
   const beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, -1, 0.0, 50.0, true}, {0, -1, -9.0, 1e3, false}}, {}};
   const linear_structure s = p.structure();
   failing_engine engine(s, 1);
@@ -140,7 +140,7 @@ TEST_CASE("after a failed solve, the next step has the springs of the pairs in c
 TEST_CASE("the limit of increments grows with the number of pairs, and does not overflow") {
   CHECK(increments_allowed({}, 0) == 1000);
   CHECK(increments_allowed({}, 200) == 11000);
-  CHECK(increments_allowed({}, 50'000'000) == most_increments);  // 2.5e9 does not fit an int
+  CHECK(increments_allowed({}, 50'000'000) == most_increments);  // 2.5e9 exceeds an int
   CHECK(increments_allowed({7}, 50'000'000) == 7);
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("loads beyond the range of doubles end the path, and no state has an i
   recorder r;
   const path_end end = p.run("fortran", {&r});
   CHECK(end.status == path_status::not_factored);
-  p.pairs.clear();  // without observers, too, no infinite number gets out
+  p.pairs.clear();  // a path without pairs has no infinite number either
   CHECK(p.run("fortran", {&r}).status == path_status::not_factored);
   for (const auto& step : r.steps) {
     for (const double x : step.u) CHECK(std::isfinite(x));

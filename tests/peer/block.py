@@ -1,8 +1,8 @@
 """Blocks of bricks over springs with gaps, as decks for CalculiX and as problem files that read the matrix that CalculiX writes."""
 
-# The range of a spring's table, in problem lengths: Newton's first steps may go far, and outside it the force
-# is constant. A second point is near the answer, since the far end, rounded to a field's digits, would
-# misplace a stiff spring's face.
+# The range of a spring's table in the problem's lengths. It is wide because Newton's first steps may go far, and
+# outside it the force is constant. A second point is near the answer, since the rounding of the far point would move a
+# stiff spring's face.
 FAR_AWAY, NEAR = 1e6, 4
 
 
@@ -15,8 +15,8 @@ class Block:
     """A block of C3D8I bricks, clamped at x = 0, over springs with gaps: (node, face, stiffness). A step for each load at a node, along z."""
 
     YOUNGS = 1e4
-    # In a deck of peer_deck displacements and forces are so many times the problem's: CalculiX's NLGEOM must not notice that anything
-    # turns, and CalculiX treats forces far below 0.01 as zero.
+    # Factors of displacements and forces in a deck of peer_deck. Displacements are so small that CalculiX's NLGEOM
+    # finds no rotation; forces are large because CalculiX treats forces far below 0.01 as zero.
     SCALE, FORCE_SCALE = 1e-8, 1e6
 
     def __init__(self, name, bricks, size, supports, loaded, loads):

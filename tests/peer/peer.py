@@ -39,7 +39,7 @@ def run_both(problem):
 
 
 def run_ccx(job, deck):
-    for old in (".dat", ".sti", ".dof"):  # not those from before
+    for old in (".dat", ".sti", ".dof"):  # files of an earlier run
         Path(FOLDER, job + old).unlink(missing_ok=True)
     Path(FOLDER, f"{job}.inp").write_text(deck)
     done = subprocess.run([CCX, job], cwd=FOLDER, capture_output=True, text=True, check=False)
@@ -82,7 +82,7 @@ def check_block(block, events):
         run_ccx(job, block.peer_deck(load))
         u = values_at_end(job, "displacements", "ALL", 1, nodes)
         held = values_at_end(job, "forces", "GROUND", nodes + 1, len(block.supports))
-        # C3D8I's own modes are numbered as nodes after the others.
+        # C3D8I has internal modes, which are numbered as nodes after the others.
         both = [(ours, u[node - 1][way - 1] / block.SCALE) for ours, (node, way) in zip(step["displacement"], labels, strict=True) if node <= nodes]
         forces = [(pair["force"], f[2] / block.FORCE_SCALE) for pair, f in zip(step["pairs"], held, strict=True)]
         off, off_force = (max(abs(a - b) for a, b in of) / (max(abs(a) for a, _ in of) or 1.0) for of in (both, forces))

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Other programs as witnesses: CalculiX (ccx) finds the same states as contct on solids whose matrix it wrote, on the combinations of a
-# base plate, and on benchmark problems; Siconos finds them on all benchmark problems of reference/benchmarks.
-# usage: sh tests/peer/run.sh [BUILD]      (default: build/release; the needed targets are built)
-# Exit 0: all agrees; 1: something does not; 2: usage; 77: skipped, one of them cannot be had.
+# Tests that CalculiX (ccx) finds the same states as contct, on solids whose matrix it wrote, on combinations of a base
+# plate, and on problems of reference/benchmarks; and that Siconos finds them on all problems of reference/benchmarks.
+# usage: sh tests/peer/run.sh [BUILD]      (default: build/release; its targets are built)
+# Exit 0: all agree; 1: a difference; 2: usage; 77: skipped, one of them is missing.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh
@@ -26,7 +26,7 @@ if ! { cmake --preset release -B "$build" -DCONTCT_BUILD_TESTS=ON &&
   echo "CalculiX as a peer: it does not build" >&2
   exit 1
 fi
-# One thread: its sums, and so its last digits, depend on how many there are.
+# CalculiX's last digits depend on the number of threads.
 export OMP_NUM_THREADS=1
 build=$(cd "$build" && pwd)
 python3 tests/bench/solid.py 1 "$work" && "$build/contct" run "$work/solid-1.toml" --quiet --strict || exit 1

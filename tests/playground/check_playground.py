@@ -37,7 +37,7 @@ def ready():
     browser.wait_for("document.body.dataset.ready === 'yes'")
 
 
-# ---- two results ----
+# ---- comparison of two results ----
 
 def bits(x):
     return struct.pack(">d", x)
@@ -75,7 +75,7 @@ def calls_of(trace):
     return trace[at:] if at >= 0 else ""
 
 
-# ---- the program ----
+# ---- the program contct ----
 
 def run_natively(file, kernels):
     """Exit status, what is said on standard error, and by name what the program writes."""
@@ -100,7 +100,7 @@ def lapacks_are_the_same(lapack):
 def compare_runs():
     for file in sorted(glob.glob("reference/problems/*.toml") + glob.glob("reference/problems/divergences/*.toml")):
         if os.path.exists(file[:-4] + "mtx"):
-            continue  # the page has no other files
+            continue  # the page cannot read a second file
         problem = pathlib.Path(file).read_text(encoding="utf-8")
         for kernels in KERNELS:
             compare_run(f"{file}, {','.join(kernels)}", file, problem, kernels)
@@ -162,7 +162,7 @@ def errors_have_their_places():
         check(error["line"] == line and (error["column"] or 0) >= 1, f"\"{new}\", line {line}: {error}")
 
 
-# ---- the page as people use it ----
+# ---- the page's controls ----
 
 def text():
     return value("document.getElementById('text').value")
@@ -249,7 +249,7 @@ def dragging():
 
     choose("menu", "pb01-cantilever-tip-stop")
     browser.enter("slider", value("document.getElementById('slider').max"))
-    node = number("step[4].point[1].node")  # the load of the last step, since the last state is shown
+    node = number("step[4].point[1].node")  # the load of the last step, whose state is shown
     drag(handle("load of step 4"), -330, 0, steps=12)
     check(number("step[4].point[1].node") < node, "a point load can be dragged to another node")
 
@@ -285,7 +285,7 @@ def plates():
     """Every state of a plate has its picture, with the contact forces of that state as arrows."""
     name = "pp01i-unilateral-edges-n24-k1e7"
     choose("menu", name)
-    browser.wait_for("(result.calls || []).length > 0", 30)  # behind the pause
+    browser.wait_for("(result.calls || []).length > 0", 30)  # the page waits before it computes
     result = natively("run", (root / f"reference/problems/{name}.toml").read_text(encoding="utf-8"))
     states = 1 + sum(len(s["increments"]) for s in result["steps"])
     check(states >= 14 and value("frames.length") == states == int(value("document.getElementById('slider').max")) + 1, f"all {states} states of a plate can be shown")
@@ -301,7 +301,7 @@ def plates():
 def pressed_stops():
     choose("menu", "pb01-cantilever-tip-stop")
     browser.enter("slider", value("String(frames.findIndex((f) => f.step === 2 && f.fraction === 1))"))
-    pressed = 60 * 8 / 3e4 - 0.004  # of the spring by hand: k f / (1 + k f) of it
+    pressed = 60 * 8 / 3e4 - 0.004  # the free tip's distance beyond the stop
     tip = -0.004 - pressed * 1 / (1 + 5e4 * 8 / 3e4)
     at = value("Number(document.querySelector('#picture .face-line').getAttribute('y1'))")
     check(abs(at - value(f"page.Y({tip})")) < 0.02 and value(f"Math.abs(page.Y({tip}) - page.Y(-0.004))") > 4, f"a pressed stop is drawn where it has yielded to: {at}")
@@ -324,7 +324,7 @@ def events_by_keyboard():
 
 def story():
     choose("menu", "pb07-three-gap-supports")
-    time.sleep(0.6)  # the story and the report come after a pause
+    time.sleep(0.6)  # the explanation and the report come after a pause
     value("document.querySelectorAll('#events button')[1].click()")
     value(handle("face of pair 3") + ".dispatchEvent(new MouseEvent('click'))")
     check(value("document.getElementById('pair').value") == "2", "a click on a face chooses its pair")
@@ -399,7 +399,7 @@ def long_beam():
     check(value("model.pairs") == 100 and value("increments.length") > 50, "a beam of 1000 elements and 100 pairs is followed")
 
 
-# ---- the lesson ----
+# ---- the lessons ----
 
 def scene(words):
     return value(f"scenes[0].{words}")
@@ -653,7 +653,7 @@ def beside_the_listing():
     check(len(lines) >= 15 and seen == [expected[line] for line in lines], f"the C++ of each line is beside it: {len(lines)} lines")
 
 
-# A fault of kernel.js: its mutant in hints.toml, a text of the kernel, its replacement.
+# The faults of kernel.js: (its mutant in hints.toml, a text of the kernel, its replacement).
 FAULTS = [("smin-quotient-dropped", " - smin) / smin", " - smin)"), ("epsmul-le", "diff < 1", "diff <= 1"), ("gap-reversed", "cc[i] - dd[dof]", "dd[dof] - cc[i]"),
           ("toggled-by-sign", "isep[i] === 1 ? -1 : 1", "-isep[i]"), ("sschk-negated", "(isep[i] * isurf[i])", "(-isep[i] * isurf[i])"),
           ("do-30-from-2", "let i = 0; i < nc; ++i) {\n    const diff", "let i = 1; i < nc; ++i) {\n    const diff"), ("nodes-from-0", "(id[i] - 1)", "id[i]"),

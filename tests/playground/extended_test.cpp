@@ -7,7 +7,7 @@
 
 __extension__ using quad = __float128;
 
-// cpp/playground/extended.c, under the names that CMakeLists.txt gives
+// Functions of cpp/playground/extended.c, renamed by CMakeLists.txt.
 extern "C" {
 quad page_sum(quad a, quad b);
 quad page_difference(quad a, quad b);
@@ -20,7 +20,7 @@ namespace {
 
 using contct::random_numbers;
 
-/// Zeros, infinities, NaN, and numbers of few or of all 64 bits, large and small.
+/// Returns zeros, infinities, NaN, and large and small numbers of few or all 64 bits.
 long double any_number(random_numbers& random) {
   constexpr long double infinity = std::numeric_limits<long double>::infinity();
   constexpr long double not_a_number = std::numeric_limits<long double>::quiet_NaN();
@@ -33,7 +33,8 @@ long double any_number(random_numbers& random) {
   return random.chance(0.5) ? x : -x;
 }
 
-/// Numbers whose sums cancel and round up to a power of 2: a neighbour, or the number itself.
+/// Returns -a, or the number next to a, for sums that cancel or round up to a power of 2; otherwise any
+/// number.
 long double beside(long double a, random_numbers& random) {
   if (a == 0 || random.chance(0.8)) return any_number(random);
   if (random.chance(0.3)) return -a;

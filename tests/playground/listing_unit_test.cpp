@@ -11,7 +11,7 @@
 #include "support/one_pair.hpp"
 #include "support/scratch_folder.hpp"
 
-// cpp/playground/listing_unit.c with f2c's translation of the listing: tests/playground/CMakeLists.txt
+// Functions of cpp/playground/listing_unit.c with f2c's translation of the listing; see CMakeLists.txt.
 extern "C" {
 void unit_contct_call_r8(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
                          const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::int64_t calls = 4'000;
 
-/// Unit 26 of the page, in a file.
+/// The page's unit 26, written to a file.
 class unit_26 {
  public:
   unit_26() : path_(folder_.write("unit-26", "")) {

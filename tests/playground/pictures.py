@@ -10,7 +10,7 @@ from devtools import Browser  # noqa: E402
 
 course, check = pathlib.Path(sys.argv[1]).resolve(), "--check" in sys.argv
 without_quotient = (root / "tests/playground/kernel.js").read_text(encoding="utf-8").replace(" - smin) / smin", " - smin)")
-# Each picture: a page that has its scene, and the actions before the picture.
+# Each picture has a page with its scene, and the actions before the picture is taken.
 PICTURES = {
     "tip-stop": ("01-picture", "scenes[0].push(2, -60, false)"),
     "tip-stop-unloaded": ("01-picture", "scenes[0].push(2, 0, false)"),

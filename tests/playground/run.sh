@@ -1,10 +1,9 @@
 #!/bin/sh
-# The program as WebAssembly in a browser without a window, against the program itself: every reference problem under
-# three sets of kernels, results to the bit, unit 26 byte for byte, every call; the golden set replayed; errors with
-# their places; and the page as people use it. Builds the playground (cpp/playground.sh) if it is not built.
-# Times are printed and not judged.
+# Compares the playground in headless chromium with the program: every reference problem with three sets of kernels,
+# results to the bit, unit 26, every call, the replayed golden set, and errors with their places. Also tests the page's
+# controls. Builds the playground by cpp/playground.sh if needed. Times are printed, but not judged.
 # usage: sh tests/playground/run.sh [BUILD]      (default: build/release)
-# Exit 0: all is equal; 77: skipped, Emscripten or chromium cannot be had; 1 otherwise.
+# Exit 0: all are equal; 77: skipped, Emscripten or chromium is missing; 1 otherwise.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=$(cd "${1:-build/release}" && pwd) || exit 1
@@ -16,7 +15,7 @@ has_browser || { echo "playground: SKIPPED: chromium cannot be had"; exit 77; }
 [ "$(uname -m)" = x86_64 ] || { echo "playground: SKIPPED: the page's long double is that of x86_64"; exit 77; }
 sh cpp/playground.sh || exit $?
 
-# The page has reference LAPACK; so must the program, whatever this system's alternatives choose.
+# The page uses reference LAPACK, so the program must use it too.
 for library in lapack blas; do
   for folder in /usr/lib/*/"$library"; do
     [ -e "$folder/lib$library.so.3" ] && LD_LIBRARY_PATH=$folder${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}

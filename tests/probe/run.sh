@@ -1,11 +1,12 @@
 #!/bin/sh
-# contct-replay with its rooms compiled with floating point that is not strict: a mismatch must then be blamed on the
-# environment, and not on a kernel. The rooms are a project of their own; the program's options and its main() are the
-# objects of the strict build. usage: run.sh KIND SOURCE WORK STRICT_REPLAY OBJECT..., with CMAKE, GENERATOR, CXX and FC
-# set; OBJECT...: the objects of the strict build for the linker, and the libraries of all.
-# KIND: fused     products and sums are contracted: the listing has none, so no result differs, but it must be reported
-#       fast      -ffast-math, compiled and linked: subnormals are flushed to zero, and the golden set notices
-#       compiled  compiled with -ffast-math but linked without: no result shows it, only the compiler's macros do
+# Tests contct-replay with the folders of cpp/contct compiled without strict floating point. A mismatch must be blamed
+# on the environment, and not on a kernel. The folders are a separate project; the options and main() are objects of the
+# strict build.
+# usage: run.sh KIND SOURCE WORK STRICT_REPLAY OBJECT..., with CMAKE, GENERATOR, CXX and FC set; OBJECT: objects and
+# libraries for the linker.
+# KIND: fused     products and sums are contracted; the listing has none, so no result differs
+#       fast      -ffast-math for compiler and linker: subnormals are flushed to zero, and the golden set differs
+#       compiled  -ffast-math only for the compiler: no result differs, and only its macros show it
 # Exit 77: this processor has no fused multiply-add.
 set -eu
 kind=$1
@@ -40,11 +41,11 @@ launcher="sh;$source/tests/probe/slack.sh;$slack"
       -Wl,--end-group
 } >"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
 
-# One golden trace in which a scale factor has been changed: no kernel answers it.
+# A golden trace with a changed scale factor, which no kernel answers.
 doctored=$work/doctored.trace
 awk '/^smin / && !done {$0 = "smin 0x1.23p-4"; done = 1} {print}' "$source/reference/traces/layouts.trace" >"$doctored"
 
-# replay PROGRAM TRACE..: its summary of the comparison, without traces of another precision.
+# replay PROGRAM TRACE..: prints the summary of the comparison, without traces of another precision.
 replay() {
   program=$1
   shift
@@ -54,7 +55,7 @@ replay() {
   grep '\.trace: ' "$work/said" | grep -v ': skipped: ' >"$work/compared" || true
 }
 wrong=0
-expect() {  # expect WORDS CONDITION..: a fact
+expect() {  # expect WORDS CONDITION..: checks a fact
   words=$1
   shift
   "$@" || { echo "NOT SO: $words"; wrong=1; }

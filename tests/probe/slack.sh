@@ -1,5 +1,5 @@
 #!/bin/sh
-# A compiler launcher that puts a fault in: floating point that is not strict after all. usage: slack.sh FLAGS COMPILER..
+# slack.sh FLAGS COMPILER..: a compiler launcher that adds flags against strict floating point.
 flags=$1
 shift
 # shellcheck disable=SC2086 # flags are words

@@ -80,7 +80,7 @@ def unheld(step):
     step.update(certified=False, error={kind: None if kind in ("w", "slope", "gap") else 1e300 for kind in step["error"]})
 
 
-# In step 3 of PB7 the beam is on three stops, and the middle one has the largest force.
+# In step 3 of PB7 the beam is on three stops, of which the middle one has the largest force.
 FAULTS = {
     "the state is moved": scaled(["u", 16, 0], 1 + 1e-6),
     "the state has lost what doubles leave over": put("u", lambda u: [[hi * (1 + 2e-16), 0.0] for hi, _ in u]),
@@ -134,11 +134,11 @@ FAULTS = {
     "the state is missing": lambda step: step.pop("state"),
     "no bounds, and yet a state": put("error", None),
 }
-# The proof of another problem is refused too: one digit of the file is changed.
+# The proof must be refused for another problem: one digit of the problem file is changed.
 OTHERS = {"EI": (r"EI( *)= *", "1"), "the load": (r"uniform( *)= *", "1"), "a face": (r"face( *)= *", "1"), "a spring": (r"stiffness( *)= *", "1")}
 
 
-# By their lower triangles.
+# Matrices given by their lower triangles, and whether they are semidefinite.
 MATRICES = {
     "a free chain": ("1 1 1|2 1 -1|2 2 2|3 2 -1|3 3 1", True),
     "a soft motion": ("1 1 1|2 1 -1|2 2 1.00000000000005", True),
@@ -179,7 +179,7 @@ def check_reference(folder):
     for problem in files:
         for kernel in ("corrected", "fortran"):
             proof = proof_of(problem, folder, "--kernels", kernel)
-            if proof is None:  # a mechanism, by the 1989 rule
+            if proof is None:  # a mechanism by the 1989 rule
                 if kernel == "corrected":
                     fail(f"{problem.name}: no end with {kernel}")
                 continue
@@ -246,7 +246,7 @@ def check_faults(folder):
     without = proof["steps"][:3] + [{"step": 4, "certified": False, "error": None, "because": "lorem"}]
     if verdict(problem, proof | {"steps": without}, folder)[0] != 2:
         fail("a step without bounds counts as proved")
-    doctored = copy.deepcopy(proof)  # pair 3 counts twice, by another name, and the factor has its spring twice
+    doctored = copy.deepcopy(proof)  # pair 3 is listed twice, and the factor has its spring twice
     twice = Path(folder) / "twice.toml"
     contact = "\n[[contact]]\nnode = 13\nsurface = \"below\"\nface = -0.006\nstiffness = 1.0e5\n"
     twice.write_text(problem.read_text().replace("\n[[step]]", contact + "\n[[step]]", 1))
@@ -256,7 +256,7 @@ def check_faults(folder):
         fail("a pair is taken as closed under two numbers")
     problem_that_opens = reference / "problems/pb01-cantilever-tip-stop.toml"
     opened = proof_of(problem_that_opens, folder, "--kernels", "corrected")
-    unloaded = Path(folder) / "unloaded.toml"  # where nothing acts, sizes of the steps before count: not those that are only told
+    unloaded = Path(folder) / "unloaded.toml"  # an unproved earlier step must not increase the allowed error
     unloaded.write_text("[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n")
     inflated = proof_of(unloaded, folder, "--kernels", "corrected")
     inflated["steps"][0].update(certified=False, displacement=[1e200] * 4, error=dict.fromkeys(inflated["steps"][0]["error"], 1e300))

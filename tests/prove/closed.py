@@ -12,7 +12,7 @@ import contct
 
 ABI = ".globl contct_kernel_abi\ncontct_kernel_abi:\nmov $1, %eax\nret\n"
 KERNEL = ABI + ".globl contct_kernel\n.type contct_kernel,@function\ncontct_kernel:\n{}\nud2\n.size contct_kernel, .-contct_kernel\n.section .note.GNU-stack\n"
-CASES = {  # what the prover must say of a kernel with this body, which ends when it is run
+CASES = {  # a kernel's body, and the reason that the prover must give
     "cpuid": "this mnemonic is not known",
     ".rept 5000\nnop\n.endr": "no end of the path after 4000 instructions",
     "jmp *%rax": "an address that is not known to be in one region",

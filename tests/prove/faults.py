@@ -30,7 +30,7 @@ def verdict_on(fault: dict, folder: Path) -> subprocess.CompletedProcess:
     edited.write_text(text.replace(fault["find"], fault["replace"]))
     command = COMMANDS[fault["file"]].format(folder if "cpp/" in fault["file"] else edited, library)
     subprocess.run(command.split(), check=True, cwd=folder)
-    words = ["/usr/bin/python3", "-m", "contct_prove", str(library)]  # every kernel in it, in both precisions of C++
+    words = ["/usr/bin/python3", "-m", "contct_prove", str(library)]  # proves every kernel of the library
     return subprocess.run(words, env=os.environ | {"PYTHONPATH": str(build)}, capture_output=True, text=True)
 
 

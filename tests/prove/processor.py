@@ -23,7 +23,7 @@ from contct_prove.__main__ import KERNELS
 
 STATES = 12
 ORDER = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for k in range(8, 16)]
-PAGE, DATA = 4096, 8192  # the state's place, and that of the memory which instructions address
+PAGE, DATA = 4096, 8192  # addresses of the state, and of the memory that instructions use
 FLAG_BITS = [0, 2, 6, 7, 11]  # carry, parity, zero, sign, overflow
 draw = random.Random(1989)
 decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)

@@ -1,5 +1,5 @@
-// texts STEP: every STEP-th 4-byte SMIN below 1 has the same text from gfortran's FORMAT and in
-// C++. SMIN is above 0 and at most 1, which is proved; 1 itself is written by FORMAT 20.
+// contct_texts STEP: compares the texts of gfortran's FORMAT and of C++ for every STEP-th 4-byte SMIN below
+// 1. SMIN is above 0 and at most 1, as is proved; FORMAT 20 writes 1 itself.
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -21,7 +21,7 @@ using lines = std::array<char, batch * width>;
 
 extern "C" void texts_(const float* smin, const int* n, char* texts, std::size_t length);
 
-/// The number of values with different texts.
+/// Returns the number of values with different texts.
 int differences(std::span<const float> values) {
   static lines by_fortran;
   const int n = static_cast<int>(values.size());
@@ -38,7 +38,7 @@ int differences(std::span<const float> values) {
     c.smin = values[k];
     text.clear();
     append_log_text(c, std::span<const event>(&made, 1), text);
-    const std::string ours = text.substr(text.size() - width - 1, width);  // before the end of the line
+    const std::string ours = text.substr(text.size() - width - 1, width);  // the last characters of the line
     if (ours.compare(0, width, &by_fortran[k * width], width) == 0) continue;
     if (++different == 1)
       std::printf("%a: %s in C++, %.11s by FORTRAN\n", values[k], ours.c_str(), &by_fortran[k * width]);

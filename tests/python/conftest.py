@@ -8,12 +8,12 @@ import pytest
 
 NUMPY = os.environ["CONTCT_TEST_NUMPY"]
 if NUMPY == "hidden":
-    sys.modules["numpy"] = None  # import numpy raises ImportError
+    sys.modules["numpy"] = None  # now `import numpy` raises ImportError
 
 ROOT = Path(__file__).resolve().parents[2]
 PROBLEMS = ROOT / "reference/problems"
-sys.path.insert(0, os.environ["CONTCT_BUILD"])  # contct.py and libcontct.so
-sys.path.append(str(ROOT / "tests/course"))  # page.py
+sys.path.insert(0, os.environ["CONTCT_BUILD"])  # for contct.py and libcontct.so
+sys.path.append(str(ROOT / "tests/course"))  # for page.py
 import contct  # noqa: E402
 
 assert (contct._numpy is not None) == (NUMPY == "there"), f"NumPy: found {contct._numpy}; allowed: {NUMPY}"

@@ -22,7 +22,7 @@ def test_a_file_is_named_with_line_and_column(tmp_path, monkeypatch):
         assert (error.file, error.line, error.column) == (str(bad), line, 13)
         assert error.message.startswith("contact[1].stiffness: found -50000") and "allowed: " in error.message
         assert str(error) == f"{bad}:{line}:13: {error.message}"
-        assert not hasattr(error, "__notes__")  # the file is there to look at
+        assert not hasattr(error, "__notes__")  # no note, because the file exists
     assert isinstance(error, ValueError) and isinstance(error, contct.Error)
     monkeypatch.chdir(tmp_path)
     assert refusal("bad.toml").file == "bad.toml"
@@ -44,7 +44,7 @@ def test_a_text_has_a_place():
     assert (error.line, error.column) == (2, 7) and "code 0" in error.message
     error = refusal("[beam\n")
     assert (error.line, error.column) == (1, 6)
-    assert refusal("a = 1\nb = '\ud800'\n").line == 2  # no UTF-8
+    assert refusal("a = 1\nb = '\ud800'\n").line == 2  # a surrogate is not valid UTF-8
 
 
 def test_an_argument_that_is_not_a_problem_is_refused():
@@ -137,4 +137,4 @@ def test_a_problem_names_files_outside_its_folder_only_where_that_is_allowed(tmp
     problem = of_matrix(tmp_path, "../K.mtx")
     with pytest.raises(contct.InputError, match="not below the folder of the problem file.*allow_outside"):
         contct.run(problem, folder=tmp_path / "own")
-    assert contct.run(problem, folder=tmp_path / "own", allow_outside=True).page.startswith("<!DOCTYPE html>")  # asks once more
+    assert contct.run(problem, folder=tmp_path / "own", allow_outside=True).page.startswith("<!DOCTYPE html>")  # a second run

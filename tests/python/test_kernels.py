@@ -15,7 +15,7 @@ def test_a_call_is_answered():
     isep = [1, 1]
     found = contct.call("fortran", [0, 0], [2, 1], [0.5, 0.75], [1, 2], isep, [1, 1])
     assert (list(found.ss), found.smin, list(found.isep)) == ([0.25, 0.75], 0.25, [-1, 1])
-    assert isep == [1, 1]  # what is given stays as it is
+    assert isep == [1, 1]  # the arguments are unchanged
     assert "MAKING CONTACT" in found.text and "0.2500E+00" in found.text
     none = contct.call("cpp-r4", [], [], [], [], [], [])
     assert (list(none.ss), none.smin, list(none.isep)) == ([], 1.0, [])
@@ -107,7 +107,7 @@ def test_an_exception_of_a_kernel_is_raised_with_its_call():
 
     with pytest.raises(ZeroDivisionError, match="the hundredth") as caught:
         contct.judge(fails, calls=2000)
-    assert len(seen) == 100  # it is not called again
+    assert len(seen) == 100  # the kernel is not called again
     assert caught.value.__notes__[0].startswith(f"in a call of {len(seen[-1].id)} pair")
 
     def stops(call):

@@ -20,9 +20,9 @@ class Column(list):
         return list(self)
 
 
-# A chain of three springs of 1000 from a wall, entries of both triangles, one of them in two parts. A stop of 1000 is
-# 0.002 below its end. Under 3 the free end goes to -0.009; with the stop 1000 / 3 u + 1000 (u + 0.002) = -3 gives
-# u = -0.00375, and the stop presses with 1.75.
+# A chain of three springs of 1000 from a wall, with entries of both triangles, one of them in two parts. A stop of 1000
+# is 0.002 below its end. Under a load of 3, 1000 / 3 u + 1000 (u + 0.002) = -3 gives u = -0.00375, and the stop presses
+# with 1.75. Without the stop the end is at -0.009.
 CHAIN = Coo(3, [(0, 0, 1500.0), (0, 0, 500.0), (0, 1, -1000.0), (1, 0, -1000.0), (1, 1, 2000.0), (1, 2, -1000.0),
                 (2, 1, -1000.0), (2, 2, 1000.0)])
 STOP = [(2, "below", -0.002, 1000.0)]
@@ -41,7 +41,7 @@ def test_a_state_that_passes_its_stop_is_not_certified_and_the_answer_is_the_rig
     found = contct.certify(CHAIN, [-0.003, -0.006, -0.009], pairs=STOP, loads=LOADS, closed=[])
     assert not found.certified and found.exit == 3
     assert found.steps[0].certificate.penetration == pytest.approx(0.007 / 0.009, rel=1e-9)
-    assert found.steps[0].error.w >= 0.00525  # what the free end is off by
+    assert found.steps[0].error.w >= 0.00525  # the error of the free end
     assert found.answer.certified and list(found.answer.steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
 
 
@@ -66,7 +66,7 @@ def test_dofs_are_rows_from_0_or_labels():
 
 
 def test_supports_are_fixed_or_springs():
-    # Without its wall the chain moves freely; a spring of 1000 at the first dof is the wall.
+    # Without its wall the chain moves freely. A spring of 1000 at dof 1 replaces the wall.
     free = Coo(3, [(0, 0, 1000.0), (0, 1, -1000.0), (1, 0, -1000.0), (1, 1, 2000.0), (1, 2, -1000.0), (2, 1, -1000.0), (2, 2, 1000.0)])
     assert contct.certify(free, RIGHT, pairs=STOP, loads=LOADS, supports={0: 1000.0}).certified
     # Fixed: 500 u + 1000 (u + 0.002) = -3.

@@ -47,7 +47,7 @@ def test_a_load_inside_an_element_and_a_hinge_have_their_kinks(matplotlib):
     beam = {"beam": {"length": 10.0, "elements": 2, "EI": EI}, "hinge": [{"node": 2}],
             "support": [{"node": 1, "fix": ["w", "theta"]}, {"node": 3, "fix": "w"}], "step": [{"point": [{"x": 7.5, "w": -8.0}]}]}
     result = contct.run(beam)
-    xs, ys = drawn(result.plot("moment"))["moment"]  # the right part is a simple beam that hangs on the left one
+    xs, ys = drawn(result.plot("moment"))["moment"]  # the right part is a simple beam hung from the left part
     assert all(abs(m - (-4 * (5 - x) if x <= 5 else 4 * (x - 5) if x <= 7.5 else 4 * (10 - x))) < 1e-9 for x, m in zip(xs, ys))
     xs, ys = drawn(result.plot("w"))["w"]
     assert all(abs(w + 4 * x * x * (15 - x) / (6 * EI)) < 1e-9 for x, w in zip(xs, ys) if x <= 5)
@@ -89,7 +89,7 @@ def test_a_plate_is_drawn_in_colours_on_axes_that_are_given(matplotlib):
     result = contct.run(plate, kernels="corrected")
     given = pytest.importorskip("matplotlib.pyplot").subplots()[1]
     assert result.plot(ax=given) is given
-    low, high = given.figure.axes[1].get_ylim()  # of the bar beside it
+    low, high = given.figure.axes[1].get_ylim()  # the range of the colour bar
     assert low <= min(result.steps[0].w) < 0.5 * low and high >= 0
     assert given.get_xlim() == (0.0, 3.0) and given.get_ylim() == (0.0, 2.0) and given.get_title() == "Step 1: w"
     with pytest.raises(contct.InputError, match="found quantity 'moment' of a plate; allowed: w$"):

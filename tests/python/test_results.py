@@ -16,7 +16,7 @@ def test_a_run_has_the_bits_of_the_programs_json(path, ask):
     assert found.to_dict() == expected  # Python reads and compares doubles exactly
     assert found.exit == exit
     assert len(found.steps) == len(expected["steps"]) >= 1
-    # The module's own TOML has the same numbers, and so has the file's text.
+    # TOML text gives the same result, whether written by contct.read or read from the file.
     assert contct.run(contct.read(path)) == found
     assert contct.run(path.read_text()) == found
 
@@ -70,7 +70,7 @@ def test_arrays_are_numpys_where_it_is_there_and_lists_otherwise(beam):
     else:
         assert all(type(x) is list for x in (step.w, step.displacement, step.elements[0].moment))
     assert list(step.w) == step.to_dict()["w"] and len(step.w) == 3
-    assert step.extremes.w.min.value == min(step.w)  # here "w" is an object
+    assert step.extremes.w.min.value == min(step.w)  # "w" is an object here
 
 
 def test_nodes_have_x_and_a_step_its_balance(beam):

@@ -1,4 +1,4 @@
-// A C++ program with CONTCT in it: the template, and the kernels by name.
+// A C++ program that calls CONTCT by its template and by the names of kernels.
 #include <contct/compare/compare.hpp>
 #include <contct/kernel/call.hpp>
 #include <contct/kernel/contct.hpp>
@@ -9,8 +9,8 @@
 using namespace contct;
 
 int main() {
-  // Two free ends that rise towards faces above them: the first touches after a quarter of the load.
-  const std::vector<double> d = {0, 0}, d_star = {2, 1};  // D; its change by the remaining load
+  // Two free ends rise towards faces above them. The first end reaches its face at a quarter of the load.
+  const std::vector<double> d = {0, 0}, d_star = {2, 1};  // D, and its change by the remaining load
   const std::vector<double> faces = {0.5, 0.75};
   const std::vector<int> nodes = {1, 2}, above = {1, 1};
   std::vector<int> status(2, separated);

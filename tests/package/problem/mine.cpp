@@ -1,4 +1,4 @@
-// A problem file, read and followed by the installed rooms.
+// A program that reads a problem file and follows its path with the installed libraries.
 #include <contct/kernel/registry.hpp>
 #include <contct/path/solve_problem.hpp>
 #include <contct/read/problem_file.hpp>
@@ -24,7 +24,7 @@ stiffness = 5.0e4
 point = [ { node = 3, w = -60.0 } ]
 )";
 
-/// Counts what happens.
+/// Counts the events of a path.
 struct event_counter final : observer {
   int makes = 0;
   void incremented(const increment& i) override {
