@@ -1,11 +1,12 @@
 #!/bin/sh
-# Installs missing packages, builds, and passes all tests: sh tests/run.sh [--full] [LEG]...
+# Installs missing packages, builds, and runs all tests: sh tests/run.sh [--full] [LEG]...
 # LEG: another preset that is built and tested first: core (without the program, with sanitizers and gfortran's run-time
-# checks), asan (the same with the program), tsan (threads). --full has all of them, and adds what takes longer:
-# certificates against the exact path, the mutants of both kernels, more failing calls of the system, the exact numbers of
-# all reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
-# playground in a browser, grids read back by VTK, a routine of LAPACK beside its port, every reader fuzzed for a minute, Debian packages
-# and reference/adopt in a bare Debian, the static contct-replay in an empty folder, formatting and clang-tidy.
+# checks), asan (the same with the program), tsan (threads). --full has all of them, and adds the long tests:
+# certificates against the exact path, the mutants of both kernels, more failing system calls, the exact numbers of all
+# reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
+# playground in a browser, grids read back by VTK, a routine of LAPACK next to its port, every reader fuzzed for a
+# minute, Debian packages and reference/adopt in a bare Debian, the static contct-replay in an empty folder, formatting
+# and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -25,11 +26,11 @@ done
 need_core
 need_program
 need "to test" catch2 pkgconf python3 python3-jsonschema groff-base
-need "for quicker exact numbers" libgmp-dev || true  # without it a few tests have fewer problems
-need "to prove the kernels" python3-capstone python3-z3 || true  # those tests are skipped where they cannot be had
-need "to test contct.py" python3-pytest python3-numpy python3-scipy python3-matplotlib python3-getfem mypy || true  # those tests are skipped where they cannot be had
+need "for quicker exact numbers" libgmp-dev || true  # otherwise a few tests have fewer problems
+need "to prove the kernels" python3-capstone python3-z3 || true  # otherwise their tests are skipped
+need "to test contct.py" python3-pytest python3-numpy python3-scipy python3-matplotlib python3-getfem mypy || true  # otherwise their tests are skipped
 
-# build NAME: configure and build the preset of that name, quietly unless it fails.
+# build NAME: configures and builds this preset, and prints its messages only if it fails.
 build() {
   echo "== $1: configuring, building"
   began=$(date +%s)
@@ -44,13 +45,13 @@ build() {
   echo "== $1: $(($(date +%s) - began)) s"
 }
 
-# test_of NAME: test the build of that preset. The last lines are ctest's own summary.
+# test_of NAME: tests the build of this preset, and prints ctest's summary.
 test_of() {
   echo "== $1: testing"
   ctest --preset "$1" -j "$(nproc 2>/dev/null || echo 2)" --progress
 }
 
-# with_tool NAME SCRIPT [ARGUMENT]: run the script, which exits 77 where its tool cannot be had.
+# with_tool NAME SCRIPT [ARGUMENT]: runs the script, which exits 77 if its tool is missing.
 skipped=""
 with_tool() {
   echo "== $1"
@@ -70,11 +71,11 @@ if [ "$full" = yes ]; then
   need "for clang-tidy" clang-tidy
   need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
   need "for one more engine" libsuitesparse-dev
-  need_petsc || true  # its tests are skipped where it cannot be had
-  need "to compare with other programs" calculix-ccx python3-siconos || true  # the same
+  need_petsc || true  # otherwise its tests are skipped
+  need "to compare with other programs" calculix-ccx python3-siconos || true  # otherwise their test is skipped
   need "for the manual pages" mandoc
   for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
-    command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # its test is skipped
+    command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # otherwise its test is skipped
   done
   command -v julia >/dev/null 2>&1 || skipped="$skipped; the judge in Julia, which Debian 12 does not have"
   sh tests/tree/format.sh

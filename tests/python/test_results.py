@@ -106,10 +106,10 @@ def test_reprs_are_one_line(beam):
 def test_a_notebook_shows_the_page(beam, ask, tmp_path):
     found = contct.run(PROBLEMS / "pb01-cantilever-tip-stop.toml")
     shown = found._repr_html_()
-    assert shown.startswith('<iframe srcdoc="') and shown.count('"') == 8  # nothing in the page ends the attribute
+    assert shown.startswith('<iframe srcdoc="') and shown.count('"') == 8  # no quote of the page ends the attribute
     assert found.page.startswith("<!DOCTYPE html>") or found.page.startswith("<!doctype html>")
     assert "Cantilever with a tip stop" in found.page
-    assert found.page is found.page  # made once
+    assert found.page is found.page  # the page is made once
     assert contct.run(beam, final_only=True)._repr_html_() is None
     assert contct.certify(beam, found.steps[0].displacement)._repr_html_() is None
 
@@ -128,7 +128,7 @@ def test_log_trace_and_proof_are_the_programs(ask, tmp_path):
     assert calls_of(found.trace) == calls_of(trace.read_text())
     assert contct.replay(found.trace).calls == 8
     assert json.loads(found.proof) == json.loads(proof.read_text())
-    assert "\nkernel cpp\n" in contct.run(path, kernels="cpp").trace  # its own options
+    assert "\nkernel cpp\n" in contct.run(path, kernels="cpp").trace  # options of this call only
 
 
 def test_options_of_a_run(beam, ask):

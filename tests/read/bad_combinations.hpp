@@ -1,4 +1,4 @@
-// Mistakes in [[case]], [[combination]] and [[train]].
+// Lists mistakes in [[case]], [[combination]] and [[train]], for the tests of refusals.
 #pragma once
 
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace contct {
 
-/// `good_problem` with these tables, from line 12 on, for its [[step]].
+/// Returns `good_problem` with these tables from line 12 on instead of its [[step]].
 inline std::string cases_with(const std::string& tables) {
   return with("[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n", tables);
 }
 
 inline const char* const case_g = "[[case]]\nname = \"G\"\nuniform = -1\n";  // lines 12 to 14
 
-/// A train of two axles behind the case G, from line 15 on, with these lines for its last three.
+/// Returns `good_problem` with the case G and, from line 15 on, a train of two axles whose last three lines
+/// are these.
 inline std::string train_with(const std::string& lines) {
   return cases_with(std::string(case_g) +
                     "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 }, { at = 1, w = -2 } ]\n" + lines);

@@ -1,4 +1,4 @@
-// Kinds of bad input: user errors, and the required parts of their messages.
+// Lists kinds of bad input, and the required parts of their messages.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace contct {
 
-/// `good_problem` on a beam with element_size instead of coordinates and EI, given by these lines.
+/// Returns `good_problem` with these lines of [beam] instead of x and EI, for meshes by element_size.
 inline std::string sized_with(const std::string& lines) {
   return with("x = [0.0, 1.0, 2.0]\nEI = 1.0e4\n", lines);
 }
 
-/// `good_problem` with these lines for the last table's.
+/// Returns `good_problem` with these lines in its [[step]].
 inline std::string step_with(const std::string& lines) {
   return with("point = [ { node = 3, w = -60.0 } ]\n", lines);
 }
 
-/// `good_problem` with a bed of these lines from line 14 on.
+/// Returns `good_problem` with a bed that has these lines from line 14 on.
 inline std::string bed_with(const std::string& lines) {
   return good_problem + ("[[bed]]\nmodulus = 1\n" + lines);
 }
@@ -54,7 +54,7 @@ inline std::vector<bad_input> bad_coordinates() {
   };
 }
 
-/// Loads from one coordinate to another.
+/// Returns mistakes in loads from one coordinate to another.
 inline std::vector<bad_input> bad_parts() {
   const auto uniform = [](const std::string& keys) {
     return step_with("uniform = [ { value = -1, " + keys + " } ]\n");
@@ -217,7 +217,7 @@ inline std::vector<bad_input> bad_pairs() {
 }
 
 inline std::vector<bad_input> bad_units_and_steps() {
-  const std::string line = "settlement = [ { node = 1, w = -0.1 }";  // good, from column 1 to 38
+  const std::string line = "settlement = [ { node = 1, w = -0.1 }";  // a correct line of columns 1 to 38
   return {
       {"a unit alone", with("[beam]", "[units]\nlength = \"m\"\n[beam]"), "1:1", "units.force", "missing",
        "text"},
@@ -352,7 +352,7 @@ inline std::vector<bad_input> bad_tables() {
   };
 }
 
-/// All of them.
+/// Returns the mistakes of all tables.
 inline std::vector<bad_input> bad_inputs() {
   std::vector<bad_input> all = bad_tables();
   for (const auto& more : {bad_plates(), bad_coordinates(), bad_parts(), bad_meshes(), bad_sections(),

@@ -1,4 +1,4 @@
-// Kinds of bad input that only a plate can have.
+// Lists kinds of bad input that only a plate can have.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace contct {
 
-/// A good plate, in which each mistake is made by replacing one piece. Lines are counted from 1.
+/// A correct plate, in which each mistake replaces one piece. The numbers of its lines are on the right.
 inline const char* const good_plate =
     "[plate]\n"                                                                  // 1
     "x = [0.0, 0.5, 1.0]\n"                                                      // 2
@@ -28,13 +28,13 @@ inline const char* const good_plate =
     "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n"    // 16
     "point = [ { node = 3, w = -1.0, wx = 0.25 }, { node = 6, wy = -0.5 } ]\n";  // 17
 
-/// `good_plate` with `piece` replaced by `mistake`.
+/// Returns `good_plate` with `piece` replaced by `mistake`.
 inline std::string plate_with(const std::string& piece, const std::string& mistake) {
   std::string text = good_plate;
   return text.replace(text.find(piece), piece.size(), mistake);
 }
 
-/// `good_plate` with even grid lines instead of x and y, given by these lines.
+/// Returns `good_plate` with these lines instead of its lists x and y, for even grids.
 inline std::string even_plate_with(const std::string& lines) {
   return plate_with("x = [0.0, 0.5, 1.0]\ny = [0.0, 1.0]\n", lines);
 }

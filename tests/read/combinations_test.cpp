@@ -1,4 +1,4 @@
-// Combinations and trains, as plain loads with factors. Refusals are in bad_combinations.hpp.
+// Tests combinations and trains as steps with factors. bad_combinations.hpp lists the refusals.
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_combinations.hpp"
@@ -60,7 +60,7 @@ TEST_CASE("a train is placed from `from` to at most `to` in distances of `by`") 
                                   "pb.toml")
                         .steps);
   };
-  CHECK(places("from = 0.1\nto = 0.3\nby = 0.1\n") ==  // as decimals: 0.1 + 2 * 0.1 is 0.3
+  CHECK(places("from = 0.1\nto = 0.3\nby = 0.1\n") ==  // the decimal 0.1 + 2 * 0.1 is 0.3
         std::vector<std::string>{"T at 0.1", "T at 0.2", "T at 0.3"});
   CHECK(places("from = 0\nto = 0.59\nby = 0.3\n") == std::vector<std::string>{"T at 0", "T at 0.3"});
   CHECK(places("from = 0.5\nto = 0.5\nby = 2\n") == std::vector<std::string>{"T at 0.5"});

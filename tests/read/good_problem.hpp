@@ -1,11 +1,11 @@
-// A problem that is read, for tests that spoil it.
+// A correct problem file, and its changed forms.
 #pragma once
 
 #include <string>
 
 namespace contct {
 
-/// Each mistake is made by replacing one piece. Lines are counted from 1.
+/// A correct problem, in which each mistake replaces one piece. The numbers of its lines are on the right.
 inline const char* const good_problem =
     "[beam]\n"                                // 1
     "x = [0.0, 1.0, 2.0]\n"                   // 2
@@ -21,7 +21,7 @@ inline const char* const good_problem =
     "[[step]]\n"                              // 12
     "point = [ { node = 3, w = -60.0 } ]\n";  // 13
 
-/// `good_problem` with `piece` replaced by `mistake`.
+/// Returns `good_problem` with `piece` replaced by `mistake`.
 inline std::string with(const std::string& piece, const std::string& mistake) {
   std::string text = good_problem;
   return text.replace(text.find(piece), piece.size(), mistake);

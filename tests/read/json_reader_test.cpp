@@ -1,4 +1,4 @@
-// JSON as a tree of TOML: accepted values, and refusals with their positions.
+// Tests the JSON reader: accepted values, and refusals with their positions.
 #include "contct/read/json_reader.hpp"
 
 #include "catch.hpp"
@@ -13,7 +13,7 @@ std::string verdict_of(const std::string& text) {
   return verdict([&] { (void)parse_json(text, "f.json"); });
 }
 
-/// The message with which `use` refuses a text.
+/// Returns the message with which `use` refuses a text.
 template <class Use>
 std::string refusal(const std::string& text, const Use& use) {
   const json_tree d = parse_json(text, "f.json");

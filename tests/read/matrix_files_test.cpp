@@ -1,4 +1,5 @@
-// Matrix Market and CalculiX's matrix: accepted files, and refusals with their positions.
+// Tests the readers of Matrix Market files and CalculiX's matrix: accepted files, and refusals with their
+// positions.
 #include "contct/read/matrix_files.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ std::vector<std::vector<double>> full(const sparse_matrix& a) {
   return m;
 }
 
-/// A square grid of springs with a grounded corner.
+/// Returns the matrix file of a square grid of springs with a grounded corner.
 std::string grid_text(int side) {
   std::string text;
   int entries = 0;

@@ -1,4 +1,5 @@
-// Positions of a matrix's dofs: files of coordinates, labels, the edges between nodes, and CalculiX's input.
+// Tests the places of a matrix's dofs: files of coordinates, labels, edges between nodes, and CalculiX's
+// input files.
 #include <fmt/format.h>
 
 #include "catch.hpp"
@@ -16,7 +17,7 @@ std::string of_coordinates(const std::string& text) {
   return verdict([&] { (void)parse_coordinates(text, "K.xyz"); });
 }
 
-/// The edges by the names of their nodes, each with how many elements have it, if more than one.
+/// Returns the edges by the names of their nodes, with the number of their elements if it is not 1.
 std::string edges_of(const placed_nodes& m) {
   std::string text;
   for (const mesh_edge& e : m.edges)
@@ -25,7 +26,7 @@ std::string edges_of(const placed_nodes& m) {
   return text;
 }
 
-/// A structure with these labels and only these couplings.
+/// Returns a matrix with these labels and only these couplings.
 assembled with_labels(std::vector<std::string> labels, std::vector<matrix_entry> entries = {}) {
   assembled a;
   a.stiffness = {static_cast<int>(labels.size()), std::move(entries)};
@@ -88,7 +89,8 @@ TEST_CASE("dofs whose labels have no known node, and rotations, are counted as n
   const placed_nodes places = places_by_coordinates(
       "a 0 0\nb.c 1 0\n", "K.xyz", with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"}));
   CHECK(places.dofs[1].node == 1);
-  for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);  // a.1 is where a.x is
+  // A.1 and a.x are the same direction.
+  for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);
   REQUIRE(places.notes.size() == 2);
   CHECK_THAT(places.notes[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
   CHECK_THAT(places.notes[1], Contains("Rotations, 1 of 8 dofs"));
@@ -109,7 +111,7 @@ TEST_CASE("two nodes have one edge if the matrix couples them, and an entry of 0
 
 TEST_CASE(
     "a matrix has no edges if it couples more than three times as many pairs of nodes as it has nodes") {
-  // Everything with everything: 8 nodes have 28 couplings, more than 24; 7 have 21.
+  // In a full matrix, 8 nodes have 28 couplings, more than 24, and 7 nodes have 21.
   for (const int n : {7, 8}) {
     std::string text;
     std::vector<std::string> labels;
@@ -132,14 +134,14 @@ std::string of_mesh(const std::string& text) {
   return verdict([&] { (void)by_mesh(text); });
 }
 
-/// `count` nodes, one after the other.
+/// Returns the text of `count` nodes.
 std::string nodes_text(int count) {
   std::string text = "*NODE\n";
   for (int i = 1; i <= count; ++i) text += fmt::format("{},{},0,0\n", i, i);
   return text;
 }
 
-/// An element of the type with nodes 1, 2, ..
+/// Returns an element of this type with the nodes 1, 2, ..
 std::string element_text(const std::string& type, int nodes) {
   std::string text = "*ELEMENT, TYPE=" + type + "\n7";
   for (int i = 1; i <= nodes; ++i) text += fmt::format("{}{}", i == 15 ? ",\n" : ",", i);
@@ -181,8 +183,8 @@ TEST_CASE("each type of solid element has its edges, which go through the middle
     int nodes;
     const char* edges;
   };
-  // Corner to middle and middle to corner, by CalculiX's manual: of C3D10 5 lies between 1 and 2, 6 between 2
-  // and 3, ..
+  // By CalculiX's manual, edges go from corner to middle node to corner: node 5 of C3D10 is between 1 and 2,
+  // node 6 between 2 and 3, ..
   const shape shapes[] = {
       {"C3D4", 4, "1-2 1-3 1-4 2-3 2-4 3-4"},
       {"c3d6", 6, "1-2 1-3 1-4 2-3 2-5 3-6 4-5 4-6 5-6"},
@@ -195,7 +197,7 @@ TEST_CASE("each type of solid element has its edges, which go through the middle
   };
   for (const shape& s : shapes) {
     INFO(s.type);
-    // Nodes after the elements: CalculiX reads a deck twice.
+    // CalculiX accepts nodes after the elements that use them.
     const placed_nodes m = by_mesh(element_text(s.type, s.nodes) + nodes_text(s.nodes));
     CHECK(edges_of(m) == s.edges);
     CHECK(m.notes.empty());

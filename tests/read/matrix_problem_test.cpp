@@ -1,4 +1,5 @@
-// Problems on an external matrix: the same answers as from the structure itself, and refusals.
+// Tests problems on an external matrix, which must have the same answers as the native structure, and their
+// refusals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,12 +43,12 @@ std::string text_of(std::span<const double> f) {
   return text;
 }
 
-/// "node.dof", counted from 1.
+/// Returns the label "node.dof", counted from 1.
 std::string label(int dof, int dofs_per_node) {
   return fmt::format("{}.{}", dof / dofs_per_node + 1, dof % dofs_per_node + 1);
 }
 
-/// A problem with its structure written out as a matrix, and its loads as whole vectors.
+/// Writes a problem with its structure as a matrix and its loads as vectors, and returns the file's name.
 std::string exported(const problem& p, const scratch_folder& to) {
   const int stride = dofs_per_node(p.geometry);
   const sparse_matrix k = entries_of(build(p.geometry, {}, {}));
@@ -75,7 +76,7 @@ std::string exported(const problem& p, const scratch_folder& to) {
   return to.write("problem.toml", text);
 }
 
-/// FORTRAN's path, with C++ in lockstep.
+/// FORTRAN's path with C++ in lockstep.
 struct followed {
   explicit followed(problem p)
       : what(std::move(p)),
@@ -178,8 +179,8 @@ TEST_CASE(
         "pp01e-unilateral-edges-n8-k1e5", "pp03d-corners-and-settled-stop-n4"})
     (void)compare(name, false);
   CHECK(events >= 12);
-  // Only their pairs hold these. The first one's K, rounded to doubles, is not semidefinite in the last
-  // digits; FORTRAN has 6 digits of pb11a.
+  // These structures have no supports. The first K, rounded to doubles, is not quite semidefinite, and
+  // FORTRAN has only 6 digits of pb11a.
   CHECK_FALSE(compare("pb03a-point-load-on-bed-l4", true));
   CHECK(compare("pb04c-end-loads-on-bed-long", true));
   CHECK_FALSE(compare("pb11a-strip-footing-n20", true));
@@ -218,8 +219,7 @@ TEST_CASE("frame.py writes the files of the reference frame, whose states are al
   std::size_t increments = 0;
   for (const step_record& step : r.steps()) increments += step.increments.size();
   CHECK(increments == 7);
-  // Under the wind all that pushes to the right arrives at supports and wall, all that is down at supports
-  // and prop.
+  // Supports and wall carry all forces to the right, and supports and prop carry all forces down.
   const std::vector<double>& u = r.steps()[1].end.displacement;
   const std::vector<double> held = reactions(p.geometry, p.steps[1], p.supports, u);
   REQUIRE(held.size() == 6);
@@ -299,7 +299,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and w has all its di
   CHECK_THAT(text, Catch::Matchers::Contains(R"({"pair":1,"dof":"6.y","surface":"below","change":"make"})"));
   CHECK_THAT(text, Catch::Matchers::Contains(R"({"dof":"9.r","value":)"));
   CHECK_THAT(text, Catch::Matchers::Contains(R"("point":[{"dof":"6.y","value":)"));
-  CHECK(text.find("\"node\"") > text.find("\"nodes\""));  // only where the structure's places are listed
+  CHECK(text.find("\"node\"") > text.find("\"nodes\""));  // "node" is only in the list of nodes
   const auto list_after = [&text](const std::string& key) {
     const std::size_t from = text.find(key) + key.size();
     return text.substr(from, text.find(']', from) - from);
@@ -417,7 +417,7 @@ TEST_CASE(
     return *judged.steps()[0];
   };
   CHECK(certificate_of("1.00000000000005", "")
-            .certified);  // 5e-14 is stiffness, with an uncertainty of half of 1e-14
+            .certified);  // a stiffness of 5e-14 with an uncertainty of half of 1e-14
   const certificate doubtful = certificate_of("1.0000000000000", "");  // as CalculiX writes a free body
   CHECK_FALSE(doubtful.certified);
   CHECK_THAT(doubtful.problem, Catch::Matchers::Contains("as `free_motions`"));
@@ -435,6 +435,6 @@ TEST_CASE("the last digits of a matrix's entries are those of the file, also of 
   constexpr auto exact = sparse_matrix::exact_entry;
   CHECK(digits("1", "-1", "2").empty());
   CHECK(digits("1", "-0.5", "2.25") == std::vector<std::int16_t>{exact, -3, -2});    // to three digits
-  CHECK(digits("12.50", "-0.01", "2.00") == std::vector<std::int16_t>{-2, -2, -2});  // to two places
+  CHECK(digits("12.50", "-0.01", "2.00") == std::vector<std::int16_t>{-2, -2, -2});  // to two decimal places
   CHECK(digits("1.25000E+03", "-1.00000E-02", "2.00000E+00") == std::vector<std::int16_t>{-2, -7, -5});
 }

@@ -1,4 +1,4 @@
-// Coordinates: which of them a number names, and the meshes that element_size makes.
+// Tests which node a coordinate names, and the meshes that element_size makes.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -14,7 +14,7 @@ problem of(const std::string& text) {
   return parse_problem(text + "[[step]]\nuniform = -1\n", "pb.toml");
 }
 
-/// The nodes of a beam of these lines.
+/// Returns the nodes of a beam given by these lines.
 std::vector<double> nodes_of(const std::string& beam_lines, const std::string& rest = "") {
   return std::get<beam>(of("[beam]\n" + beam_lines + "\n" + rest).geometry.kind).x;
 }
@@ -42,7 +42,8 @@ TEST_CASE(
   }
   CHECK(0.7 * 3 / 7 != 0.3);
   CHECK(find_coordinate(std::vector<double>{0.0, 0.1 + 0.2, 1.0}, 0.3) == 1);
-  CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);  // by the larger end
+  // Relative to the end with the larger magnitude.
+  CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);
 }
 
 TEST_CASE("a coordinate refers to the nearest node if nodes are closer together than rounding") {
@@ -73,7 +74,7 @@ TEST_CASE("element_size makes a node at every x that the problem file names, in 
     CHECK(std::ranges::count(x, named) == 1);
   }
   CHECK(longest(x) <= 2.5);
-  CHECK(x.size() == 10);  // these, and one between 0.3 and 4.1
+  CHECK(x.size() == 10);  // the named ones, and one between 0.3 and 4.1
 }
 
 TEST_CASE("element_size keeps the nodes listed in x, and divides the lengths between them") {

@@ -1,5 +1,5 @@
-// [beam] and [plate] in their forms; their refusals are in bad_inputs.hpp and bad_plates.hpp. [matrix] and
-// [calculix]: the files that they name, the storage of K, and refusals before it is allocated.
+// Tests the forms of [beam] and [plate]; bad_inputs.hpp and bad_plates.hpp list their refusals. For [matrix]
+// and [calculix], tests the named files, the storage of K, and refusals before it is allocated.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST_CASE("the largest plate that is accepted has a stiffness matrix of 4 GB") {
     const std::string text = std::to_string(n);
     return refusal("[plate]\nsize = [1, 1]\nelements = [" + text + ", " + text + "]\nD = 1\nnu = 0\n");
   };
-  // 3 (n + 1)^2 rows of 3 (n + 2) + 3 entries
+  // The band has 3 (n + 1)^2 rows of 3 (n + 2) + 3 entries.
   const auto entries = [](std::int64_t n) { return 3 * (n + 1) * (n + 1) * (3 * (n + 2) + 3); };
   int n = 1;
   while (entries(n + 1) <= 500'000'000) ++n;
@@ -111,7 +111,7 @@ TEST_CASE(
   CHECK(found.edges.size() == 6);
   CHECK(found.dofs[1].node == 2);
   CHECK(found.dofs[1].direction == 3);
-  // Another job's input in the same folder is allowed, but not used.
+  // Input files of other jobs in the same folder are not used.
   (void)here.write("job.inp", "*NODE\n8,0,0,0\n");
   CHECK_FALSE(places("").known());
   CHECK_THAT(places("").notes.at(0),
@@ -127,7 +127,7 @@ TEST_CASE(
 
 TEST_CASE("a band larger than the memory is refused before it is allocated, but sparse storage is accepted") {
   const scratch_folder here;
-  // An arrow: the last row is full, whatever the order.
+  // The last row of this matrix is full in any order of rows.
   constexpr int n = 400'000;
   std::string arrow =
       fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", n, n, 2 * n - 1);
@@ -143,7 +143,7 @@ TEST_CASE("a band larger than the memory is refused before it is allocated, but 
     CHECK_THAT(message, Contains("GiB, three quarters of this machine's memory; " + remedy + "; condense"));
   };
   is_refused("storage = \"band\"\n");
-  if (sparse_factor::available())  // which has few entries to keep, and no fill
+  if (sparse_factor::available())  // sparse storage has few entries and no fill-in
     CHECK(message_with("") == "accepted");
   else
     is_refused("");

@@ -1,4 +1,4 @@
-// A problem file names files below its own folder, and others only if that is allowed.
+// Tests that a problem file may name files below its folder, and others only if this is allowed.
 #include <filesystem>
 #include <string>
 
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The path of what `stiffness` names in the problem file at `file`.
+/// Returns the path of the file that `stiffness` names in the problem file `file`.
 std::string path_of(const std::string& file, const std::string& name, reach allowed, char quote = '\'') {
   const toml::table document = parse_toml("stiffness = " + (quote + name) + quote + "\n", file);
   return named_files(file, allowed).path_of(toml_value(document, file)["stiffness"]);
@@ -27,7 +27,7 @@ TEST_CASE("a named file is relative to the folder of the problem file") {
   CHECK(path_of("a/b/p.toml", "../K.mtx", reach::anywhere) == "a/b/../K.mtx");
   CHECK(path_of("a/b/p.toml", "/c/K.mtx", reach::anywhere) == "/c/K.mtx");
   CHECK(path_of("p.toml", "K.mtx", reach::own_folder) == "K.mtx");
-  CHECK(path_of("p.toml", "-", reach::own_folder) == "./-");  // a file of that name
+  CHECK(path_of("p.toml", "-", reach::own_folder) == "./-");  // a file with the name -
   CHECK(path_of("standard input", "-", reach::own_folder) == "./-");
 }
 

@@ -1,4 +1,4 @@
-// Which nodes a table names: by numbers, coordinates, grid points and labels.
+// Tests how a table names nodes: by numbers, coordinates, grid points and labels.
 #include "contct/read/node_reader.hpp"
 
 #include <fmt/format.h>

@@ -225,7 +225,7 @@ TEST_CASE("a bed has one face for all nodes, one for each node, or a polynomial 
   const auto bed_of = [&](const std::string& lines) {
     return parse_problem(head + lines + "[[step]]\nuniform = -1\n", "pb.toml");
   };
-  const problem each = bed_of("face = [9, -0.5, 0]\n");  // the face of the fixed node is not used
+  const problem each = bed_of("face = [9, -0.5, 0]\n");  // the face of the fixed node is unused
   REQUIRE(each.pairs.size() == 2);
   CHECK((each.pairs[0].face == -0.5 && !each.pairs[0].closed));
   CHECK((each.pairs[1].face == 0 && each.pairs[1].closed));
@@ -254,7 +254,7 @@ TEST_CASE("a mesh too coarse for a bed gives one warning with a suitable element
     return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
         .warnings;
   };
-  // (4 EI / modulus)^(1/4) = 2: half of it is 1.
+  // The required size is half of (4 EI / modulus)^(1/4) = 2.
   const std::string bed = "[[bed]]\nmodulus = 1\nface = 0\n";
   CHECK(warnings_of("elements = 8\nEI = 4", bed).empty());
   const auto coarse =
@@ -266,7 +266,7 @@ TEST_CASE("a mesh too coarse for a bed gives one warning with a suitable element
                                        "modulus)^(1/4), 0.93. element_size = 0.93 in [beam]"));
   CHECK_THAT(coarse[1], Catch::Matchers::Contains("bed[2]"));
   CHECK(warnings_of("element_size = 0.93\nEI = 3", bed).empty());
-  // Nodes that are not neighbours on the bed do not count, nor do elements next to it.
+  // Only elements between two neighbouring nodes of the bed count.
   CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 3]\n").empty());
   CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 2]\n").size() == 1);
 }

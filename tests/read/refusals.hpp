@@ -1,4 +1,4 @@
-// Files that must be refused, and the expected messages.
+// Files that must be refused, with the required parts of the messages.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace contct {
 
-/// The message about a file, or "accepted".
+/// Returns the message about a file, or "accepted".
 inline std::string verdict(const std::function<void()>& reads) {
   try {
     reads();
@@ -20,20 +20,19 @@ inline std::string verdict(const std::function<void()>& reads) {
   return "accepted";
 }
 
-/// A problem file with a mistake.
 struct bad_input {
   const char* what;     ///< the mistake
-  std::string text;     ///< the problem file
-  const char* place;    ///< "line:column" in it
-  const char* key;      ///< the key that the message must name
+  std::string text;     ///< problem file
+  const char* place;    ///< "line:column" of the mistake
+  const char* key;      ///< key that the message must name
   const char* found;    ///< required words after "found"
   const char* allowed;  ///< required words after "allowed"
 };
 
-/// Any other file with a mistake.
+/// A file of any other format with a mistake.
 struct bad_file {
   std::string text;
-  const char* place;  ///< with the file's name
+  const char* place;  ///< file's name and place
   const char* found;
   const char* allowed;
 };

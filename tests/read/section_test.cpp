@@ -1,4 +1,4 @@
-// Sections, self-weight and hinges as in problem files.
+// Tests sections, self-weight and hinges of problem files.
 #include "catch.hpp"
 #include "contct/model/elements.hpp"
 #include "contct/read/problem_file.hpp"
@@ -33,7 +33,7 @@ TEST_CASE("Pieces of a section give the same EI as pieces of EI, and a node at t
 
 TEST_CASE("EI of a section is the product of the decimals of E and I, rounded once") {
   const problem p =
-      on_two_supports("x = [0, 10]\nsection = { E = 0.1, I = 0.7 }\n");  // 0.1 * 0.7 in doubles is below 0.07
+      on_two_supports("x = [0, 10]\nsection = { E = 0.1, I = 0.7 }\n");  // in doubles 0.1 * 0.7 is below 0.07
   CHECK(beam_in(p).EI == std::vector<double>{0.07});
   CHECK(elements_of<rational>(beam_in(p)).EI(0) == rational(7, 100));
 }

@@ -1,9 +1,9 @@
-// A matrix as a Matrix Market file.
+// A small matrix in Matrix Market's format.
 #pragma once
 
 namespace contct {
 
-/// Order 3: a chain of three unit springs, the first of which is attached to the ground.
+/// A chain of three unit springs, the first of which is attached to the ground.
 inline const char* const small_matrix =
     "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 1\n";
 

@@ -1,4 +1,4 @@
-// Steps: names, loads by coordinates, and settlements.
+// Tests the tables of steps: names, loads by coordinates, and settlements.
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/tables.hpp"

@@ -1,4 +1,4 @@
-// Strict TOML: the values that each kind accepts, and refusals with their positions.
+// Tests the TOML reader: accepted values of each kind, and refusals with their positions.
 #include "contct/read/toml_reader.hpp"
 
 #include "catch.hpp"
@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The result of `use` for the table `text`, or the message of its refusal.
+/// Returns "accepted", or the message with which `use` refuses a text.
 template <class Use>
 std::string refusal(const std::string& text, const Use& use) {
   return verdict([&] {

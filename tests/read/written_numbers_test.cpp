@@ -1,4 +1,4 @@
-// The positions of the numbers of a file, and the numbers that doubles cannot tell from others.
+// Tests the positions of a file's numbers, and the warnings about numbers that are not shortest decimals.
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/read/toml_reader.hpp"
@@ -39,7 +39,7 @@ TEST_CASE("zeros, signs, exponents and underscores in a number give no warning")
       "b = [0.250000000000000000000, 10000000000000000000e-1, 1.7976931348623157e308, 5e-324]\n"
       "c = [0.1000000000000000000000000000e+00, 9007199254740992, 0.30000000000000004]\n";
   CHECK(warnings_of(text).empty());
-  CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 19);  // all but inf and nan
+  CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 19);  // all numbers except inf and nan
 }
 
 TEST_CASE("a whole number that is not a double gives a warning, in decimal and in hexadecimal") {

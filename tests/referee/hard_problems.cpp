@@ -12,13 +12,13 @@
 namespace contct::referee {
 namespace {
 
-/// mantissa * 10^exponent, rounded once, from its decimal.
+/// Returns the double nearest to the decimal mantissa * 10^exponent.
 double decimal(std::int64_t mantissa, int exponent) {
   return std::strtod(fmt::format("{}e{}", mantissa, exponent).c_str(), nullptr);
 }
 
-/// Draws one problem. Lengths are in units of 10^u and stiffnesses EI of 10^e; forces are then in units of
-/// 10^(e - 2u), which bend a beam of length 1 by about 1.
+/// Draws one problem. Lengths are in units of 10^u and EI in units of 10^e. Forces are in units of 10^(e -
+/// 2u), which bend a beam of length 1 by about 1.
 class hard_drawing {
  public:
   hard_drawing(std::uint64_t seed, std::uint64_t number, hard_kind kind)
@@ -31,7 +31,8 @@ class hard_drawing {
         &hard_drawing::stiff_pairs,      &hard_drawing::drop,        &hard_drawing::small_after_large,
         &hard_drawing::cancelling_loads, &hard_drawing::graded_mesh, &hard_drawing::pairs_alone,
         &hard_drawing::near_tipping,     &hard_drawing::soft_matrix, &hard_drawing::spring_decades};
-    const auto drawn = draws[static_cast<int>(kind)];  // g++ 12 checks another index in `->*draws[..]`
+    // With `->*draws[..]`, g++ 12 warns about a wrong index.
+    const auto drawn = draws[static_cast<int>(kind)];
     (this->*drawn)();
     return std::move(p_);
   }
@@ -39,21 +40,21 @@ class hard_drawing {
  private:
   int two_digits() { return random_.whole(10, 99); }
   double either_way(double x) { return random_.chance(0.5) ? x : -x; }
-  /// 1.0 to 9.9 times 10^exponent, in the units above.
+  /// Returns 1.0 to 9.9 times 10^exponent in the units of lengths or forces.
   double length(int exponent) { return decimal(two_digits(), exponent - 1 + u_); }
   double force(int exponent) { return decimal(two_digits(), exponent - 1 + e_ - 2 * u_); }
   double moment(int exponent) { return decimal(two_digits(), exponent - 1 + e_ - u_); }
   double stiffness(int exponent) { return decimal(two_digits(), exponent - 1 + e_ - 3 * u_); }
   [[nodiscard]] int last() const { return nodes(p_.geometry) - 1; }
 
-  /// Nodes at multiples of 10^(u + exponent): `at` from the left end.
+  /// Makes a beam whose nodes are at `at` times 10^(u + exponent).
   void make_beam(const std::vector<std::int64_t>& at, int exponent) {
     beam b;
     for (const std::int64_t x : at) b.x.push_back(decimal(x, exponent + u_));
     b.EI.assign(at.size() - 1, decimal(two_digits(), e_ - 1));
     p_.geometry.kind = std::move(b);
   }
-  /// Elements of 0.3 to 1.7.
+  /// Makes a beam with elements of 0.3 to 1.7.
   void make_beam(int elements) {
     std::vector<std::int64_t> at{0};
     for (int i = 0; i < elements; ++i) at.push_back(at.back() + random_.whole(3, 17));
@@ -61,7 +62,7 @@ class hard_drawing {
   }
 
   void fix(int node, int dof) { p_.supports.push_back({node, dof, true, 0.0}); }
-  /// A cantilever, a beam on two supports, or one clamped at an end and supported at the other.
+  /// Adds the supports of a cantilever, of a simple beam, or of a propped cantilever.
   void hold() {
     const int how = random_.whole(0, 2);
     fix(0, 0);
@@ -77,18 +78,18 @@ class hard_drawing {
   void pair(int node, int surface, double gap, double k) {
     p_.pairs.push_back({node, surface, gap == 0.0 ? 0.0 : surface * gap, k, gap == 0.0});
   }
-  /// Some of the nodes that may move get a pair, one at least.
+  /// Adds pairs at some of the nodes that are not fixed, and at least one pair.
   template <class Gap, class Stiffness>
   void pairs(double density, int surface, Gap gap, Stiffness k) {
     const auto place = [&](int node) {
-      const double of_pair = gap();  // drawn before its stiffness, whatever the compiler's order of arguments
+      const double of_pair = gap();  // drawn before the stiffness, in a defined order
       pair(node, surface, of_pair, k());
     };
     for (int node = 0; node <= last(); ++node)
       if (!is_fixed(node) && random_.chance(density)) place(node);
     if (p_.pairs.empty()) place(is_fixed(last()) ? 1 : last());
   }
-  /// Both ends, and some between.
+  /// Adds pairs below both ends and below some nodes between.
   template <class Gap, class Stiffness>
   void pairs_below(Gap gap, Stiffness k) {
     for (int node = 0; node <= last(); ++node) {
@@ -124,7 +125,7 @@ class hard_drawing {
     if (random_.chance(0.3)) step({{node_between(), 0, -force(random_.whole(-3, 1))}});
   }
 
-  /// The small load moves its pairs by about their gaps: by 10^(small - k).
+  /// The small load moves its pairs by 10^(small - k), about their gaps.
   void small_after_large() {
     make_beam(random_.whole(3, 6));
     if (random_.chance(0.5)) return large_between_two_pairs();
@@ -143,8 +144,8 @@ class hard_drawing {
     if (random_.chance(0.5)) step({{node_between(), 0, -force(small)}});
   }
 
-  /// The large load presses two pairs, at no gaps; the small one acts beyond them, and turns the beam onto a
-  /// third: the first one separates at the very end of the step.
+  /// The large load presses two pairs without gaps. The small load acts beyond them and turns the beam onto a
+  /// third pair, so the first pair separates at the very end of the step.
   void large_between_two_pairs() {
     const int small = random_.whole(-4, 0);
     const int k = random_.whole(-1, 3);
@@ -219,7 +220,7 @@ class hard_drawing {
     }
   }
 
-  /// The load acts over the first or the last pair: without the moment the beam balances on that pair.
+  /// The load acts over the first or the last pair. Without the moment, the beam balances on this pair.
   void near_tipping() {
     make_beam(random_.whole(2, 4));
     const int first = random_.whole(0, last() - 1);
@@ -233,7 +234,7 @@ class hard_drawing {
     step(std::move(points));
   }
 
-  /// A chain of springs of stiffness 1, free except for a last one of stiffness eps.
+  /// Makes a chain of springs of stiffness 1 whose last spring has a stiffness of eps.
   void soft_matrix() {
     const int n = random_.whole(2, 4);
     assembled a;

@@ -17,11 +17,10 @@
 namespace contct::referee {
 namespace {
 
-/// The kinds of numbers, in the order of the faults.
+/// The kinds of numbers, in the order of the values of `fault`.
 enum class number_kind { deflection, slope, force, reaction };
 constexpr int number_kinds = 4;
 
-/// The final state of a step.
 struct kept_state {
   int step;
   std::vector<double> displacement;
@@ -50,9 +49,9 @@ double size_of(const rational& x) {
   return rounded(rational(abs(x)));
 }
 
-/// The largest of each kind in an exact state. What is 0 by symmetry has no size of its own: slopes are
-/// measured at least by the largest deflection over the span, moments at least by the largest force times it,
-/// and deflections and forces that are all 0 by the largest slope times it and the largest moment over it.
+/// The largest number of each kind in an exact state. A quantity that is 0 by symmetry gets at least a size
+/// from the others: slopes from deflections over the span, moments from forces times the span, deflections
+/// from slopes times the span, and forces from moments over the span.
 struct sizes {
   double deflection = 0.0, slope = 0.0, force = 0.0, moment = 0.0;
 
@@ -60,7 +59,7 @@ struct sizes {
   sizes(const problem& p, const exact_problem& e, const exact_step& acting, const exact_step_end& state) {
     const std::size_t stride = dofs_per_node(p.geometry);
     const double side = extent_of(p.geometry);
-    const double span = side > 0.0 ? side : 1.0;  // of a matrix
+    const double span = side > 0.0 ? side : 1.0;  // the span of a matrix is unknown
     for (std::size_t dof = 0; dof < e.dofs(); ++dof) {
       take(dof % stride == 0 ? deflection : slope, state.displacement[dof]);
       take(dof % stride == 0 ? force : moment, acting.force[dof]);
@@ -141,7 +140,7 @@ class comparing {
     }
   }
 
-  /// The proved bound of a kind: moments of supports are among the moments.
+  /// Returns the proved bound of a kind; for moments of supports it is that of moments.
   [[nodiscard]] double bound_of(number_kind kind, std::size_t at) const {
     const bool of_moment = kind == number_kind::reaction && p_.supports[at].dof != 0;
     constexpr quantity quantities[] = {quantity::w, quantity::slope, quantity::force, quantity::reaction};
@@ -149,8 +148,8 @@ class comparing {
     return judged_->error[q].value_or(std::numeric_limits<double>::infinity());
   }
 
-  /// `size`: of its kind in this state, or, where that is nothing, `path_size`; `at`: node, pair or support,
-  /// from 0.
+  /// Compares a number. `size`: of its kind in this state, or `path_size` if that is 0; `at`: node, pair or
+  /// support, from 0.
   void number(number_kind kind, double given, const rational& exactly, double size, double path_size,
               std::size_t at) {
     constexpr double promised = 1e-6;
@@ -194,7 +193,7 @@ class comparing {
   const exact_answer& exactly_;
   bool is_refined_;
   judgement& result_;
-  const exact_step_end* state_ = nullptr;  // of the step that is compared, as are those below
+  const exact_step_end* state_ = nullptr;  // the compared step, as for the members below
   const kept_state* kept_ = nullptr;
   const certificate* judged_ = nullptr;
   sizes here_, seen_;
@@ -209,7 +208,7 @@ path_end solve(const problem& p, const linear_structure& s, way how, const std::
   return follow(p, s, engine, *leader, observers, {0, judged.ends()});
 }
 
-/// The error in the end of the path; nothing if it is right.
+/// Returns the error in the end of the path, or nothing.
 std::optional<finding> compare_ends(const path_end& end, const exact_path& exactly) {
   const auto found = [&](fault what, std::string_view words) {
     return finding{what, 1.0, fmt::format("step {}: {}", end.step, words)};
@@ -269,7 +268,7 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
     j.findings.push_back(*wrong);
     return;
   }
-  if (how == way::final_only || kept.exact || kept.lost) return;  // the events of a lost path end early
+  if (how == way::final_only || kept.exact || kept.lost) return;  // such paths lack events
   constexpr double tie = 1e-9;
   const kernel_digits r = counter.result("corrected", end.status, tie);
   if (!r.same_events) j.findings.push_back({fault::other_events, 1.0, r.first_difference});

@@ -1,4 +1,4 @@
-// The statements of a run about a problem, judged by its exact path.
+// Judges the claims of a run about a problem by the exact path.
 #pragma once
 
 #include <array>
@@ -11,18 +11,17 @@
 
 namespace contct::referee {
 
-/// The options of a run: `contct run --kernels corrected`, the same with `--engine refactor`, `--final-only`,
-/// and `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits are judged: its
-/// path and its end are the 1989 rule's.
+/// The ways to run a problem: `contct run --kernels corrected`, the same with `--engine refactor`,
+/// `--final-only`, and `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits
+/// are judged, because it follows the 1989 rule.
 enum class way { default_engine, refactor, final_only, listing };
-inline constexpr int ways = 3;  ///< the first three, which use the corrected rule
+inline constexpr int ways = 3;  ///< the first three follow the corrected rule
 [[nodiscard]] std::string_view name_of(way w);
 
-/// The possible errors of a run. `outside`: a number of a certified step is further off than the tolerance of
-/// its certificate, measured as that does: deflections and slopes by the largest that the path has seen, pair
-/// forces and reactions by the largest of the path. `beyond`: it is off by more than 1e-6 of the largest of
-/// its kind in its own state; a state of no load is measured by the largest of the path. `loose`: the bounds
-/// of a step are proved, but are too large to certify it, though it ends in the only equilibrium.
+/// The errors of a run. `outside`: a number of a certified step has an error above the certificate's
+/// tolerance, which is relative to the largest number of the path. `beyond`: its error exceeds 1e-6 of the
+/// largest of its kind in its own state, or on the path for an unloaded state. `loose`: the proved bounds of
+/// a step are too large to certify it, although its final state is the only equilibrium.
 enum class fault {
   outside_deflection,
   outside_slope,
@@ -34,13 +33,13 @@ enum class fault {
   beyond_reaction,
   loose,
   digits,           ///< a step claims at least half a digit more than its worst number has
-  false_solution,   ///< solved although there is no equilibrium
-  false_mechanism,  ///< no equilibrium found although there is one
-  refused,          ///< exit 2, though there is an equilibrium or a mechanism
+  false_solution,   ///< solved, although there is no equilibrium
+  false_mechanism,  ///< no equilibrium is found, although there is one
+  refused,          ///< exit status 2, although there is an equilibrium or a mechanism
   other_end,        ///< a cycle, the limit of increments, or a mechanism in another step
-  other_events,     ///< in another order than exactly, ties aside, of a path that was not lost
-  fallback,         ///< the path could not reach the end of a step: its state is the reference solution's
-  exactly,          ///< the same, and its state is the end of the exact path
+  other_events,     ///< events in another order than the exact one, apart from ties
+  fallback,         ///< the end of a step is the reference solution's
+  exactly,          ///< the end of a step is the exact path's
 };
 inline constexpr int faults = 17;
 [[nodiscard]] std::string_view name_of(fault f);
@@ -51,27 +50,27 @@ struct exact_answer {
 
   exact_problem problem;
   exact_path path;
-  /// [steps] Does the state at the end of a step have the only displacements that are in equilibrium?
+  /// [steps] 1 if the equilibrium at the end of the step has unique displacements
   std::vector<char> unique;
 };
 
-/// One thing that is wrong.
+/// One error of a run.
 struct finding {
   fault what;
-  double amount;  ///< error over tolerance; of `beyond` the relative error; of `digits` the missing ones
+  double amount;  ///< error over tolerance; for `beyond` relative error; for `digits` missing digits
   std::string words;
 };
 
-/// The errors of one run, and the number of compared values.
+/// The errors of a run, and the number of compared values.
 struct judgement {
-  int steps = 0;      ///< that reached their load on both paths
-  int certified = 0;  ///< of these
-  long values = 0;    ///< compared with exact ones
+  int steps = 0;      ///< steps that reach their load on both paths
+  int certified = 0;  ///< certified ones of these steps
+  long values = 0;    ///< numbers compared with exact ones
   std::vector<finding> findings;
 };
 
-/// Solve `p` and judge what is said. Where equilibria differ by a rigid-body motion, forces and reactions
-/// alone are compared.
+/// Solves `p` and judges the result. If equilibria differ by a rigid-body motion, only forces and reactions
+/// are compared.
 [[nodiscard]] judgement judge(const problem& p, const exact_answer& exactly, way how);
 
 }  // namespace contct::referee

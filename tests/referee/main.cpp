@@ -1,10 +1,10 @@
-// The exact path as referee of the corrected rule and its certificate:
+// Judges the corrected rule and its certificate by the exact path:
 //     contct_referee COUNT SEED [--jobs N]
 //     contct_referee 0 SEED --only NUMBER
 //     contct_referee --file PROBLEM.toml
-// Judges random problems, prints the counts of what is wrong by kind and the worst of each, and fails on a
-// forbidden error, on more errors than are known, or if too little was compared. --only and --file print all
-// errors of one problem.
+// Judges random problems and prints the number and the worst of each error by kind. Fails on a forbidden
+// error, on more errors than are known, or if too little was compared. --only and --file print all errors of
+// one problem.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -51,8 +51,8 @@ drawn_problem draw_of_laboratory(std::uint64_t seed, std::uint64_t number) {
           static_cast<const contct::problem&>(r)};
 }
 
-/// Problem `number` of `seed`: the even ones are the laboratory's, small ones, named by their layouts; the
-/// odd ones are of the hard kinds, in turn.
+/// Returns problem `number` of `seed`: even numbers are small problems of the laboratory, named by their
+/// layouts, and odd numbers are the hard kinds in turn.
 drawn_problem draw(std::uint64_t seed, std::uint64_t number) {
   drawn_problem d;
   if (number % 2 == 0) {
@@ -65,7 +65,7 @@ drawn_problem draw(std::uint64_t seed, std::uint64_t number) {
   return d;
 }
 
-/// The judgements of one problem, one for each way.
+/// The judgements of one problem in all ways.
 struct judged_problem {
   std::string kind;
   std::array<judgement, ways> judgements;
@@ -78,7 +78,7 @@ judged_problem judge_all_ways(const drawn_problem& p) {
   return j;
 }
 
-/// Counts of one kind, or of all.
+/// Counts of one kind of problem, or of all.
 struct counts {
   long problems = 0;
   long steps = 0, certified = 0, values = 0;  // over all ways
@@ -101,7 +101,7 @@ struct counts {
   }
 };
 
-/// The worst of a fault.
+/// The worst error of one kind.
 struct worst_finding {
   std::uint64_t number;
   way how;
@@ -125,7 +125,7 @@ struct all_counts {
   }
 };
 
-/// Judge a stretch of problems on several threads; the results do not depend on how many.
+/// Judges a range of problems on several threads; the results do not depend on the number of threads.
 std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first, std::uint64_t count) {
   std::vector<judged_problem> judged(count);
   std::atomic<std::size_t> next = 0;
@@ -149,10 +149,10 @@ std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first,
   return judged;
 }
 
-/// What is known to be wrong in a run of so many problems of a seed, and how many values it compares at
-/// least. Events differ where rounding decides; a bound is loose where half a unit in a matrix's last digits
-/// decides whether it is held; a path followed exactly is not a fault. Another LAPACK rounds otherwise, and
-/// counts move with that.
+/// The known numbers of errors in a run of `count` problems of `seed`, and the least number of compared
+/// values. Events differ where rounding decides. A bound is loose if half a unit in a matrix's last digits
+/// decides whether it is held. A path that is followed exactly is not an error. Another LAPACK rounds
+/// differently and changes the numbers.
 struct known_counts {
   std::uint64_t count, seed;
   long values, loose, events, exactly;
@@ -160,7 +160,7 @@ struct known_counts {
 constexpr std::array known_runs = {known_counts{300, 2026, 36'939, 2, 22, 12},
                                    known_counts{20'000, 2026, 2'551'180, 3, 1187, 349}};
 
-/// The allowed number of a fault; nothing if it depends on a run whose counts are unknown.
+/// Returns the allowed number of an error, or nothing if it is unknown for this run.
 std::optional<long> most_allowed(fault what, const known_counts* known) {
   switch (what) {
     case fault::loose:
@@ -177,7 +177,7 @@ std::optional<long> most_allowed(fault what, const known_counts* known) {
   }
 }
 
-/// One line for each breach of the limits; empty if there is none.
+/// Returns one line for each limit that is exceeded.
 std::vector<std::string> breaches(const options& o, const counts& c) {
   const auto* known = std::ranges::find_if(
       known_runs, [&o](const known_counts& k) { return k.count == o.count && k.seed == o.seed; });
@@ -209,7 +209,7 @@ void print_counts(const options& o, const all_counts& c) {
 }
 
 int judge_all(const options& o) {
-  constexpr std::uint64_t stretch = 1000;  // of problems whose judgements are kept before they are added
+  constexpr std::uint64_t stretch = 1000;  // problems whose judgements are in memory together
   const auto started = std::chrono::steady_clock::now();
   all_counts c;
   for (std::uint64_t first = 0; first < o.count; first += stretch) {

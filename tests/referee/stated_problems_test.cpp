@@ -1,5 +1,5 @@
-// Problems that were once certified with wrong numbers, or not certified, ended in false mechanisms, or were
-// lost: their exact numbers, and their remaining errors.
+// Tests problems that were once certified with wrong numbers, not certified, called a mechanism or lost:
+// their exact numbers, and their remaining errors.
 #include <map>
 #include <utility>
 
@@ -13,7 +13,7 @@ using contct::short_words;
 
 namespace {
 
-/// A number that the exact path must have: a pair's force or a node's deflection, all counted from 1.
+/// A number of the exact path: a pair's force or a node's deflection, counted from 1.
 struct stated_number {
   enum class kind { force, deflection } what;
   std::size_t step, at;
@@ -30,13 +30,13 @@ struct stated_problem {
   const char* file;
   path_status ends;
   std::vector<stated_number> numbers;
-  int values;                  ///< compared at least, over all ways
-  std::map<fault, int> known;  ///< wrong today, over all ways, at most; no other fault may be
+  int values;                  ///< least number of compared values in all ways
+  std::map<fault, int> known;  ///< largest number of each error in all ways; 0 if not listed
 };
 
 using enum fault;
 
-// The counts are ceilings.
+// The numbers of errors are upper limits.
 const std::vector<stated_problem>& stated_problems() {
   constexpr auto solved = path_status::solved;
   constexpr auto mechanism = path_status::mechanism;

@@ -1,4 +1,4 @@
-// The program as functions: their answers equal the program's output.
+// Tests that the answers of the C interface equal the program's output.
 #include "contct/serve/serve.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ std::string problem_text(const std::string& name) {
   return contct::read_input(std::string(CONTCT_REFERENCE) + "/problems/" + name + ".toml");
 }
 
-/// The text that a function returned, read and freed.
+/// Returns the JSON of a text that a function returned, and frees the text.
 json taken(char* text) {
   REQUIRE(text != nullptr);
   json answer = json::parse(text);
@@ -48,13 +48,13 @@ std::vector<json> displacements(const json& result) {
   return all;
 }
 
-/// Asks C++ CONTCT.
+/// A correct kernel, which calls the C++ kernel.
 void right_kernel(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
                   const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
   contct_free(contct_call("cpp", dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof));
 }
 
-/// Has an error of 1e-9 in calls with three pairs.
+/// A kernel with an error of 1e-9 in calls with three pairs.
 void late_kernel(const double dd[], const double dtest[], const double cc[], double ss[], double* smin,
                  const int id[], int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof) {
   right_kernel(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, ndof);
@@ -122,8 +122,8 @@ TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the m
   }
   CHECK(taken(contct_run(nullptr, nullptr)).at("exit") == 2);
   const std::string cut = "{\"engine\": \"" + std::string(5000, 'x');
-  CHECK(error_of(taken(contct_run(problem.c_str(), cut.c_str()))).size() < 1000);  // quotes a little of it
-  // Written by recursion, these would overflow the stack.
+  CHECK(error_of(taken(contct_run(problem.c_str(), cut.c_str()))).size() < 1000);  // it quotes only a part
+  // Recursion would overflow the stack on these texts.
   const std::string deep = "{\"engine\": " + std::string(200'000, '[') + std::string(200'000, ']') + "}";
   CHECK_THAT(error_of(taken(contct_run(problem.c_str(), deep.c_str()))),
              Contains("more than 16 deep; allowed: at most 16"));
@@ -149,7 +149,7 @@ TEST_CASE("a correct external state is certified, but a state with an error of 1
 
   CHECK_THAT(error_of(certified(text, json::parse(R"({"displacement": [[0, 1]]})"))),
              Contains("found 2 numbers"));
-  for (const char* pair : {"9", "1e300", "-1e300", "0", "1.5"}) {  // some, no integer can be made from
+  for (const char* pair : {"9", "1e300", "-1e300", "0", "1.5"}) {  // some are not integers
     const json closed = json::parse(fmt::format("[[{}], [], [], []]", pair));
     CHECK_THAT(error_of(certified(text, {{"displacement", states}, {"closed", closed}})),
                Contains("closed: found ") && Contains("allowed: pairs from 1 to 3"));
@@ -222,8 +222,8 @@ TEST_CASE("contct_call returns a kernel's text of unit 26, and refuses a dof tha
   double ss[] = {0.0}, smin = 7.0;
   const int beyond[] = {2};
   CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, 1, 2, 2)).at("exit") == 2);
-  // (2 - 1) * 2147483647 + 2147483647 is beyond INTEGER, and so is (0 - 1) * -2147483648, whose dof would
-  // be 1.
+  // (2 - 1) * 2147483647 + 2147483647 exceeds INTEGER, and so does (0 - 1) * -2147483648, although the dof
+  // would be 1.
   CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, INT_MAX, INT_MAX, 2))
             .at("exit") == 2);
   const int before_all[] = {0};

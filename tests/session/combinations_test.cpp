@@ -1,4 +1,4 @@
-// Runs of combinations and trains, against closed forms.
+// Tests runs of combinations and trains against closed forms.
 #include "catch.hpp"
 #include "contct/session/step_results.hpp"
 #include "support/a_run.hpp"
@@ -7,20 +7,20 @@ using namespace contct;
 
 namespace {
 
-/// On supports at 0 and 1; a stop, of stiffness 6, 0.4 below the end at 2. A load P there moves the end by
-/// 2 P / 3.
+/// A beam on supports at 0 and 1, with a stop of stiffness 6 at a distance of 0.4 below its end at 2. A load
+/// P at the end moves it by 2 P / 3.
 const std::string overhanging =
     "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nx = [0, 1]\nfix = \"w\"\n"
     "[[contact]]\nx = 2\nsurface = \"below\"\nface = -0.4\nstiffness = 6\n";
 const std::string at_support = "point = [ { x = 1, w = -3 } ]\n";
 const std::string at_end = "point = [ { x = 2, w = -3 } ]\n";
 
-/// Two equal spans of length 10.
+/// Two spans of length 10.
 const std::string two_spans =
     "[beam]\nlength = 20\nelements = 20\nEI = 2e4\n[[support]]\nx = [0, 10, 20]\nfix = \"w\"\n";
 
-/// The moment over the middle support under a unit load down at x: of either span L, with a the distance from
-/// the outer support, -a (L^2 - a^2) / (4 L^2).
+/// Returns the moment over the middle support under a unit load at x: -a (L^2 - a^2) / (4 L^2) for spans L
+/// and the distance a from the outer support.
 double influence_on_middle_moment(double x) {
   if (x < 0.0 || x > 20.0) return 0.0;
   const double a = x <= 10.0 ? x : 20.0 - x;
@@ -32,7 +32,7 @@ double influence_on_middle_moment(double x) {
 TEST_CASE(
     "An envelope of combinations has values of the combinations only, not of states between two of them") {
   const a_run steps(overhanging + "[[step]]\n" + at_support + "[[step]]\n" + at_end);
-  CHECK(envelope_of(steps.result).reactions[1].most.value == Approx(3.6));  // where the stop is reached
+  CHECK(envelope_of(steps.result).reactions[1].most.value == Approx(3.6));  // when the end reaches the stop
   const a_run run(overhanging + "[[case]]\nname = \"A\"\n" + at_support + "[[case]]\nname = \"B\"\n" +
                   at_end +
                   "[[combination]]\nname = \"1\"\nterms = { A = 1 }\n[[combination]]\nname = \"2\"\n"

@@ -12,12 +12,13 @@ using namespace contct;
 
 namespace {
 
-/// A beam on two supports, 6 long, EI = 1000, under 12 at x = 2, then under 12 at x = 4.
+/// A beam of length 6 on two supports, EI = 1000, under 12 at x = 2, and then under 12 at x = 4.
 const std::string load_in_two_places =
     "[beam]\nlength = 6.0\nelements = 3\nEI = 1000.0\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n"
     "[[step]]\npoint = [ { node = 2, w = -12.0 } ]\n[[step]]\npoint = [ { node = 3, w = -12.0 } ]\n";
 
-/// Moment and deflection at x of a beam of length 6 on two supports under P = 12 at `a`.
+/// Returns the moment at x of a beam of length 6 on two supports under P = 12 at `a`; deflection_at returns
+/// its deflection.
 double moment_at(double x, double a) {
   return x < a ? 12 * (6 - a) * x / 6 : 12 * a * (6 - x) / 6;
 }

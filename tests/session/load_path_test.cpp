@@ -1,4 +1,4 @@
-// Loads along a path: what acts at a share of a step, its resultant, and its words.
+// Tests loads along a path: the load at a share of a step, its resultant, and its description.
 #include "contct/session/load_path.hpp"
 
 #include "catch.hpp"
@@ -15,15 +15,14 @@ TEST_CASE("an event's load is described with the keys of the problem file") {
       parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
   CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
   const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
-  // The number has six digits in every row; if the line is too long, the place is omitted first, then the
-  // kind.
+  // Every row has six digits. If the line is too long, the place is omitted first, and then the kind.
   CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
   CHECK(load_path(p).words_at(1, 0.123456, 20) == "w -7.40736 at node 3");
   CHECK(load_path(p).words_at(1, 0.123456, 19) == "w -7.40736");
   CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.40736");
   CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
   CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
-  // From -60 to 10 the load passes 0 at 6/7, where the sum is nothing but rounding.
+  // From -60 to 10 the load is 0 at a share of 6/7, where its computed sum is only rounding.
   problem passes = p;
   passes.steps.push_back(p.steps[0]);
   passes.steps[1].points[0].value = 10.0;

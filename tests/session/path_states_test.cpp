@@ -1,4 +1,4 @@
-// The states along a path: the whole structure after its increments, solved for apart from the path.
+// Tests the states along a path, which are solved for separately.
 #include "contct/session/path_states.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ using namespace contct;
 
 namespace {
 
-/// A beam of 8 elements between simple supports over two stops, under these loads, one after the other.
+/// Returns a simple beam of 8 elements over two stops, under these uniform loads in turn.
 std::string two_stops(const std::vector<double>& uniform) {
   std::string text =
       "[beam]\nlength = 1\nelements = 8\nEI = 1\n[[support]]\nnodes = [1, 9]\nfix = \"w\"\n"
@@ -36,7 +36,7 @@ TEST_CASE("a state within a step equals the final state of a path that ends at t
   for (const std::string leader : {"fortran", "corrected"}) {
     INFO(leader);
     const std::vector<structure_state> states = pictures_of(a_run(two_stops({-10.0, -0.3}), leader).result);
-    REQUIRE(states.size() == 7);  // the start, two makes and full load, two breaks and full load
+    REQUIRE(states.size() == 7);  // the start; two makes, full load; two breaks, full load
     for (const structure_state& s : states) {
       if (s.step != 1) continue;
       INFO("increment " << s.number);

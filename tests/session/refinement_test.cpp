@@ -20,7 +20,7 @@ problem reference_problem(const std::string& name) {
   return read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml");
 }
 
-/// The largest deflection at the ends of steps, and the difference of those of two runs on one mesh.
+/// Returns the largest deflection at the ends of steps, and the largest difference between two runs.
 std::pair<double, double> deflections(const a_run& a, const a_run& b) {
   double most = 0.0;
   double difference = 0.0;
@@ -68,7 +68,7 @@ TEST_CASE(
   const a_run coarse(reference_problem("pb11a-strip-footing-n20"), "corrected");
   const a_run fine(refined(coarse.what), "corrected");
   const auto changes = changes_between(coarse.result, fine.result);
-  // reference/verification.toml, in 40 digits: w at the edge near the load, 20 and 40 elements.
+  // The pressures of 20 and 40 elements follow from w at the edge in reference/verification.toml.
   CHECK(change_of(changes, "pressure").of == Approx(3.327786).epsilon(1e-4));
   CHECK(change_of(changes, "pressure").change == Approx(3.327786 - 3.312101).epsilon(1e-2));
 }

@@ -1,4 +1,4 @@
-// The 1989 rule next to the answer: its different events, and its wrong states.
+// Tests the 1989 rule next to the answer: its different events, and its wrong states.
 #include "contct/session/rule_1989.hpp"
 
 #include <string>
@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A run of both rules in memory.
+/// A run of both rules.
 struct both_rules {
   const problem what;
   const linear_structure structure = structure_of(what);
@@ -39,7 +39,7 @@ std::string divergence(const std::string& name) {
   return read_input(CONTCT_REFERENCE "/problems/divergences/" + name + ".toml");
 }
 
-/// A plate on ground, of so many elements along each side.
+/// Returns a plate on a bed with this number of elements along each side.
 std::string square(int elements) {
   const std::string n = std::to_string(elements);
   return "[plate]\nsize = [1, 1]\nelements = [" + n + ", " + n +
@@ -79,7 +79,7 @@ TEST_CASE("an event that the 1989 rule has at a different share is reported with
   REQUIRE(first.at(1).otherwise.size() == 1);
   CHECK(first[1].otherwise[0].what == event{1, change::make});
   CHECK(first[1].otherwise[0].at.value_or(0) ==
-        Approx(0.25));  // a tip of 60 at 15, where the first stop is met
+        Approx(0.25));  // the load is 15 of 60 when the stop is reached
   CHECK_FALSE(near.beside().same_events);
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("an event that only the 1989 rule has is reported in the increment tha
   CHECK(first.otherwise[0].what == event{0, change::make});
   REQUIRE(marked.wrong().size() == 1);
   CHECK(marked.wrong()[0].at == "pair 1");
-  CHECK(marked.wrong()[0].value == Approx(-5e4));  // the stiffness, 5e4, times the distance, 1
+  CHECK(marked.wrong()[0].value == Approx(-5e4));  // stiffness 5e4 times distance 1
   CHECK(marked.wrong()[0].right == 0.0);
 }
 

@@ -1,4 +1,4 @@
-// The record of a path, from which outputs are written.
+// Tests the record of a path, from which outputs are written.
 
 #include "contct/session/run_result.hpp"
 
@@ -10,7 +10,7 @@ using namespace contct;
 
 namespace {
 
-/// Tell `r` of a call whose answer is `ss`, with this text of unit 26.
+/// Passes a call to `r`, with the answer `ss` and this text of unit 26.
 void tell_call(run_recorder& r, std::vector<double> ss, std::string_view text) {
   std::vector<int> isep(ss.size(), separated);
   const call<double> c{{}, {}, {}, ss, 0.5, {}, isep, {}, {1, 1}};
@@ -43,7 +43,7 @@ TEST_CASE("a recorded call has the increment that it led to, or none") {
   run_recorder r(nullptr, {.calls = true});
   tell_call(r, {1.0}, "");
   r.incremented({1, 1, 0.5, 0.5, {}});
-  r.incremented({1, 2, 1.0, 0.5, {}, true});  // a snap, without a call
+  r.incremented({1, 2, 1.0, 0.5, {}, true});  // a snap has no call
   tell_call(r, {1.0}, "");
   tell_call(r, {1.0}, "");
   r.incremented({2, 1, 1.0, 1.0, {}});

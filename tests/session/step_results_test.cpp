@@ -18,7 +18,7 @@ using namespace contct;
 
 namespace {
 
-/// A simply supported beam of 12 lengths, EI = 1e4, with two stops at a third and two thirds.
+/// Returns a simple beam of length 12, EI = 1e4, with stops at one third and two thirds.
 problem beam_over_stops(double face, double q) {
   return parse_problem(
       "[beam]\nlength = 12.0\nelements = 3\nEI = 1e4\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n" +
@@ -29,7 +29,7 @@ problem beam_over_stops(double face, double q) {
       "stops.toml");
 }
 
-/// The end of its path, with the results there.
+/// The final state of a path, and the results there.
 struct ended {
   explicit ended(const problem& p) {
     const a_run run(p, "corrected");
@@ -46,7 +46,7 @@ struct ended {
 TEST_CASE("The hardest pressed pair and support have the largest force, and of two equal forces the first") {
   const ended e(beam_over_stops(-0.001, -10.0));
   REQUIRE(e.read.pairs.size() == 2);
-  CHECK(e.read.hardest_pair() == 0);  // both press with the same force up to rounding
+  CHECK(e.read.hardest_pair() == 0);  // both forces are equal except for rounding
   CHECK(e.read.pairs[0].force == Approx(e.read.pairs[1].force).epsilon(1e-9));
   CHECK(e.read.hardest_support(beam_over_stops(-0.001, -10.0)) == 0);
   const ended free(beam_over_stops(-10.0, -10.0));
@@ -62,7 +62,7 @@ TEST_CASE("Forces, reactions and loads of a step's end balance, and its extreme 
   const double edge = e.read.reactions[0];
   const value_range& m = e.read.ranges.at(1);
   CHECK(m.name == "moment");
-  CHECK(m.most.value == Approx(edge * edge / 2 / 10.0).epsilon(1e-9));  // where the shear is zero: x = R / q
+  CHECK(m.most.value == Approx(edge * edge / 2 / 10.0).epsilon(1e-9));  // the shear is 0 at x = R / q
   CHECK(m.most.x == Approx(edge / 10.0).epsilon(1e-6));
 }
 
@@ -71,7 +71,8 @@ TEST_CASE("Loads, reactions and contact forces of every reference problem add up
   for (const auto& file : std::filesystem::directory_iterator(CONTCT_REFERENCE "/problems")) {
     if (file.path().extension() != ".toml") continue;
     const a_run run(read_problem(file.path().string()), "corrected");
-    if (std::holds_alternative<assembled>(run.what.geometry.kind)) continue;  // in which nothing is "up"
+    // Matrices have no direction "up".
+    if (std::holds_alternative<assembled>(run.what.geometry.kind)) continue;
     for (const step_record& s : run.result.record.steps) {
       const load& acting = run.what.steps[s.end.step - 1];
       const step_results read = results_of(run.what, acting, s.end);
@@ -89,7 +90,7 @@ TEST_CASE("Loads, reactions and contact forces of every reference problem add up
 }
 
 TEST_CASE("The contact force of a face above counts downwards in the balance") {
-  const a_run run(loaded_and_freed, "corrected");  // its second step presses the beam upwards
+  const a_run run(loaded_and_freed, "corrected");  // the second step presses the beam upwards
   const load& acting = run.what.steps[1];
   const auto sums =
       balance_of(run.what, acting, results_of(run.what, acting, run.result.record.steps[1].end));
@@ -104,7 +105,8 @@ TEST_CASE("The bearing pressure of a half-lifted footing is that of a rigid body
   const structure_state& end = run.result.record.steps[0].end;
   const std::vector<bed_reading> beds = beds_in(run.what, results_of(run.what, run.what.steps[0], end), end);
   REQUIRE(beds.size() == 1);
-  // p = a + b x at the nodes 0 to 0.6, each with its share: the sum is 1, its moment about x = 0 is 0.2.
+  // Solves p = a + b x at the nodes from 0 to 0.6, with tributary lengths, for a sum of 1 and a moment about
+  // x = 0 of 0.2.
   double s0 = 0.0;
   double s1 = 0.0;
   double s2 = 0.0;
@@ -130,7 +132,7 @@ TEST_CASE("A beam that sags through a face between two pairs is reported, but a 
   CHECK(soft.through->x == Approx(6.0).epsilon(1e-6));
   CHECK(soft.through->depth == Approx(500.0 * 256 / (1920 * 1e4)).epsilon(1e-3));  // q L^4 / (1920 EI)
   CHECK_FALSE(ended(beam_over_stops(-10.0, -1.0)).through);
-  problem backwards = beam_over_stops(0.0, -500.0);  // named from the right to the left
+  problem backwards = beam_over_stops(0.0, -500.0);  // its pairs are named from right to left
   std::ranges::reverse(backwards.pairs);
   const ended same(backwards);
   REQUIRE(same.through);
@@ -146,7 +148,7 @@ TEST_CASE("An envelope has the largest value of each quantity over all increment
   const a_run run(loaded_and_freed, "corrected");
   const envelope all = envelope_of(run.result);
   const std::vector<structure_state> states = pictures_of(run.result);
-  CHECK(all.states == static_cast<int>(states.size()) - 1);  // all but the unloaded one
+  CHECK(all.states == static_cast<int>(states.size()) - 1);  // all but the unloaded state
   double least = 0.0;
   double force = 0.0;
   for (const structure_state& s : states) {

@@ -91,11 +91,11 @@ TEST_CASE("in the condensed engine, removing a spring 1e18 times as stiff restor
   }
   const engine_counts counts = engine->counts();
   CHECK(counts.checks >= 1);
-  CHECK(counts.solves == counts.factors + counts.checks);  // each response by a factor, and each check of one
+  CHECK(counts.solves == counts.factors + counts.checks);  // one for each factor, and one for each check
 }
 
 TEST_CASE("for a beam too ill-conditioned to be condensed, an engine is made but its first response fails") {
-  // Elements of length 1 next to elements of length 1e7, as a mechanism: its path needs no response.
+  // A mechanism with elements of length 1 and 1e7, whose path needs no response.
   beam b;
   b.x = {-1, 0, 1, 2, 3, 4, 10000004, 20000004, 30000004};
   b.EI.assign(8, 1e7);

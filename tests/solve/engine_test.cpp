@@ -1,5 +1,5 @@
-// Every engine against the 1989 way: the same responses through hundreds of toggles, the same events and
-// final states on whole paths, with springs over eight decades.
+// Tests every engine against the engine refactor: the same responses through hundreds of toggles, and the
+// same events and final states on whole paths, with springs over eight decades.
 #include "contct/solve/engine.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace contct;
 
 namespace {
 
-/// Held structures of moderate condition: engines are compared to a bound that conditioning sets.
+/// Structures with supports and moderate condition numbers, on which the allowed differences depend.
 random_problem_kind held_problems(double plates) {
   random_problem_kind kind;
   kind.least_unit = 1e-3;
@@ -37,8 +37,8 @@ std::vector<double> load_of(const random_problem& p, const linear_structure& s) 
   return f;
 }
 
-/// How far two responses differ, relative to `size`, the largest deflection anywhere: at the pairs there may
-/// be only rounding.
+/// Returns the largest difference between two responses relative to `size`, the largest deflection of any
+/// node. The responses at the pairs may be only rounding.
 double difference(const std::vector<double>& a, const std::vector<double>& b, double size) {
   double off = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
@@ -53,8 +53,8 @@ double largest_deflection(const linear_structure& s, const std::vector<double>& 
   return size;
 }
 
-/// The difference allowed for rounding: each of two answers may have the certificate's error of 1024 eps /
-/// rcond.
+/// Returns the allowed difference between two answers, each of which may have the certificate's error of 1024
+/// eps / rcond.
 double allowed(stiffness_engine& e) {
   return std::max(1e-10, 2 * 1024 * std::numeric_limits<double>::epsilon() / e.reciprocal_condition());
 }
@@ -65,7 +65,7 @@ struct toggled {
   double worst = 0.0;  // relative to the allowed difference
 };
 
-/// Toggle `toggles` pairs of a problem, drawn from `choices` of them, and compare every response.
+/// Toggles `toggles` pairs, drawn from `choices` pairs, and compares every response.
 toggled toggle_back_and_forth(const random_problem& p, const std::string& engine, int toggles, int choices,
                               random_numbers& random) {
   toggled t;
@@ -124,7 +124,7 @@ TEST_CASE("with every engine, the corrected kernel's paths of structures with su
     const auto kernel = make_kernel("corrected");
     int certified = 0;
     path_counts counted;
-    random_problem_kind kind;  // every unit, springs over eight decades
+    random_problem_kind kind;  // any unit, and springs over eight decades
     kind.free_share = 0.0;
     kind.plate_share = engine == "condensed" ? 0.0 : 0.25;
     for (std::uint64_t number = 1; number <= 150; ++number) {
@@ -195,12 +195,13 @@ TEST_CASE("the engine recovers the displacement of every dof from the load and t
   engine->recover(std::vector<double>{7, 7, 0, 0, -2, 0}, std::vector<double>{1.0}, u);
   const double f = 8.0 / 3 / 1e4;
   CHECK(u[4] == Approx(-f).epsilon(1e-13));
-  CHECK(u[0] == 0.0);  // loads on fixed dofs go to the support
+  CHECK(u[0] == 0.0);  // the support has the load of a fixed dof
   CHECK(u[1] == 0.0);
 }
 
 TEST_CASE("a plate's internal numbering does not change the numbers of dofs, supports, pairs and forces") {
-  // The same plate lying and standing: 5 by 2 elements numbered along y, 2 by 5 in its own order.
+  // The same plate in two orientations: 5 by 2 elements, whose rows are numbered along y, and 2 by 5
+  // elements.
   const plate lying{{0, 1, 2, 3, 4, 5}, {0, 0.5, 1.5}, 2.0, 0.3};
   const plate standing{lying.y, lying.x, lying.D, lying.nu};
   const auto place = [&](const plate& p, int i, int j) {

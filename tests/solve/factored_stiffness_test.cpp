@@ -10,7 +10,8 @@ using namespace contct;
 
 namespace {
 
-/// Clamped along x = 0 and wider than high: its rows are numbered otherwise than its dofs.
+/// Returns a plate that is clamped along x = 0 and wider than high, so that the order of its rows differs
+/// from that of its dofs.
 linear_structure wide_plate() {
   const plate p{{0, 1, 2, 3}, {0, 1}, 50.0, 0.3};
   std::vector<support> clamp;
@@ -22,7 +23,7 @@ linear_structure wide_plate() {
 }  // namespace
 
 TEST_CASE("a cantilever with a spring k under its tip deflects by F / (3 EI / L^3 + k)") {
-  const linear_structure s = cantilever_over_stops(4);  // L = 2, EI = 1e4; the tip's k is 100
+  const linear_structure s = cantilever_over_stops(4);  // L = 2, EI = 1e4; k = 100 at the tip
   factored_stiffness k(s);
   std::vector<double> u(s.dofs());
   u[8] = 5.0;
@@ -81,7 +82,7 @@ TEST_CASE("a structure with supports whose matrix has no factor is refused") {
 
 namespace {
 
-/// Three dofs in reverse order of rows, the first of them fixed; a pair at each.
+/// Returns three dofs with rows in reverse order, of which the first dof is fixed, and a pair at each.
 linear_structure three_dofs() {
   linear_structure s;
   s.dofs_per_node = 1;
@@ -131,7 +132,7 @@ TEST_CASE(
   const std::vector<spring_at> springs = {{0, 12.0}};
   std::vector<double> u(3);
   int solves = 0;
-  const auto jacobi = [&solves](double factor) {  // without the coupling of -1
+  const auto jacobi = [&solves](double factor) {  // ignores the coupling of -1
     return [&solves, factor](std::span<double> b) {
       ++solves;
       b[0] *= factor / 16;
@@ -139,12 +140,12 @@ TEST_CASE(
     };
   };
   solve_refined(s, s.stiffness, springs, jacobi(1.0), std::vector<double>{9, 1, 15}, u);
-  // 16 x0 - x1 = 15, 4 x1 - x0 = 1, row 0 being dof 2
+  // 16 x0 - x1 = 15 and 4 x1 - x0 = 1, where row 0 is dof 2.
   CHECK(u[0] == 0.0);
   CHECK(u[1] == Approx(31.0 / 63).epsilon(1e-5));
   CHECK(u[2] == Approx(61.0 / 63).epsilon(1e-5));
-  CHECK(solves == 7);  // one, and the most corrections there may be
+  CHECK(solves == 7);  // one solve, and at most six corrections
   solves = 0;
   solve_refined(s, s.stiffness, springs, jacobi(-1.0), std::vector<double>{0, 1, 15}, u);
-  CHECK(solves == 3);  // the correction grows: the second one is not applied
+  CHECK(solves == 3);  // the second correction is larger, and not applied
 }

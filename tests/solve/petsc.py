@@ -16,7 +16,7 @@ PROBLEMS = ["problems/pb07-three-gap-supports.toml", "problems/pp01g-unilateral-
             "problems/pp02b-settled-column-n8.toml", "problems/pp05b-free-plate-on-bed-n12.toml", "structures/frame.toml",
             "structures/calculix/console.toml"]
 LEAST = {"events": 60, "numbers": 1000}
-PATIENCE = 1200  # seconds, after which something hangs
+PATIENCE = 1200  # the time limit in seconds
 # Open MPI needs two variables to run as root; on shared processors a waiting rank should yield to others.
 MPI = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
                     "ASAN_OPTIONS": "detect_leaks=0"}

@@ -7,7 +7,7 @@ using namespace contct;
 
 namespace {
 
-/// Records the order in which springs are applied.
+/// An engine that records the order in which springs are applied.
 class recording_engine final : public spring_engine {
  public:
   explicit recording_engine(const linear_structure& s) : spring_engine(s) {}
@@ -75,7 +75,7 @@ TEST_CASE("the first factor includes the springs of pairs in contact at the star
   e.switch_spring(3, true);
   respond(e);
   CHECK_FALSE(e.accepted);
-  CHECK(e.order == std::vector<int>{1});  // none after the refused one
+  CHECK(e.order == std::vector<int>{1});  // no spring after the refused one
   CHECK(e.applied() == std::vector<char>{1, 1, 1, 1});
 }
 
@@ -83,7 +83,7 @@ namespace {
 
 constexpr int first_check = 8;
 
-/// Responses until a check is due.
+/// Returns the number of responses until a check is due.
 int responses_until_due(drift_monitor& m) {
   int count = 1;
   while (!m.is_due()) ++count;

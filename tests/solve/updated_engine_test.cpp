@@ -21,7 +21,7 @@ TEST_CASE("the updated engine toggles pairs without a new factor, and responds a
   }
   CHECK(engine->counts().updates == 5);
   CHECK(engine->counts().factors == 1);
-  CHECK(engine->counts().solves == 1 + 5);  // the load, and a column a toggle
+  CHECK(engine->counts().solves == 1 + 5);  // the load, and a column for each toggle
 }
 
 TEST_CASE("the updated engine checks its response after 16 responses, and then after 32") {
@@ -31,7 +31,7 @@ TEST_CASE("the updated engine checks its response after 16 responses, and then a
   std::vector<double> d_star(s.pairs.size());
   engine->switch_spring(2, true);
   engine->respond({load, 1.0, 1}, d_star);
-  engine->switch_spring(1, true);  // an update to check: the first spring is in the factor
+  engine->switch_spring(1, true);  // a first update, which needs a check
   const auto respond = [&](int times) {
     for (int i = 0; i < times; ++i) engine->respond({load, 1.0, 1}, d_star);
     return engine->counts().checks;

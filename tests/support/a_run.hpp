@@ -1,4 +1,4 @@
-// A whole run in memory, for the tests of its outputs.
+// A run in memory, for tests of outputs.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,19 @@
 
 namespace contct {
 
-/// The good problem with a second step, which loads the beam upwards, towards a stop above it.
+/// `good_problem` with a second step, which presses the beam up against a stop above it.
 inline const std::string loaded_and_freed =
     std::string(good_problem) +
     "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.001\nstiffness = 1e5\n"
     "[[step]]\npoint = [ { node = 3, w = 60.0 } ]\n";
 
-/// Clamped on the left, on a support on the right: two elements, EI = 100, length 2, q = -8.
+/// A propped cantilever: two elements, EI = 100, length 2, q = -8.
 inline const std::string propped_cantilever =
     "[beam]\nlength = 2.0\nelements = 2\nEI = 100.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[support]]\nnode = 3\nfix = [\"w\"]\n[[step]]\nuniform = -8.0\n";
 
-/// FORTRAN leading C++ in lockstep, or another kernel alone, with all that outputs are made from.
+/// A run of FORTRAN with C++ in lockstep or, with another leader, of one kernel, with everything that outputs
+/// need.
 struct a_run {
   const problem what;
   const linear_structure structure;

@@ -1,4 +1,4 @@
-// A cantilever with a pair at each of its nodes, for the tests of engines and their parts.
+// A cantilever with a pair at each node, for tests of engines.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace contct {
 
-/// Clamped at its left end, all pairs separated; springs of every order from softer to stiffer than the beam.
+/// Returns a cantilever whose pairs are separated, with springs from softer to stiffer than the beam.
 inline linear_structure cantilever_over_stops(int elements) {
   beam b;
   for (int i = 0; i <= elements; ++i) b.x.push_back(0.5 * i);
@@ -20,7 +20,7 @@ inline linear_structure cantilever_over_stops(int elements) {
   return build(b, std::vector<support>{{0, 0, true}, {0, 1, true}}, pairs);
 }
 
-/// The response at the pairs by a new factor.
+/// Returns the response at the pairs, computed with a new factor.
 inline std::vector<double> response_by_factor(const linear_structure& s, const std::vector<char>& closed,
                                               std::vector<double> load) {
   factored_stiffness k(s);
@@ -31,7 +31,7 @@ inline std::vector<double> response_by_factor(const linear_structure& s, const s
   return at_pairs;
 }
 
-/// The largest difference of two vectors, relative to the largest entry.
+/// Returns the largest difference between two vectors relative to the largest entry.
 inline double relative_difference(std::span<const double> a, std::span<const double> b) {
   double size = 0.0;
   double off = 0.0;

@@ -1,4 +1,4 @@
-// Small beams on one-sided supports for the tests of the path.
+// Small beams with pairs, for tests of paths.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ struct beam_problem {
   }
 };
 
-/// Copies what an observer may see.
+/// Copies what an observer sees.
 struct recorder final : observer {
   struct seen_increment {
     int step, number;
@@ -70,7 +70,7 @@ struct recorder final : observer {
                      s.rcond,
                      s.from_fallback});
   }
-  /// Every event of the path, in order.
+  /// Returns all events of the path in order.
   [[nodiscard]] std::vector<event> events() const {
     std::vector<event> all;
     for (const auto& i : increments) all.insert(all.end(), i.events.begin(), i.events.end());
@@ -89,7 +89,7 @@ inline load tip_load(int node, double w) {
   return {{{node, 0, w}}, {}};
 }
 
-/// PB1: a cantilever over a stop at its tip, loaded, unloaded and reversed.
+/// Returns PB1: a cantilever over a stop at its tip, which is loaded, unloaded and loaded upwards.
 inline beam_problem cantilever_over_a_stop() {
   return {even_beam(2.0, 2, 1e4),
           {{0, 0, true}, {0, 1, true}},
@@ -97,7 +97,7 @@ inline beam_problem cantilever_over_a_stop() {
           {tip_load(2, -10), tip_load(2, -60), tip_load(2, -30), tip_load(2, 20)}};
 }
 
-/// A free beam lying on `nodes` springs, all in contact.
+/// Returns a free beam on a spring at each node, with all pairs in contact.
 inline beam_problem free_beam_on_springs(double length, int elements, double EI, double modulus) {
   beam_problem p{even_beam(length, elements, EI), {}, {}, {}};
   const auto lengths = tributary_shares(p.geometry);

@@ -1,4 +1,4 @@
-// Deflection, moment and shear along a beam's elements, in rational numbers.
+// Deflection, moment and shear along a beam's elements in exact arithmetic.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline rational value_at(const rational_vector& p, const rational& t) {
   return sum;
 }
 
-/// The load on an element, a polynomial in the distance from its left end.
+/// Returns the load on an element as a polynomial in the distance from its left end.
 inline rational_vector exact_load(const load& l, int e, const rational& left, const rational& h) {
   rational_vector sum(1);
   for (const distributed_load& d : l.distributed) {
@@ -26,11 +26,11 @@ inline rational_vector exact_load(const load& l, int e, const rational& left, co
   return formulas::in_element<rational>(sum, left, h);
 }
 
-/// Work of the load q(t) = q0 + q1 t + .. on the shape functions of an element of length h.
+/// Returns the work of the load q(t) = q0 + q1 t + .. on the shape functions of an element of length h.
 inline std::array<rational, 4> exact_work(const rational_vector& q, const rational& h) {
   std::array<rational, 4> f;
   for (std::size_t m = 0; m < q.size(); ++m) {
-    // The integral of t^m times 1 - 3 t^2 + 2 t^3, t - 2 t^2 + t^3, 3 t^2 - 2 t^3 and t^3 - t^2.
+    // Integrals of t^m times 1 - 3 t^2 + 2 t^3, t - 2 t^2 + t^3, 3 t^2 - 2 t^3 and t^3 - t^2.
     const auto power = [m](int n) { return rational(1, static_cast<int>(m) + n + 1); };
     f[0] += q[m] * h * (power(0) - 3 * power(2) + 2 * power(3));
     f[1] += q[m] * h * h * (power(1) - 2 * power(2) + power(3));
@@ -40,7 +40,7 @@ inline std::array<rational, 4> exact_work(const rational_vector& q, const ration
   return f;
 }
 
-/// w, moment and shear of an element in t, from 0 to 1, under the displacements u.
+/// Returns w, moment and shear of an element as polynomials in t from 0 to 1, under the displacements u.
 inline std::array<rational_vector, 3> exact_line(const beam& b, const load& l, int e,
                                                  const rational_vector& u) {
   const std::size_t at = std::size_t{1} * e;
@@ -51,7 +51,7 @@ inline std::array<rational_vector, 3> exact_line(const beam& b, const load& l, i
   const bool released = b.has_hinge(e + 1);
   const auto k = released ? formulas::released_stiffness(EI, h) : formulas::beam_stiffness(EI, h);
   auto work = exact_work(q, h);
-  if (released) {  // by the rotation that the moment at the right end, 0, leaves there
+  if (released) {  // condenses the rotation at the hinge
     work[0] -= 3 * work[3] / (2 * h);
     work[1] -= work[3] / 2;
   }

@@ -18,15 +18,15 @@ struct followed {
   path_end end;
   recorder seen;
   std::vector<std::optional<certificate>> certificates;  // one for each step that ended
-  std::size_t stride = 2;                                // dofs of a node, the deflection first
+  std::size_t stride = 2;                                // dofs of a node; the deflection is the first
 
   [[nodiscard]] bool solved() const { return end.status == path_status::solved; }
-  /// Solved, and there is no other state that is as good.
+  /// Returns true if the path is solved and its final state is unique.
   [[nodiscard]] bool determined() const { return solved() && certificates.back()->unique; }
-  /// The deflection of a node at the end of the last step.
+  /// Returns the deflection of a node at the end of the last step.
   [[nodiscard]] double deflection(std::size_t node) const { return seen.steps.back().u[node * stride]; }
   [[nodiscard]] std::size_t nodes() const { return seen.steps.back().u.size() / stride; }
-  /// The largest deflection in any reported step.
+  /// Returns the largest deflection in any reported step.
   [[nodiscard]] double largest() const {
     double most = 0.0;
     for (const auto& step : seen.steps) {
@@ -37,7 +37,7 @@ struct followed {
   }
 };
 
-/// Follow `p` under the corrected rule; its ends are proved, or as the path reached them.
+/// Follows `p` under the corrected rule. Final states are proved, or else as the path reached them.
 inline followed follow(const random_problem& p, bool proved = true) {
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
   certifier certifies(p, s);

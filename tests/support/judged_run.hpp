@@ -1,4 +1,4 @@
-// A path whose ends are proved and judged, and everything that was reported about them.
+// A path with proved and judged final states, and everything that was reported about them.
 #pragma once
 
 #include <string>
@@ -38,11 +38,11 @@ struct judged_run final : observer {
   linear_structure structure;
   certifier judged;
   path_end end;
-  // Of each step that ended:
+  // One entry for each step that ended:
   std::vector<end_numbers> numbers;
   std::vector<std::vector<double>> displacements;
   std::vector<std::vector<int>> statuses;
-  std::vector<char> exactly, reference;  // 1: the exact path's end, the reference solution
+  std::vector<char> exactly, reference;  // 1 if the state is the exact path's end, or the reference solution
 };
 
 }  // namespace contct

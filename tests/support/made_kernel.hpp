@@ -1,4 +1,4 @@
-// A kernel that answers as a test likes.
+// A kernel made for a test.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace contct {
 
-/// A kernel made for a test, of the corrected rule unless stated otherwise.
+/// A kernel that answers by a function of the test, by default under the corrected rule.
 class made_kernel final : public kernel {
  public:
   explicit made_kernel(std::function<void(call<double>&)> answer, contact_rule rule = contact_rule::corrected)

@@ -1,4 +1,4 @@
-// Stiffness matrices by their entries: a structure's own, and a body of springs in space.
+// Stiffness matrices given by their entries: of a structure, and of a body of springs in space.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace contct {
 
-/// The entries of a structure's matrix, in the order of its dofs.
+/// Returns the entries of a structure's matrix in the order of its dofs.
 inline sparse_matrix entries_of(const linear_structure& s) {
   sparse_matrix a{s.dofs(), {}};
   for (int column = 0; column < s.dofs(); ++column) {
@@ -27,7 +27,7 @@ inline sparse_matrix entries_of(const linear_structure& s) {
   return a;
 }
 
-/// y = A x, with both halves of the band.
+/// Returns A x for a band A, of which both halves count.
 inline std::vector<double> product(const band_matrix& a, const std::vector<double>& x) {
   std::vector<double> y(x.size());
   for (int column = 0; column < a.order(); ++column) {
@@ -40,7 +40,7 @@ inline std::vector<double> product(const band_matrix& a, const std::vector<doubl
   return y;
 }
 
-/// The displacements of a beam or plate on supports alone.
+/// Returns the displacements of a beam or plate on its supports without pairs.
 inline std::vector<double> displaced(const model& m, const std::vector<support>& supports, const load& l) {
   linear_structure s = build(m, supports, {});
   std::vector<double> f(s.dofs());
@@ -53,7 +53,7 @@ inline std::vector<double> displaced(const model& m, const std::vector<support>&
   return f;
 }
 
-/// Points in space with a spring between any two of them: three dofs a point.
+/// Returns the matrix of points in space with a spring between any two and three dofs each.
 inline sparse_matrix braced(const std::vector<std::array<double, 3>>& points, double stiffness) {
   const auto n = 3 * points.size();
   std::vector<double> k(n * n);
@@ -82,7 +82,7 @@ inline sparse_matrix braced(const std::vector<std::array<double, 3>>& points, do
   return m;
 }
 
-/// Eight corners of a box.
+/// Returns the eight corners of a box.
 inline std::vector<std::array<double, 3>> box_at(double x) {
   std::vector<std::array<double, 3>> points;
   for (const double z : {0.0, 1.3})
@@ -91,7 +91,7 @@ inline std::vector<std::array<double, 3>> box_at(double x) {
   return points;
 }
 
-/// Positive definite, with many zeros inside the band.
+/// Returns a random positive definite band with many zeros.
 inline band_matrix random_band(int order, int subdiagonals, std::uint64_t seed) {
   random_numbers random(seed);
   band_matrix k(order, subdiagonals);

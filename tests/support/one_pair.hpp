@@ -1,4 +1,4 @@
-// A call with one pair, or a few at nodes of their own, as a test likes to write it; and any call's answer.
+// Calls with one pair, or with a few pairs at separate nodes, and a kernel's answer to a call.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace contct {
 
-// Short words for tables of pairs.
+// Short names for tables of pairs.
 inline constexpr int apart = separated;
 inline constexpr int touching = in_contact;
 inline constexpr int above = face_above;
@@ -24,7 +24,7 @@ struct pair_at {
   int isurf;
 };
 
-/// A call with pair i at node i + 1, one dof a node; holds its arrays.
+/// A call with pair i at node i + 1 and one dof a node, which owns its arrays.
 template <class Real>
 struct small_call {
   std::vector<Real> dd, dtest, cc, ss;
@@ -47,7 +47,7 @@ struct small_call {
 
   call<Real> arguments() { return {dd, dtest, cc, ss, Real(0), id, isep, isurf, {1, 1}}; }
 
-  /// Ask the C++ kernel.
+  /// Calls the C++ kernel.
   small_call& ask() {
     before = isep;
     call<Real> c = arguments();
@@ -56,7 +56,7 @@ struct small_call {
     return *this;
   }
 
-  /// The call, and its answer to `ask`.
+  /// Returns the call with the answer of `ask`.
   answered_call answered() {
     call<Real> c = arguments();
     c.smin = smin;
@@ -64,7 +64,7 @@ struct small_call {
   }
 };
 
-/// A kernel's answer.
+/// Returns a kernel's answer.
 inline call_outputs answer_of(kernel& k, const call_inputs<double>& in) {
   call_outputs out;
   call<double> c = out.prepare(in);

@@ -14,7 +14,7 @@
 
 namespace contct {
 
-/// A new folder below the system's temporary folder, removed with everything in it at the end.
+/// A new folder in the system's temporary folder, which is removed with its files at the end.
 class scratch_folder {
  public:
   scratch_folder() {
@@ -31,20 +31,20 @@ class scratch_folder {
   scratch_folder& operator=(const scratch_folder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// The full path of a file in it, whether it exists or not.
+  /// Returns the full path of a file in the folder, whether it exists or not.
   [[nodiscard]] std::string at(const std::string& name) const { return (path_ / name).string(); }
-  /// Write a file and return its full path.
+  /// Writes a file and returns its full path.
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return at(name);
   }
-  /// All of a file's bytes; empty when it does not exist.
+  /// Returns all bytes of a file, or an empty text if it does not exist.
   [[nodiscard]] std::string read(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(path_ / name, std::ios::binary).rdbuf();
     return text.str();
   }
-  /// Names of the files in it, sorted.
+  /// Returns the sorted names of the files.
   [[nodiscard]] std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_))

@@ -1,4 +1,4 @@
-// The listing and the C++ kernel on the same calls, compared to the bit, and counted.
+// Compares the listing with the C++ kernel on the same calls, to the bit, and counts the compared values.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace contct {
 
-/// Puts calls to FORTRAN and C++ in one precision. SMIN, SS and ISEP are compared at once, the
-/// unit-26 text in blocks: reading it back after every call would cost ten times the call.
-/// Holds unit 26 while it lives.
+/// Compares FORTRAN and C++ in one precision. SMIN, SS and ISEP are compared after each call. Unit 26 is
+/// compared in blocks, because reading it after every call would take ten times as long. Unit 26 belongs to
+/// this object while it lives.
 template <class Real>
 class side_by_side {
  public:
-  /// Put one call to both.
+  /// Passes one call to both kernels.
   void put(const call_inputs<Real>& in);
 
-  /// Compare the text gathered so far. Call it once more at the end.
+  /// Compares the text since the last comparison; must be called once more at the end.
   void compare_gathered_text();
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   [[nodiscard]] const tally& compared() const { return tally_; }
   [[nodiscard]] const branch_counts& branches() const { return branches_; }
-  /// The first difference: "call 17: SS(3): 0x1p+0 against 0x1.8p+0".
+  /// Returns the first difference, such as "call 17: SS(3): 0x1p+0 against 0x1.8p+0".
   [[nodiscard]] const std::optional<std::string>& first_difference() const { return first_; }
-  /// FORTRAN's answer to the last call.
+  /// Returns FORTRAN's answer to the last call.
   [[nodiscard]] const std::vector<Real>& last_ss() const { return fortran_.ss; }
   [[nodiscard]] Real last_smin() const { return fortran_.smin; }
 

@@ -1,4 +1,4 @@
-// Problems of reference/structures, for tests that may run in any folder.
+// Problems of reference/structures, for tests that run in any folder.
 #pragma once
 
 #include <stdexcept>
@@ -10,8 +10,7 @@
 
 namespace contct {
 
-/// A problem of reference/structures, its files named by their full paths; each piece in `replaced` is
-/// replaced.
+/// Returns the text of a problem with full paths of its files, in which each piece of `replaced` is replaced.
 inline std::string structure_problem(const std::string& folder, const std::string& name,
                                      const std::vector<std::pair<std::string, std::string>>& replaced = {}) {
   const std::string structures = CONTCT_REFERENCE "/structures/";
@@ -30,7 +29,7 @@ inline std::string structure_problem(const std::string& folder, const std::strin
   return text;
 }
 
-/// The portal frame; without its coordinates only its matrix and the names of its dofs are known.
+/// Returns the portal frame. Without coordinates only its matrix and its dofs' names are known.
 inline std::string portal_frame() {
   return structure_problem("", "frame");
 }

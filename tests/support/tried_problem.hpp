@@ -1,4 +1,4 @@
-// A random problem that is tried, and the counts of its path; names of face layouts.
+// Solves a random problem, and counts the events of its path.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ inline std::string_view name_of(verdict v) {
 struct path_counts final : observer {
   int makes = 0, breaks = 0;
   int at_rest = 0;    ///< increments without progress
-  int snaps = 0;      ///< rigid, at constant load
-  int fallbacks = 0;  ///< steps that the reference solution ended
+  int snaps = 0;      ///< rigid-body motions at constant load
+  int fallbacks = 0;  ///< steps that ended in the reference solution
 
   void incremented(const increment& i) override {
     at_rest += i.s == 0.0 ? 1 : 0;
@@ -35,7 +35,7 @@ struct path_counts final : observer {
   void step_ended(const step_state& s) override { fallbacks += s.from_reference ? 1 : 0; }
 };
 
-/// The worst of all that the certificates measure.
+/// Returns the largest of all measures of the certificates.
 inline double needed_by(const problem_result& t) {
   double needed = 0.0;
   for (const certificate& c : t.certificates)
@@ -43,7 +43,7 @@ inline double needed_by(const problem_result& t) {
   return needed;
 }
 
-/// The result on p's own structure, with `counts` of its path.
+/// Solves p with its own structure, and counts the events of its path.
 inline problem_result try_and_count(const random_problem& p, kernel& leader, path_counts& counts) {
   return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, "refactor", {&counts});
 }

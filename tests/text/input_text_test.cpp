@@ -1,4 +1,4 @@
-// Whole files as text, their lines and fields: counted, split, read as numbers, refused with file and line.
+// Tests input files as text, lines, fields and numbers, and their refusals with file and line.
 #include "contct/text/input_text.hpp"
 
 #include <filesystem>
@@ -13,7 +13,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The message that refuses the first field of the line `text` as a real, or "accepted".
+/// Returns the message that refuses the first field of the line `text` as a real, or "accepted".
 std::string refusal_of_real(const std::string& text) {
   field_lines lines(text, "f");
   REQUIRE(lines.next());

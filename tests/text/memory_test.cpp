@@ -1,4 +1,4 @@
-// Amounts of memory in words.
+// Tests the description of amounts of memory.
 #include "contct/text/memory.hpp"
 
 #include "catch.hpp"

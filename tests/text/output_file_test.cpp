@@ -1,4 +1,4 @@
-// Output files appear complete or not at all, however the process ends.
+// Tests that output files appear complete or not at all, however the process ends.
 #include "contct/text/output_file.hpp"
 
 #include <sys/stat.h>
@@ -28,7 +28,7 @@ TEST_CASE("an output file appears only when it is finished") {
 TEST_CASE("a new output file has the permissions that the umask allows") {
   const scratch_folder dir;
   const mode_t before = umask(0027);
-  for (int time = 0; time < 2; ++time) {  // made, then replaced
+  for (int time = 0; time < 2; ++time) {  // first made, then replaced
     output_file out(dir.at("out.json"));
     out.finish();
     struct stat s {};
@@ -81,7 +81,7 @@ TEST_CASE("no unfinished output file remains, whatever signal ends the process")
 TEST_CASE("an output through a symbolic link is written to its target, whether the target exists or not") {
   const scratch_folder dir;
   fs::create_directory(dir.path() / "there");
-  fs::create_symlink("there/out.json", dir.path() / "link");  // relative to the link, not to us
+  fs::create_symlink("there/out.json", dir.path() / "link");  // relative to the link's folder
   for (const char* text : {"first", "second"}) {
     output_file out(dir.at("link"));
     out.write(text);
@@ -109,12 +109,12 @@ TEST_CASE("two names of the same file are recognised as one file") {
   CHECK(same_file(at("old"), at("folder/../old")));
   CHECK(same_file(at("old"), at("to-old")));
   CHECK(same_file(at("old"), at("hard")));
-  CHECK(same_file(at("new"), at("folder/../new")));  // not there yet
+  CHECK(same_file(at("new"), at("folder/../new")));  // the file does not exist yet
   CHECK(same_file(at("to-new"), at("new")));
   CHECK_FALSE(same_file(at("old"), at("new")));
   CHECK_FALSE(same_file(at("new"), at("old")));
   CHECK_FALSE(same_file(at("new"), at("newer")));
-  CHECK_FALSE(same_file("/dev/null", "/dev/null"));  // two may well write there
+  CHECK_FALSE(same_file("/dev/null", "/dev/null"));  // two outputs may go to a device
 }
 
 TEST_CASE("an output file that cannot be written is refused at once, with its name") {

@@ -1,4 +1,4 @@
-// Suggestions for misspelt words, and text escaped for XML and for messages of one line.
+// Tests suggestions for misspelt words, and text escaped for XML and for messages.
 #include "contct/text/strings.hpp"
 
 #include <vector>
@@ -13,12 +13,13 @@ TEST_CASE("the nearest word is suggested, except if too many letters differ") {
   CHECK(did_you_mean("Stiffness", keys) == " (did you mean \"stiffness\"?)");
   CHECK(did_you_mean("fase", keys) == " (did you mean \"face\"?)");
   CHECK(did_you_mean("nod", keys) == " (did you mean \"node\"?)");
-  CHECK(did_you_mean("stfifness", keys) == " (did you mean \"stiffness\"?)");  // two neighbours swapped
+  // Two neighbouring letters are swapped.
+  CHECK(did_you_mean("stfifness", keys) == " (did you mean \"stiffness\"?)");
   CHECK(did_you_mean("colour", keys).empty());
   CHECK(did_you_mean("", keys).empty());
   CHECK(did_you_mean(std::string(100'000, 's'), keys).empty());
   const std::vector<std::string> one = {"w"};
-  CHECK(did_you_mean("x", one).empty());  // all of it would be wrong
+  CHECK(did_you_mean("x", one).empty());  // no letter is right
 }
 
 TEST_CASE("a list of words is joined, and characters are replaced one by one") {
@@ -50,7 +51,7 @@ TEST_CASE(
   for (const char* kept :
        {"\u00a0\u00e9", "\u2029\u202f\u2065\u206a", "\U0001F600", "\u05d0", "\ud7ff\ue000"})
     CHECK(terminal_text(kept) == kept);
-  // Cut short, overlong, a surrogate, beyond Unicode, and bytes that begin nothing.
+  // Cut sequences, overlong sequences, a surrogate, a value beyond Unicode, and bytes that begin no sequence.
   CHECK(terminal_text("\xc3") == "\\xc3");
   CHECK(terminal_text("\xe2\x80") == "\\xe2\\x80");
   CHECK(terminal_text("\xc0\x9b") == "\\xc0\\x9b");
@@ -74,7 +75,7 @@ TEST_CASE(
   for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
     CHECK(field_words(number) == std::string("\"") + number + "\"");
   CHECK(field_words("root:x:0:0") == "a word of 10 bytes");
-  CHECK(field_words("x\x1b") == "\"x\\x1b\"");  // short enough to be quoted
+  CHECK(field_words("x\x1b") == "\"x\\x1b\"");  // at most 3 bytes are always quoted
   CHECK(field_words("root") == "a word of 4 bytes");
   CHECK(field_words("e d e", "a line") == "a line of 5 bytes");  // no digit
   CHECK(field_words(std::string(33, '1')) == "\"" + std::string(32, '1') + "...\"");

@@ -1,4 +1,4 @@
-// Widths, colours, and words in lines.
+// Tests widths, colours and line breaks.
 #include "contct/text/terminal.hpp"
 
 #include <stdlib.h>  // setenv

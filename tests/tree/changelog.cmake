@@ -1,7 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# Fails unless the top entry of the changelog is that of the project's version, with a date, and no later one
-# follows;
-# and unless each of the other pages shows that version, and no other.
+# Fails unless the top entry of the changelog is that of the project's version, with a date, the other entries are
+# older, and each of the other pages shows this version only.
 # Usage: cmake -DCHANGELOG=<CHANGELOG.md> -DVERSION=<version> [-DPAGES=<page>,..] -P changelog.cmake
 string(REPLACE "," ";" PAGES "${PAGES}")
 foreach(page IN LISTS PAGES)

@@ -1,5 +1,5 @@
-# The working folder of every test program: made before them, and found empty after them, since every test writes to a
-# scratch folder of its own.
+# Makes the working folder of the test programs, or checks that it is empty after them, since every test must write to a
+# scratch folder.
 # Usage: cmake -DFOLDER=<folder> -DDO=make|check -P empty_folder.cmake
 if(DO STREQUAL "make")
   file(REMOVE_RECURSE ${FOLDER})

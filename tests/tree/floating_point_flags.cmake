@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.25)
-# Reads compile_commands.json and fails unless every command is strict about floating point.
+# Reads compile_commands.json, and fails unless every command is strict about floating point.
 # Usage: cmake -DCOMMANDS=<file> -P floating_point_flags.cmake
 file(READ ${COMMANDS} text)
 string(JSON count LENGTH "${text}")

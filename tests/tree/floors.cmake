@@ -1,9 +1,8 @@
 cmake_minimum_required(VERSION 3.25)
-# Fails when a room of cpp/contct includes a header from a floor above it, or from the same floor; when a
-# folder there is
-# no room; and when a room has more than MOST sources.
+# Fails if a folder of cpp/contct includes a header of its own floor or of a higher floor, has no floor, or has more
+# than MOST sources.
 # Usage: cmake -DSOURCES=<cpp/contct> -DMOST=<files> -P floors.cmake
-# Lowest first; a room knows the rooms of the floors below its own.
+# The list of floors begins with the lowest; a folder may include those of lower floors.
 set(floors text number "kernel matrix" "compare model" "solve" "path read" "certify" "exact" "session" "write lab" "serve")
 set(below "")
 foreach(floor IN LISTS floors)
@@ -14,7 +13,7 @@ foreach(floor IN LISTS floors)
   endforeach()
   list(APPEND below ${floor})
 endforeach()
-# Replaying a trace needs no structure and no LAPACK.
+# The replay of a trace must need no structure and no LAPACK.
 set(below_kernel text number)
 set(below_compare ${below_kernel} kernel)
 set(looked_at 0)

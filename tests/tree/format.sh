@@ -1,5 +1,5 @@
 #!/bin/sh
-# Is every source as clang-format writes it? A second or two.
+# Fails unless every source is as clang-format writes it. This takes a second or two.
 set -eu
 cd "$(dirname "$0")/../.."
 . cpp/install.sh

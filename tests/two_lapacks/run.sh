@@ -1,10 +1,9 @@
 #!/bin/sh
-# Tier 1 does not depend on LAPACK: the same paths under this system's LAPACK and under OpenBLAS, lockstep in each,
-# the recordings of each replayed without any LAPACK, and the test programs linked with one run under the
-# other.
-# OpenBLAS is unpacked into the build, not installed: installing it would make it this system's LAPACK.
+# Tests that the equality of the kernels does not depend on LAPACK: the same paths with this system's LAPACK and with
+# OpenBLAS, in lockstep, each recording replayed without LAPACK, and the test programs of one run with the other.
+# OpenBLAS is unpacked into the build, because its installation would make it this system's LAPACK.
 # usage: sh tests/two_lapacks/run.sh [BUILD]      (default: build/release, built with its tests)
-# Exit 0: all is equal, or it was skipped (which it says); 1 otherwise.
+# Exit 0: all are equal, or a skip is reported; 1 otherwise.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=$(cd "${1:-build/release}" && pwd) || exit 1
@@ -17,7 +16,7 @@ skip() {
   exit 0
 }
 command -v apt-get >/dev/null 2>&1 && command -v dpkg-deb >/dev/null 2>&1 || skip "not a Debian system"
-# As root, apt-get downloads as a separate user, who may not write here; the resulting warning is suppressed.
+# As root, apt-get downloads as a separate user without write permission here; its warning is suppressed.
 (cd "$work" && apt-get download libopenblas0-pthread >log 2>&1) || skip "libopenblas0-pthread cannot be fetched: $(tail -n 1 "$work/log")"
 dpkg-deb -x "$work"/libopenblas0-pthread_*.deb "$work/unpacked" || skip "the package cannot be unpacked"
 lapack=$(find "$work/unpacked" -name liblapack.so.3)
@@ -29,7 +28,7 @@ fail() {
   echo "two LAPACKs: $1"
   wrong=1
 }
-# under WHICH PROGRAM ARGUMENT..
+# under WHICH PROGRAM ARGUMENT..: runs a program with one of the two LAPACKs.
 under() {
   which=$1
   shift
@@ -39,7 +38,7 @@ under() {
     "$@"
   fi
 }
-# recorded WHICH PROBLEM: the path's trace, made in lockstep of all kernels there are.
+# The kernels that recorded() runs in lockstep.
 kernels=fortran,cpp
 for other in flang f2c; do
   [ -f "$build/fortran/libcontct_$other.a" ] && kernels=$kernels,$other
@@ -49,7 +48,8 @@ recorded() {
   under "$1" "$build/contct" run "reference/problems/$2.toml" --kernels $kernels --quiet \
     --trace "$file.trace" --json "$file.json" >"$file.said" 2>&1
   status=$?
-  # 3 to 5: no certificate, a mechanism, a cycle. The listing may come to that; its kernels still have to agree.
+  # Exit statuses 3 to 5 mean no certificate, a mechanism or a cycle, which the 1989 rule may give; its kernels must
+  # still be equal.
   [ $status = 0 ] || [ $status -ge 3 ] || { fail "$2 under $1: exit $status"; cat "$file.said"; }
   grep -q '"lockstep": {"calls":[1-9][0-9]*,"values_compared":[1-9][0-9]*,"mismatches":0}' "$file.json" ||
     fail "$2 under $1: lockstep is not equal: $(grep '"lockstep"' "$file.json")"
@@ -82,7 +82,7 @@ if [ $wrong = 0 ]; then
 fi
 [ -n "$one" ] && [ "$one" != "$other" ] || fail "the traces do not name two LAPACKs"
 case $other in *OpenBLAS*) ;; *) fail "the other is not OpenBLAS" ;; esac
-# Solves differ in their last digits. Had no path got other numbers, one LAPACK would have served both.
+# Solves of two LAPACKs differ in their last digits, so paths without any difference would mean that only one was used.
 [ $different -gt 0 ] || fail "every call's numbers are the same under both: it was one LAPACK"
 
 for room in compare model path certify lab; do

@@ -55,7 +55,7 @@ def statuses(lines, kernel, bare):
             usual = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "DEBIAN_FRONTEND": "noninteractive"}
             enter = ["chroot", bare, "sh", "-e", "-c", f'cd /{Path(folder).name} && eval "$1"', "sh"]
         else:
-            (Path(folder) / "git").write_text('#!/bin/sh\nexec ln -s "${5#file://}" "$6"\n')  # clone, without what is not committed yet
+            (Path(folder) / "git").write_text('#!/bin/sh\nexec ln -s "${5#file://}" "$6"\n')  # links the working copy as clone
             (Path(folder) / "git").chmod(0o755)
         path = usual["PATH"] if bare else f"{folder}:{usual['PATH']}"
         return [subprocess.run([*enter, line], cwd=folder, env={**usual, "PATH": path, **environment}, capture_output=True,

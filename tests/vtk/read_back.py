@@ -84,7 +84,7 @@ def compare_structure(grid, step, where):
     assert len(drawn) == count and count > 0, f"{where}: edges are there twice, or none"
     if edges is not None:
         assert drawn == edges, f"{where}: the edges are not the elements'"
-    else:  # members are straight and one long here
+    else:  # here members are straight, with a length of 1
         assert all(sum(abs(a - b) for a, b in zip(*(places[n] for n in e))) == 1 for e in drawn), f"{where}: {drawn}"
         assert count == len(names) - 1
     same([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())], [3] * count + [1] * len(pairs), where + ", types")
@@ -113,7 +113,7 @@ def compare_own(grid, step, where):
         same(array(grid.GetPointData(), name, 1), step["displacement"][i::len(names)], where + ", " + name)
     elements, pairs, cells = step["elements"], step["pairs"], grid.GetCellData()
     assert grid.GetNumberOfPoints() == len(step["w"]) and grid.GetNumberOfCells() == len(elements) + len(pairs)
-    expected_type = 3 if len(names) == 2 else 9  # a line, a quadrilateral
+    expected_type = 3 if len(names) == 2 else 9  # VTK's line and quadrilateral
     same([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())],
          [expected_type] * len(elements) + [1] * len(pairs), where + ", types")
     for i, pair in enumerate(pairs):

@@ -1,14 +1,14 @@
 #!/bin/sh
-# The grids of `contct run --vtu`, read back with VTK's own reader, from Debian's python3-vtk9: points, cells,
-# displacements, pairs and elements, each number against the run's JSON.
+# Reads the grids of `contct run --vtu` back with VTK from Debian's python3-vtk9, and compares points, cells,
+# displacements, pairs and elements with the run's JSON.
 # usage: sh tests/vtk/run.sh [BUILD]      (default: build/release)
-# Exit 0: all equal; 77: skipped, VTK cannot be had; 1 otherwise.
+# Exit 0: all are equal; 77: skipped, VTK is missing; 1 otherwise.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 build=$(cd "${1:-build/release}" && pwd) || exit 1
 . cpp/install.sh
 
-# Debian's package is for its own python.
+# Debian's package works only with this Python.
 python=/usr/bin/python3
 reads() { $python -c 'from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader' >/dev/null 2>&1; }
 reads || need "to read grids back" python3-vtk9 || true
@@ -24,7 +24,7 @@ for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-
     --json "$work/$problem.json" 2>"$work/said" || { cat "$work/said"; wrong=1; continue; }
   $python tests/vtk/read_back.py "$work/$problem.json" "$work/$problem.vtu" || { echo "VTK: $problem differs"; wrong=1; }
 done
-# Structures from elsewhere: with coordinates, and with CalculiX's mesh.
+# External structures with coordinates and with CalculiX's mesh.
 structures=reference/structures
 for given in "frame $structures/frame.dof $structures/frame.xyz" \
   "calculix/console $structures/calculix/console.dof $structures/calculix/console.inp"; do

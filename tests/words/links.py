@@ -53,7 +53,7 @@ def main(root, least):
     for page in ["README.md"] + sorted(glob.glob("reference/**/*.md", root_dir=root, recursive=True)):
         for line, target in links_of(read(os.path.join(root, page))):
             if re.match(r"[a-z]+:", target):
-                continue  # to another site
+                continue  # a link to another site
             count += 1
             if problem := wrong_in(root, page, target):
                 wrong.append(f"{page}:{line}: found a link to {target}; {problem}")

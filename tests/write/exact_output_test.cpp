@@ -1,4 +1,4 @@
-// An exact path as text and as JSON.
+// Tests the text and the JSON of an exact path.
 #include <nlohmann/json.hpp>
 
 #include "catch.hpp"

@@ -1,5 +1,5 @@
-// An explained run: its sentences, the text for people, and JSON: reference/explain-format.md. Whole texts
-// are tested on the program: tests/app/explain_test.cpp.
+// Tests the sentences, text and JSON of an explained run. tests/app/explain_test.cpp tests whole texts of the
+// program.
 #include "contct/write/explain.hpp"
 
 #include <cmath>
@@ -18,8 +18,8 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// FORTRAN with C++ beside it; `sink` is given each increment, after `first`, if there is one, has seen it.
-/// Returns the path, which has the totals.
+/// Explains a path of FORTRAN with C++ as the second kernel. `sink` gets each increment, and before it
+/// `first`, if given. Returns the path, which has the totals.
 explained_path explain_run(const problem& p, explained_path::sink sink, observer* first = nullptr) {
   const auto leader = make_kernel("fortran");
   const std::string second[] = {"cpp"};
@@ -30,14 +30,14 @@ explained_path explain_run(const problem& p, explained_path::sink sink, observer
   return path;
 }
 
-/// A stop that is touched at a quarter of the load, and a clamped node over a face that it never leaves.
+/// A node that reaches its stop at a quarter of the load, and a clamped node at a face.
 const char* const two_pairs =
     "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n"
     "[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
     "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
 
-/// The lines of the listing that a story cites; 0 where a sentence has none.
+/// Returns the lines of the listing that a story cites, with 0 for a sentence without a line.
 std::vector<int> lines_of(const nlohmann::json& story) {
   std::vector<int> lines;
   for (const auto& sentence : story) lines.push_back(sentence.value("line", 0));
@@ -55,7 +55,7 @@ std::string explained_text(int pair, int width, const std::string& toml = two_pa
   return explained_text(parse_problem(toml, "pb.toml"), pair, width, all);
 }
 
-/// `steps` load steps more, each without an event: an increment each.
+/// Returns `two_pairs` with `steps` more steps, each with one increment and no event.
 std::string two_pairs_and(int steps) {
   std::string toml = two_pairs;
   for (int i = 0; i < steps; ++i) toml += "[[step]]\npoint = [ { node = 2, w = -3 } ]\n";
@@ -134,7 +134,7 @@ TEST_CASE(
   CHECK(j["kernels"] == nlohmann::json({"fortran", "cpp"}));
   REQUIRE(j["increments"].size() == 2);
   const nlohmann::json& first = j["increments"][0];
-  CHECK(first["s"].get<double>() == Approx(0.25));  // d* = -1 at the tip: the gap is a quarter of it
+  CHECK(first["s"].get<double>() == Approx(0.25));  // d* = -1, and the gap is 0.25
   CHECK(first["load"]["force"].get<double>() == Approx(-0.75));
   CHECK(first["winner"]["pair"] == 1);
   CHECK_FALSE(first.contains("apart"));
@@ -168,7 +168,7 @@ TEST_CASE("the explanation has a single pair if only this pair is requested") {
 }
 
 TEST_CASE("the explanation says that an event exactly at full load does not count for the listing") {
-  // The face is where the tip sinks to, to the last bit.
+  // The face is exactly where the tip is at full load.
   problem p = parse_problem(two_pairs, "pb.toml");
   p.pairs[0].face = -10.0;
   std::vector<double> end;

@@ -1,4 +1,4 @@
-// A proof has what its checker needs, or the reason why there is no proof.
+// Tests that a proof file has what its checker needs, or a reason.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +14,7 @@ using namespace contct;
 
 namespace {
 
-/// The proof of a path under the corrected rule.
+/// Returns the proof file of a path under the corrected rule.
 nlohmann::json proof_of(const std::string& text) {
   const problem p = parse_problem(text, "b.toml");
   const linear_structure s = structure_of(p);
@@ -72,7 +72,7 @@ TEST_CASE("a proof file has L as a sum of two matrices if doubles cannot factor 
 TEST_CASE("a proof file without bounds gives the reason") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = 0\n"
-      "stiffness = 1e6\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n");  // nothing holds node 1 down
+      "stiffness = 1e6\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n");  // node 1 is not held
   const nlohmann::json& step = proof["steps"][0];
   CHECK(step["error"].is_null());
   CHECK_FALSE(step["because"].get<std::string>().empty());

@@ -1,4 +1,4 @@
-// JSON that is written value by value, and the result of a run.
+// Tests the JSON writer, and the result of a run in JSON.
 #include "contct/write/result_json.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using namespace contct;
 
 namespace {
 
-/// A document with a title and an array "steps", the rest of which `write` writes.
+/// Returns a document with a title and an array "steps", to which `write` adds the rest.
 template <class Write>
 std::string written(Write write) {
   const scratch_folder folder;
@@ -39,7 +39,7 @@ nlohmann::json json_of(const run_result& r, result_parts parts = result_parts::e
   return nlohmann::json::parse(text);
 }
 
-/// Run a problem with FORTRAN leading C++, and read the JSON back.
+/// Returns the JSON of a run of FORTRAN with C++ in lockstep.
 nlohmann::json result_of(const std::string& text) {
   return json_of(a_run(text).result);
 }
@@ -164,7 +164,7 @@ TEST_CASE("loads, contact forces and reactions of a result in JSON add up to 0")
   const double pair = step["pairs"][0]["force"];
   CHECK(step["reactions"][0]["dof"] == "w");
   CHECK(step["reactions"][0]["value"].get<double>() + pair - 60.0 == Approx(0.0).margin(1e-10));
-  // The clamping moment: about the root, 60 down and the pair up at x = 2.
+  // About the root, the load of 60 and the pair's force have the moment (60 - pair) * 2.
   CHECK(step["reactions"][1]["value"].get<double>() == Approx((60.0 - pair) * 2).epsilon(1e-11));
   CHECK(step["elements"][0]["moment"][0].get<double>() == Approx(-(60.0 - pair) * 2).epsilon(1e-11));
   CHECK(step["elements"][1]["shear"][1].get<double>() == Approx(60.0 - pair).epsilon(1e-11));
@@ -196,7 +196,7 @@ TEST_CASE("a plate's result in JSON has slopes and moments, with corners listed 
   CHECK(step["w"][5] == step["displacement"][15]);
   REQUIRE(step["elements"].size() == 2);
   for (const char* name : {"mx", "my", "mxy"}) CHECK(step["elements"][1][name].size() == 4);
-  // Clamped at the left edge and loaded down, the plate hogs there: corners 1 and 4 of element 1.
+  // The plate is clamped at its left edge and hogs there, at corners 1 and 4 of element 1.
   const auto& mx = step["elements"][0]["mx"];
   CHECK(mx[0].get<double>() < -0.3);
   CHECK(mx[3].get<double>() < 0.0);

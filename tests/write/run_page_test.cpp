@@ -1,4 +1,4 @@
-// The page of a run: its data, its embedded files, and the escaping of a problem's text.
+// Tests the page of a run: its data, its embedded files, and the escaping of a problem's text.
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ std::size_t count(const std::string& text, const std::string& piece) {
   return n;
 }
 
-/// The JSON in the page, as its script will read it.
+/// Returns the JSON in the page as its script reads it.
 nlohmann::json embedded_in(const std::string& page) {
   const std::string before = "<script type=\"application/json\" id=\"data\">";
   const std::size_t from = page.find(before) + before.size();

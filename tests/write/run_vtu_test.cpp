@@ -1,5 +1,5 @@
-// Grids for ParaView. That they are XML and that VTK reads them is tested on the program
-// (tests/app/break_out.py, tests/vtk).
+// Tests grids for ParaView. tests/app/break_out.py and tests/vtk test that they are XML and that VTK reads
+// them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ TEST_CASE("the points of a VTU grid have the reactions of supports and a bed's p
 }
 
 TEST_CASE("only one of the states at the very start of a step's load becomes a picture") {
-  // Each end of a beam that lies on springs lets go by itself, before any load.
+  // Each end of a beam on springs separates at the start of the load.
   const a_run r(
       "[beam]\nlength = 10.0\nelements = 40\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\n"
       "face = 0\nstiffness = 1e3\n[[step]]\npoint = [ { node = 21, w = -1.0 } ]\n");

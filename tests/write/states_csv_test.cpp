@@ -1,4 +1,4 @@
-// Tables of the states at the ends of steps, and of the envelope.
+// Tests the tables of the states at the ends of steps, and of the envelope.
 #include <cstdlib>
 #include <sstream>
 
@@ -15,7 +15,7 @@ namespace {
 
 using csv_rows = std::vector<std::vector<std::string>>;
 
-/// The fields of each line; none of them is quoted.
+/// Returns the fields of each line; no field may be quoted.
 template <class Write>
 csv_rows csv_table(const a_run& r, Write write) {
   std::string text;
@@ -66,7 +66,7 @@ TEST_CASE("the table of states has two rows for a node with a point load, betwee
       "\"load\"\npoint = [ { node = 2, w = -6 } ]\n",
       "corrected");
   const csv_rows rows = csv_table(r, write_states_csv);
-  REQUIRE(rows.size() == 5);  // nothing is extreme inside: the moment of 6 is at the node
+  REQUIRE(rows.size() == 5);  // no row inside an element, because the extreme moment is at the node
   CHECK(rows[2] == csv_rows::value_type{"1", "load", "1", "2", "2", rows[2][5], rows[2][6], "6", "3", ""});
   CHECK(rows[3][8] == "-3");
   CHECK(value_in(rows[2][5]) == Approx(-6.0 * 64 / (48 * 10)).epsilon(1e-14));  // P L^3 / 48 EI

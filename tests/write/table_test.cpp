@@ -1,4 +1,4 @@
-// The run as tables; a whole run at the terminal is tested with the program itself (tests/app).
+// Tests the tables of a run. tests/app tests whole runs of the program.
 #include <cstdlib>
 
 #include "catch.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 using row = std::vector<std::string>;
 
-/// The rows of a table by RFC 4180, without quotes.
+/// Returns the rows of a table by RFC 4180, without quotes.
 std::vector<row> rows_of(const std::string& text) {
   std::vector<row> rows(1, row(1));
   bool quoted = false;
@@ -36,17 +36,17 @@ std::vector<row> rows_of(const std::string& text) {
       rows.back().back() += c;
     }
   }
-  REQUIRE(rows.back() == row(1));  // the last line has its end, too
+  REQUIRE(rows.back() == row(1));  // the last line has a line end
   rows.pop_back();
   return rows;
 }
 
 struct tables {
   std::vector<row> increments, pairs;
-  std::vector<structure_state> states;  // to compare with
+  std::vector<structure_state> states;  // expected states
 };
 
-/// With the second node watched.
+/// Returns the tables, with the deflection of the second node.
 tables tables_of(const a_run& r) {
   std::string increments;
   std::string pairs;
@@ -63,7 +63,7 @@ double number(const std::string& field) {
 }  // namespace
 
 TEST_CASE("a path that is lost before any call has a table with the reference solution's state") {
-  // The stiffness of the corner's slope is 0 in doubles.
+  // The stiffness of the slope at the corner is 0 in doubles.
   const a_run r(
       "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
       "[[contact]]\nnode = 9\nsurface = \"below\"\nface = -1\nstiffness = 1\n"
@@ -111,7 +111,7 @@ TEST_CASE("no text cell of a CSV file begins like a formula, with or without lea
 
 TEST_CASE("the table of increments has their numbers to the last digit, and their events") {
   const tables t = tables_of(a_run(loaded_and_freed));
-  REQUIRE(t.increments.size() == t.states.size());  // a heading, where the states have the start
+  REQUIRE(t.increments.size() == t.states.size());  // the table has a heading, and the states have the start
   CHECK(t.increments[0] == row{"step", "increment", "kind", "s", "share", "force", "events", "closed", "open",
                                "at_face", "smin", "kernels", "node", "w", "name"});
   for (std::size_t i = 1; i < t.increments.size(); ++i) {
@@ -143,7 +143,7 @@ TEST_CASE("the table of pairs has a row for each pair in each increment, with th
     CHECK(r[2] == std::to_string(pair + 1));
     CHECK(r[5] == (f.closed(pair) ? "contact" : "separated"));
     const double w = f.displacement[pair == 0 ? 4 : 2];
-    // Within a step the path's own D, which the solution for the whole shape meets.
+    // Within a step the table has the path's own D, which equals the separately solved state.
     CHECK(number(r[7]) == Approx(w).margin(1e-14));
     pressed = pressed || number(r[9]) > 10;
   }
@@ -171,7 +171,7 @@ TEST_CASE("the table of pairs of a matrix names dofs by their labels, with or wi
 
 namespace {
 
-/// A beam of so many elements that lies on springs, pressed at its middle.
+/// Returns a beam with this number of elements on springs, pressed at its middle.
 std::string lying_beam(int elements) {
   return "[beam]\nlength = 10.0\nelements = " + std::to_string(elements) +
          "\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\nface = 0\nstiffness = 1e3\n"
@@ -297,7 +297,7 @@ TEST_CASE("the table of a matrix has units for dofs that are known to be lengths
 }
 
 TEST_CASE("the table's sums of forces have units, and are 0 if they are only rounding") {
-  // The reactions of the second step, 0.45 kN and less, cancel.
+  // The reactions of the second step, up to 0.45 kN, cancel.
   const a_run r(read_problem(CONTCT_REFERENCE "/problems/pp06-plate-over-settling-line.toml"), "corrected");
   const std::string shown = table_of(r.result, {100, false}, false).text;
   CHECK_THAT(shown, Contains("sums          loads 0 kN, reactions -4.16988 kN, contact 4.16988 kN\n") &&

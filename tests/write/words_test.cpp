@@ -1,4 +1,4 @@
-// The words for statuses, events and certificates, as in the formats of reference/.
+// Tests the words for statuses, events and certificates of the formats in reference/.
 #include "contct/write/words.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ TEST_CASE("a path that ended before its full load is not certified, even if all 
 }
 
 TEST_CASE("if a pair in contact pulls under the 1989 rule, the complaint has the pair and the force") {
-  const a_run r(  // exactly the forces are 2.75e-4 and 0
+  const a_run r(  // the exact forces are 2.75e-4 and 0
       "[beam]\nlength = 128\nelements = 128\nEI = 1e4\n"
       "[[support]]\nnodes = [1, 129]\nfix = \"w\"\n"
       "[[contact]]\nnodes = [65, 33]\nsurface = \"above\"\nface = [1e-4, 2e-4]\nstiffness = 1e3\n"
@@ -87,7 +87,7 @@ TEST_CASE("the proved digits of a run are those of its worst step") {
       "[[step]]\nuniform = -1.0\n[[step]]\npoint = [ { node = 200, w = 1.0 } ]\n");
   double worst = 0.0;
   for (const auto& c : two.result.judged.steps()) worst = std::max(worst, c.value().worst_share);
-  REQUIRE(worst > 1e-10);  // in doubles alone
+  REQUIRE(worst > 1e-10);  // the digits of doubles
   const int digits = static_cast<int>(-std::log10(worst));
   const std::string said = digits >= 10 ? "10 digits or more" : std::to_string(digits) + " digits";
   CHECK(certificate_summary(two.result, true)[1] == "proved: " + said + " of every number");
@@ -97,7 +97,7 @@ TEST_CASE("a complaint does not name a toggle as the cause if it is early only b
   a_run r(read_input(CONTCT_REFERENCE "/problems/divergences/near-tie.toml"));
   REQUIRE_FALSE(r.result.judged.all_certified());
   CHECK_THAT(certificate_complaints(r.result).at(0), Contains("; in increment 1."));
-  // In the first step, when next to nothing had moved, a pair came 1e-18 too early.
+  // In the first step, with almost no deflection, a pair was toggled 1e-18 too early.
   early_toggles tiny;
   const std::vector<double> dd = {0.0}, dtest = {1e-18}, cc = {2e-18};
   std::vector<double> ss = {1.0};
@@ -114,7 +114,7 @@ TEST_CASE("a complaint does not name a toggle as the cause if it is early only b
 
 namespace {
 
-/// On supports along its edges, with this at its middle, node 13.
+/// Returns a plate on supports along its edges, with these tables for its middle, node 13.
 std::string square_with(const std::string& tables) {
   return "[plate]\nsize = [1, 1]\nelements = [4, 4]\nE = 10.92\nnu = 0.3\nthickness = 1\n[[support]]\n"
          "nodes = [1, 2, 3, 4, 5, 6, 10, 11, 15, 16, 20, 21, 22, 23, 24, 25]\nfix = \"w\"\n" +
