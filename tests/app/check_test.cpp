@@ -63,7 +63,7 @@ TEST_CASE("contct check describes a plate, a matrix and a step without load comp
              StartsWith("structure  matrix K.mtx\nmesh       2 dofs\n") && Contains("step 1     no load\n"));
 }
 
-TEST_CASE("contct check writes warnings to standard error, and their number to its description") {
+TEST_CASE("contct check writes warnings to standard error, and their number to standard output") {
   const scratch_folder dir;
   dir.write("p.toml", with("node = 3\nsurface", "node = 1\nsurface"));
   const finished f = contct_program(dir.path(), {"check", "p.toml"});

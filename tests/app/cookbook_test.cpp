@@ -54,7 +54,7 @@ TEST_CASE("contct new without a kind lists all kinds of the cookbook and has exi
   CHECK(kinds == 9);
 }
 
-TEST_CASE("contct new also writes the files that the problem names, and overwrites none") {
+TEST_CASE("contct new also writes the files that the problem names, and overwrites no file") {
   const scratch_folder dir;
   std::filesystem::create_directory(dir.path() / "own");
   const finished f = contct_program(dir.path(), {"new", "matrix", "own/grillage.toml"});
@@ -79,7 +79,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "cookbook, slab: the settlement under the axle is that of an infinite beam plus that of the weight") {
+    "cookbook, slab: the settlement under the axle is that of an infinite beam plus the settlement by the "
+    "weight") {
   const json step = solved("slab")["steps"][13];
   CHECK(step["name"] == "axle at 6");
   const double w = 6.25 / 4e4 + 100 * decay(4e4, 4.3e4) / (2 * 4e4);

@@ -92,7 +92,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "divergence 2: a pair pressed by less than EPSGAP separates with its force when the load decreases") {
+    "divergence 2: a pair pressed by less than EPSGAP separates when the load decreases, but its force "
+    "remains") {
   const std::string text = section("2. ");
   const json wrong = run("stiff-stop.toml", "fortran", uncertified);
   const json truth = run("stiff-stop.toml", "corrected", right);

@@ -92,7 +92,7 @@ TEST_CASE("if only the path of the 1989 rule is lost, the answer is unchanged an
   CHECK(result_in(dir)["rule_1989"]["status"] == "path-ended");
 }
 
-TEST_CASE("no command denies an equilibrium of a matrix with a spring softer than rounding") {
+TEST_CASE("no command reports a missing equilibrium for a matrix with a spring softer than rounding") {
   const scratch_folder dir;
   write_soft_matrix(dir);
   int solved = 0;
@@ -122,7 +122,7 @@ TEST_CASE("the result and the table of pairs have the same contact force for a s
   CHECK(std::strtod(last.c_str() + at, nullptr) == force);
 }
 
-TEST_CASE("contct exact measures the corrected kernel's digits from the same numbers as a run's result has") {
+TEST_CASE("contct exact measures the corrected kernel's digits from the numbers that a run's result has") {
   const scratch_folder dir;
   dir.write(
       "p.toml",

@@ -63,8 +63,7 @@ TEST_CASE("the option --digits limits the digits of a fraction, beyond which a d
   CHECK_THAT(exactly(third, {"--digits", "1"}).out, Contains("largest w -0.3 at node 2"));
 }
 
-TEST_CASE(
-    "the command exact prints nothing under --quiet, and refuses impossible options with exit status 2") {
+TEST_CASE("contct exact prints nothing with --quiet, and refuses invalid options with exit status 2") {
   const finished quiet = contct_program(root, {"exact", three_gaps, "--quiet"});
   CHECK(quiet.exit == 0);
   CHECK(quiet.out.empty());

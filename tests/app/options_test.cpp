@@ -46,7 +46,7 @@ std::string refusal(const words& line) {
 
 }  // namespace
 
-TEST_CASE("contct run without options names no kernels and no output files") {
+TEST_CASE("without options, the parsed command line of contct run has no kernels and no output files") {
   const auto o = parsed<run_options>({"run", "beam.toml"});
   CHECK(o.file == "beam.toml");
   CHECK(o.kernels.empty());
@@ -89,7 +89,7 @@ TEST_CASE("the option --final-only excludes every option that needs a path") {
   }
 }
 
-TEST_CASE("an option without a value differs from the same option with the value 0") {
+TEST_CASE("an option that is not given differs from the same option with the value 0") {
   CHECK_FALSE(parsed<explain_options>({"explain", "f"}).step.has_value());
   CHECK(parsed<explain_options>({"explain", "f", "--step", "0"}).step == 0);
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");

@@ -142,7 +142,8 @@ TEST_CASE("an output in the problem's own file is refused, also through a link")
 }
 
 TEST_CASE(
-    "an output in the file to which standard output is redirected is refused, and the message suggests -") {
+    "an output in the file to which standard output is redirected is refused, and the message suggests the "
+    "name -") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   dir.write("out", "");

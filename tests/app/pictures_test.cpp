@@ -114,7 +114,7 @@ TEST_CASE("an output is refused if it has the name of any file that --html, --cs
   }
 }
 
-TEST_CASE("if an output is -, only this output is written to standard output") {
+TEST_CASE("if the name of an output is -, only this output is written to standard output") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);

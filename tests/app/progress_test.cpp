@@ -76,7 +76,7 @@ TEST_CASE("no command shows progress with --quiet, or if standard error is not a
   CHECK(contct_program(dir.path(), {"run", "plate.toml"}, at_once).err.empty());
 }
 
-TEST_CASE("if table and progress share a terminal, every row of the table begins on an empty line") {
+TEST_CASE("if table and progress share a terminal, the progress is erased before every row of the table") {
   const plate_directory dir;
   const std::vector<std::string> run = {"run", "plate.toml", "--kernels", "corrected"};
   const finished plain = contct_program(dir.path(), run);

@@ -28,7 +28,7 @@ std::size_t longest_line(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the table shows share, s, load, event, node and side, and whether the kernels agree") {
+TEST_CASE("the table shows share, s, load, and events with node and surface, and whether the kernels agree") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"});
@@ -266,7 +266,7 @@ TEST_CASE("a run with a single kernel makes no comparison, and does not claim eq
 }
 
 TEST_CASE(
-    "in a free run every kernel follows its own path, and r4 differs from r8 by less than a stated bound") {
+    "in a free run every kernel follows its own path, and precisions differ by less than a stated bound") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",

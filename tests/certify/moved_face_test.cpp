@@ -135,7 +135,7 @@ TEST_CASE("A face that moves at a node fixed in w loads only the support of this
   });
 }
 
-TEST_CASE("A face that moves up lifts a beam that rests only on faces as a rigid body") {
+TEST_CASE("A face that moves up lifts, as a rigid body, a beam that rests only on faces") {
   problem p;
   p.geometry.kind = even_beam(4.0, 2, 1e4);
   p.pairs = {{0, face_below, 0.0, 1e4, true}, {2, face_below, 0.0, 1e4, true}};

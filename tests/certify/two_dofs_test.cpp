@@ -158,7 +158,7 @@ TEST_CASE("A dof may have one pair with the ground and another pair with a secon
   });
 }
 
-TEST_CASE("A face between two dofs that moves reduces the gap of its pair") {
+TEST_CASE("A moved face between two dofs reduces the gap of its pair") {
   problem p = on_matrix({2, {{0, 0, 300}, {1, 0, 0}, {1, 1, 200}}}, {{0, face_below, -0.01, 600.0, false, 1}},
                         {force(0, -9)});
   p.steps[0].moves = {{0, 0, 0.005}};

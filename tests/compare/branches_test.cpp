@@ -74,7 +74,7 @@ TEST_CASE("a gap one ULP below EPSGAP is the narrowest decision of its call, wit
   CHECK(words_of(*least) == "pair 1: IF (ABS(GAP).LT.EPSGAP) was true by 1 ULP");
 }
 
-TEST_CASE("an s change of +0 or -0 is exactly on the threshold of IF (DTEST(NDOF).EQ.0.)") {
+TEST_CASE("a response of +0 or -0 is exactly on the threshold of IF (DTEST(NDOF).EQ.0.)") {
   const auto margin = [](double d_star) {
     return margin_of(small_call<double>({{0.0, d_star, 0.5, separated, face_above}}), branch::no_response, 0);
   };

@@ -55,7 +55,7 @@ entries chain(int n, double more) {
 }  // namespace
 
 TEST_CASE(
-    "matrices that doubles cannot tell from singular are classified exactly, and singular ones are "
+    "matrices that are singular in doubles are classified exactly, and exactly singular ones are "
     "semidefinite") {
   CHECK(pair_of(1.0, 1.0).what.semidefinite);
   CHECK(pair_of(1.0, 1.0000000000000002).what.semidefinite);

@@ -306,7 +306,7 @@ TEST_CASE("the error of an unloaded state is at least its largest number at any 
   }
 }
 
-TEST_CASE("a structure that is not certainly held is not proved, and the reason is reported") {
+TEST_CASE("a structure is not proved if it is not certain that it is held, and the reason is reported") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
       "0\nstiffness = 1e6\n"

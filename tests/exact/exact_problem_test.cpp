@@ -17,7 +17,7 @@ const std::string unloaded = "[[step]]\nuniform = 0\n";
 
 }  // namespace
 
-TEST_CASE("the exact stiffness of a beam divided into three elements has exact thirds") {
+TEST_CASE("the exact stiffness of a beam with three elements is computed from exact thirds of its length") {
   const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 0.1\n" + clamped + unloaded);
   CHECK(e.stiffness[2].at(0) == -12 * rational(1, 10) * 27);
   CHECK(e.stiffness[2].at(2) == 24 * rational(1, 10) * 27);

@@ -211,8 +211,8 @@ TEST_CASE("the corrected kernel toggles only the first pair with the least s, an
 }
 
 TEST_CASE(
-    "the corrected kernel toggles the pair at rest with the largest response first, or else the lowest "
-    "index") {
+    "among pairs at rest, the corrected kernel toggles the pair with the largest response, and of equal ones "
+    "the first") {
   const std::vector<pair_at<double>> pairs = {{0.0, -0.5, 0.0, apart, below},
                                               {0.0, 2.0, 0.0, touching, below},
                                               {0.0, -2.0, 0.0, touching, above},

@@ -28,7 +28,7 @@ TEST_CASE("K with springs has the same solution by LAPACK as a band and by CHOLM
   CHECK(by_entries.reciprocal_condition(springs) != Approx(by_entries.reciprocal_condition(no_springs)));
 }
 
-TEST_CASE("a matrix that is not positive definite has no factor as a band and in sparse storage") {
+TEST_CASE("a matrix that is not positive definite cannot be factored, as a band or in sparse storage") {
   band_matrix k = random_band(40, 7, 5);
   k.at(20, 20) = -1.0;
   const stiffness_matrix wide(k);

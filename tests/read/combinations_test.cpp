@@ -52,7 +52,7 @@ TEST_CASE("steps of combinations come before those of trains, each in the order 
                           "terms = { G = 2 }\n")) == std::vector<std::string>{"B", "A", "T at 0", "T at 1"});
 }
 
-TEST_CASE("a train is placed from `from` to at most `to` in distances of `by`") {
+TEST_CASE("a train is placed at `from`, and then at every `by` up to `to`") {
   const auto places = [](const std::string& numbers) {
     return names_of(parse_problem("[beam]\nlength = 1\nelements = 10\nEI = 1\n[[support]]\nx = [0, 1]\n"
                                   "fix = \"w\"\n[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\n" +

@@ -290,7 +290,7 @@ TEST_CASE("the listing gets the dofs of a matrix with NDOFPN = INDOF = 1, so tha
   CHECK(watches.dofs == 33);
 }
 
-TEST_CASE("a result on a matrix names dofs by their labels, and w has all its displacements") {
+TEST_CASE("a result on a matrix names dofs by their labels, and its list w has all displacements") {
   const followed r(read_problem((reference / "structures" / "frame.toml").string()));
   std::string text;
   output_file file(&text);

@@ -89,7 +89,8 @@ TEST_CASE("pairs of contact tables come before pairs of bed tables, each in the 
   CHECK(p.pairs[2].node == 1);
 }
 
-TEST_CASE("loads on the same elements are added to one load, and a list of all elements equals no list") {
+TEST_CASE(
+    "loads on the same elements are added to one load, and a list of all elements is the same as no list") {
   const problem p = parse_problem(
       with("point = [ { node = 3, w = -60.0 } ]",
            "uniform = [ { value = -3, elements = [2] }, { value = -1 }, { polynomial = [1, 2], elements = "
@@ -188,7 +189,7 @@ TEST_CASE(
   CHECK(p.pairs[0].face == -0.001);
 }
 
-TEST_CASE("the units of length and force are labels, and both or neither are given") {
+TEST_CASE("the units of length and force are labels, and a file has both or neither") {
   CHECK(parse_problem(good_problem, "pb.toml").units.length.empty());
   const problem p =
       parse_problem("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem), "pb.toml");

@@ -38,7 +38,7 @@ TEST_CASE("EI of a section is the product of the decimals of E and I, rounded on
   CHECK(elements_of<rational>(beam_in(p)).EI(0) == rational(7, 100));
 }
 
-TEST_CASE("The self-weight of a beam is one load for each weight and area") {
+TEST_CASE("The self-weight of a beam has one load for all elements of equal weight and area") {
   const problem p = on_two_supports(
       "length = 10\nelement_size = 2.5\nsection = [ { to = 5, E = 1, I = 1, A = 0.5, weight = 80 }, "
       "{ to = 7.5, E = 2, I = 1, A = 0.5, weight = 80 }, { to = 10, E = 1, I = 1, A = 0.25, weight = 80 } "

@@ -40,7 +40,7 @@ void respond(recording_engine& e) {
 
 }  // namespace
 
-TEST_CASE("the engine adds springs before it removes others, each spring once") {
+TEST_CASE("an engine adds springs before it removes others, each spring once") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(2, true);
@@ -57,7 +57,7 @@ TEST_CASE("the engine adds springs before it removes others, each spring once") 
   CHECK(e.order.empty());
 }
 
-TEST_CASE("the engine does not apply a spring that was switched on and off again") {
+TEST_CASE("an engine does not apply a spring that was switched on and off again") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(3, true);

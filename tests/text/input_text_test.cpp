@@ -124,7 +124,7 @@ TEST_CASE("a real must be a finite decimal, with FORTRAN's exponent D only if re
   CHECK_THROWS_WITH(lines.text_lines::real("1D999", "x", true), Contains("\"1D999\" for x"));
 }
 
-TEST_CASE("a number must be the whole text") {
+TEST_CASE("a number is read only if it is the whole text") {
   CHECK(number_in<int>("-12") == -12);
   CHECK(number_in<double>("1e3") == 1000.0);
   CHECK(number_in<double>("1.8p1", std::chars_format::hex) == 3.0);

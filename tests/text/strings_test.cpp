@@ -71,7 +71,8 @@ TEST_CASE("a title on one line has blanks instead of line ends, and a JSON strin
 }
 
 TEST_CASE(
-    "a message quotes a field of a file only if it looks like a number, and otherwise gives its length") {
+    "a message quotes a field of a file if it looks like a number or is short, and otherwise gives its "
+    "length") {
   for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
     CHECK(field_words(number) == std::string("\"") + number + "\"");
   CHECK(field_words("root:x:0:0") == "a word of 10 bytes");

@@ -202,7 +202,8 @@ TEST_CASE("the legend explains the column of kernels if several kernels run") {
   CHECK_THAT(legend_of("cpp"), !Contains("kernels:") && Contains("share:"));
 }
 
-TEST_CASE("The table's largest values have their units, and move to the left if the line is too long") {
+TEST_CASE(
+    "The table's largest values have their units, and are not aligned in columns if a line is too long") {
   const a_run r("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem));
   CHECK_THAT(table_of(r.result, {100, false}, false).text,
              Contains("moment        -36.2791 kN m     node 1, x = 0\n"));
