@@ -72,8 +72,8 @@ double ms_per_event(const bench::run_of_engine& r) {
   return 1e3 * r.seconds / static_cast<double>(std::max<std::size_t>(r.events.size(), 1));
 }
 
-/// Returns the number of events to time. The engine refactor takes an hour on the large plates, so the cost
-/// of an event comes from their first events.
+/// Returns the number of events to time. The engine refactor takes an hour on the large plates, so only their
+/// first events are timed.
 int events_of_refactor(const options& o, const std::string& problem) {
   constexpr int enough = 60;
   return o.events == 0 && (problem == "mat-100" || problem == "grid-100") ? enough : o.events;

@@ -274,7 +274,7 @@ TEST_CASE(
   std::vector<double> f(6, 0.0);
   f[4] = std::numeric_limits<double>::infinity();
   CHECK(o.solve(f).how == outcome::not_found);
-  f[4] = -10.0;  // a finite load is solved after it
+  f[4] = -10.0;  // a finite load is still solved
   const reference_answer after = o.solve(f);
   CHECK(after.how == outcome::found);
   CHECK(after.displacement[4] == Approx(-10 * 8.0 / 3 / 1e4).epsilon(1e-14));

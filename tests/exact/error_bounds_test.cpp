@@ -298,7 +298,7 @@ TEST_CASE("the error of an unloaded state is at least its largest number at any 
                                              : quantity::moment;
     CAPTURE(where);
     CHECK(*error[q] >= 0.25);
-    // Inside its element, a moment or shear may differ more from 0 than at the node.
+    // Inside an element, a moment or shear may differ more from 0 than at its nodes.
     CHECK(*error[q] <= (where < 4 ? 0.25 : 0.75) * (1 + 1e-8));
     for (const quantity other : {quantity::force, quantity::reaction, quantity::shear, quantity::moment})
       if (other != q && (where < 4 || other == quantity::force || other == quantity::reaction))

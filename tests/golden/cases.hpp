@@ -26,7 +26,7 @@ struct golden_trace {
 /// whose inputs come from solves.
 std::vector<golden_trace> all_traces();
 
-/// Returns the text of such a trace with the answers of the 1989 code in this build.
+/// Returns the text of a trace with the answers of the 1989 code in this build.
 std::string recorded(const golden_trace& t);
 
 }  // namespace golden

@@ -88,7 +88,7 @@ TEMPLATE_TEST_CASE(
     return c.ask().events.size();
   };
   CHECK(ask(half) == 2);
-  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // it makes contact before its face
+  CHECK(ask(std::nextafter(edge, Real(0))) == 2);  // the pair makes contact before its face
   CHECK(ask(edge) == 1);
   CHECK(ask(std::nextafter(edge, Real(1))) == 1);
 }
@@ -101,7 +101,7 @@ TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257,
   CHECK(c.isep == std::vector<int>{touching, touching});
 }
 
-// Problem files refuse such an initial state (reference/DIVERGENCES.md, way 5).
+// Problem files refuse a pair that starts beyond its face (reference/DIVERGENCES.md, way 5).
 TEST_CASE("a pair that starts beyond its face gets the wrong status at its event, without an error") {
   small_call<double> pressed({{0.0, -1.0, 0.1, apart, below}});  // the face is inside the structure
   CHECK(pressed.ask().smin == 1.0);                              // the structure ends 1.1 beyond the face

@@ -103,7 +103,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the corrected kernel makes contact only on approach, and breaks contact only on retreat") {
-  // By eq. 4 each pair has an s in (0, 1), but it returns from beyond its face.
+  // By eq. 4 each pair has an s in (0, 1), but each moves the wrong way for an event.
   const answered c({{-3.0, 4.0, -2.0, apart, below},      // separated, below its face, moving up
                     {3.0, -4.0, 2.0, apart, above},       // the same for a face above
                     {-1.0, -4.0, -2.0, touching, below},  // in contact, above its face, moving down

@@ -39,7 +39,7 @@ TEST_CASE("a matrix that is not positive definite cannot be factored, as a band 
   CHECK_FALSE(f.factor({}));
   CHECK(f.reciprocal_condition({}) == 0.0);
   const std::vector<spring_at> enough = {{20, 10.0}};
-  CHECK(f.factor(enough));  // the failed factorisation has no effect on this
+  CHECK(f.factor(enough));  // the failed factorisation has no effect
 }
 
 TEST_CASE(

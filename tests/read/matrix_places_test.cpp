@@ -89,7 +89,7 @@ TEST_CASE("dofs whose labels have no known node, and rotations, are counted as n
   const placed_nodes places = places_by_coordinates(
       "a 0 0\nb.c 1 0\n", "K.xyz", with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"}));
   CHECK(places.dofs[1].node == 1);
-  // A.1 and a.x are the same direction.
+  // The labels a.1 and a.x mean the same direction.
   for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);
   REQUIRE(places.notes.size() == 2);
   CHECK_THAT(places.notes[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));

@@ -268,7 +268,8 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
     j.findings.push_back(*wrong);
     return;
   }
-  if (how == way::final_only || kept.exact || kept.lost) return;  // such paths lack events
+  // Final-only, exact and lost paths lack events.
+  if (how == way::final_only || kept.exact || kept.lost) return;
   constexpr double tie = 1e-9;
   const kernel_digits r = counter.result("corrected", end.status, tie);
   if (!r.same_events) j.findings.push_back({fault::other_events, 1.0, r.first_difference});
