@@ -94,14 +94,17 @@ TEST_CASE("the allowed error does not grow with the error bounds") {
   }
 }
 
-TEST_CASE("the forces of a beam under couples alone may be off by 2^-60 of its moments divided by the span") {
+TEST_CASE(
+    "the allowed error of forces of a beam under couples alone is 2^-60 of its moments divided by the span") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.size[quantity::moment] = 40.0;
   allowed_errors sizes;
   CHECK(sizes.of(b, 10.0)[quantity::force] == Approx(0x1p-60 * 4));
 }
 
-TEST_CASE("if only supports settle, forces may be off by 2^-70 of the force that settles one support alone") {
+TEST_CASE(
+    "if only supports settle, the allowed error of forces is 2^-70 of the force that settles one support "
+    "alone") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.settling[quantity::force] = 2.0;
   allowed_errors of_matrix;

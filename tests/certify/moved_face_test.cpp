@@ -172,7 +172,7 @@ TEST_CASE("FORTRAN and C++ get an additional row for a pair whose face moves, an
   CHECK(calls.rows[2] == Approx(-0.01 + 0.0055813953).epsilon(1e-7));  // 0.006 / (1 + 3750 / k) - m
 }
 
-TEST_CASE("A state computed for a face that is 1e-6 off is not certified") {
+TEST_CASE("A state computed for a face that is wrong by 1e-6 is not certified") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01)};
   const linear_structure s = structure_of(p);

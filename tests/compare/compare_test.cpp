@@ -209,7 +209,8 @@ TEST_CASE("a comparison of kernels of different precisions or rules is refused")
                     Contains("rule"));
 }
 
-TEST_CASE("the report of a mismatch names call, kernels and place, and calls a narrow decision a tie") {
+TEST_CASE(
+    "the report of a mismatch names call, kernels and place, and describes a narrow decision as a tie") {
   mismatch_report r{3, "fortran", "mine", {"ISEP", 2, "-1", "1", 0}, {}};
   r.narrowest = {branch::within_epsmul, 1, true, 1};
   CHECK(words_of(r)[0] == "call 3: mine differs in ISEP(2): fortran has -1, mine has 1");

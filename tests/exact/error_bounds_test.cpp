@@ -187,11 +187,11 @@ TEST_CASE("if any number of a state is wrong, its error bound contains the error
     check_bounds(errors_of(e.what, e.truly, e.end), b.error);
     CHECK(certified(b) == still_certified);
   };
-  SECTION("a force is off by a part in 1e9") {
+  SECTION("a force has a relative error of 1e-9") {
     e.end.numbers.pair_forces[0] *= 1 + 1e-9;
     check(true);
   }
-  SECTION("a force is off by a part in 1e5") {
+  SECTION("a force has a relative error of 1e-5") {
     e.end.numbers.pair_forces[0] *= 1 + 1e-5;
     check(false);
   }
@@ -203,21 +203,21 @@ TEST_CASE("if any number of a state is wrong, its error bound contains the error
     e.end.numbers.reactions[0] = -right.reactions[0];
     check(false);
   }
-  SECTION("a moment is off by a part in 1e3") {
+  SECTION("a moment has a relative error of 1e-3") {
     e.end.numbers.element_values[2] *= 1 + 1e-3;
     check(false);
   }
-  SECTION("a displacement is off by a part in 1e9") {
+  SECTION("a displacement has a relative error of 1e-9") {
     e.end.displacement[6] *= 1 + 1e-9;
     check(true);
   }
-  SECTION("a displacement is off by a part in 1e4") {
+  SECTION("a displacement has a relative error of 1e-4") {
     e.end.displacement[6] *= 1 + 1e-4;
     check(false);
   }
 }
 
-TEST_CASE("the error bounds of a state contain the error of a stiffness that is off by 1e-9") {
+TEST_CASE("the error bounds of a state contain the error caused by a stiffness that is wrong by 1e-9") {
   one_end wrong(std::string(beam_over_stop).replace(beam_over_stop.find("1e4"), 3, "1.000000001e4"));
   const one_end right(beam_over_stop);
   error_prover prover(right.what, right.structure);
@@ -243,8 +243,8 @@ TEST_CASE("displacements that are only rounding of 0 become 0, so that a held st
 }
 
 TEST_CASE(
-    "the errors of an unloaded state are known if supports hold the structure, and otherwise only those of "
-    "forces") {
+    "an unloaded state's errors are known if supports hold the structure, and otherwise only its forces' "
+    "errors") {
   const std::string freed =
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
       "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = -10\n"

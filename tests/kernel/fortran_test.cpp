@@ -80,7 +80,7 @@ TEST_CASE("each reading of unit 26 returns exactly the text written since the re
   CHECK(characters > 2'500'000);
 }
 
-TEST_CASE("only one object at a time can open unit 26, which belongs to the whole process") {
+TEST_CASE("unit 26 belongs to the whole process, and is opened by one object at a time") {
   {
     const fortran::unit_26 log;
     CHECK_THROWS_AS(fortran::unit_26(), std::logic_error);

@@ -78,7 +78,7 @@ TEST_CASE("a fuzz run counts events by kind, and those of pairs within EPSGAP of
 }
 
 TEST_CASE(
-    "the closeness of a follower is its largest difference in ULPs and whether its events are the same") {
+    "a follower's report has its largest difference in ULPs, and whether its events equal the leader's") {
   const call_inputs<double> in{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
   call_outputs out;
   call<double> led = out.prepare(in);

@@ -104,7 +104,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "of a body in space, four vertical pairs remove three rigid-body motions, and six suitable pairs all "
+    "four vertical pairs remove three rigid-body motions of a body in space, and six suitable pairs all "
     "six") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);

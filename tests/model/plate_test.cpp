@@ -422,7 +422,7 @@ TEST_CASE("a plate whose stiffness exceeds double precision is refused, and the 
   CHECK_THROWS_WITH(build(p, {}, {}), Catch::Matchers::Contains("element 2"));
 }
 
-TEST_CASE("three points that are not on a line hold a plate, and so does a point with its two slopes") {
+TEST_CASE("a plate is held by three points that are not on a line, or by a point with its two slopes") {
   const plate p = uneven_plate(1e9, 1e-9);
   const auto rank_of = [&](const std::vector<support>& supports, const std::vector<contact_pair>& pairs) {
     const linear_structure s = build(p, supports, pairs);

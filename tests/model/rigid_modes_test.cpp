@@ -29,7 +29,8 @@ TEST_CASE("two deflections at different places hold a beam, but two at one place
   CHECK(rank_of({{0, 1, 0}, {1, 0.9, 0}}) == 2);
 }
 
-TEST_CASE("three points on a line do not hold a plate, but with a fourth point beside the line they do") {
+TEST_CASE(
+    "three points on a line do not hold a plate, but they hold it together with points outside the line") {
   const std::vector<rigid_row> on_a_line = {{1, -0.3, -0.1}, {1, 0.1, 0.3}, {1, 0.5, 0.7}};
   CHECK(rank_of(on_a_line) == 2);
   std::vector<rigid_row> all = on_a_line;
@@ -98,7 +99,7 @@ TEST_CASE(
   CHECK(f.rows[9][0] == 0.0);
 }
 
-TEST_CASE("a wrong number of rigid-body motions is refused, and so is an indefinite matrix") {
+TEST_CASE("a wrong number of rigid-body motions and an indefinite matrix are refused") {
   CHECK(find_free_motions(chain(9), 1).count == 1);
   CHECK_THROWS_WITH(find_free_motions(chain(9), 2), Catch::Matchers::Contains("on its supports, 1"));
   band_matrix negative = chain(9);

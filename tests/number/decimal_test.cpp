@@ -29,7 +29,7 @@ TEST_CASE("text that is not a decimal is not compared with a shortest decimal") 
 }
 
 TEST_CASE(
-    "a number with a decimal point or an exponent has a last written digit, and a whole number has none") {
+    "a number with a decimal point or an exponent has a last written digit, and a whole number does not") {
   CHECK(last_written_digit("1.250") == -3);
   CHECK(last_written_digit("-1.25e4") == 2);
   CHECK(last_written_digit("1.0000000000000D+00") == -13);

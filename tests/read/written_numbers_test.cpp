@@ -67,7 +67,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "only the first ten numbers that are not shortest decimals get a warning, and the last warning counts "
+    "the first ten numbers that are not shortest decimals get a warning each, and the last warning counts "
     "all") {
   std::string text = "a = [\n";
   for (int i = 0; i < 11; ++i) text += "0.10000000000000000001,\n";

@@ -39,7 +39,7 @@ TEST_CASE("the text of unit 26 is kept up to the first call that exceeds the lim
   CHECK(r.all_log == 300'005);
 }
 
-TEST_CASE("a recorded call has the increment that it led to, or none") {
+TEST_CASE("a recorded call has the increment that follows it, or the step 0 if another call follows it") {
   run_recorder r(nullptr, {.calls = true});
   tell_call(r, {1.0}, "");
   r.incremented({1, 1, 0.5, 0.5, {}});

@@ -204,7 +204,8 @@ TEST_CASE("a pair's deflection gives either a gap or a force") {
   CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
 }
 
-TEST_CASE("only dofs known to be lengths are deflections: a matrix's pairs, and dofs along an axis") {
+TEST_CASE(
+    "the deflections of a matrix are its dofs along axes, or its pairs' dofs if it has no coordinates") {
   const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
   const std::vector<int> dofs = deflecting_nodes(placed);
   CHECK(dofs.size() == 22);

@@ -43,8 +43,7 @@ TEST_CASE("messages escape control characters, but not UTF-8 letters") {
   CHECK(printable("").empty());
 }
 
-TEST_CASE(
-    "every control character of a terminal is escaped, and so are marks of direction and invalid UTF-8") {
+TEST_CASE("control characters of a terminal, marks of direction and invalid UTF-8 are escaped") {
   CHECK(terminal_text("a\x1b[31m\x07\x7f\n") == "a\\x1b[31m\\x07\\x7f\n");
   // NOLINTNEXTLINE(misc-misleading-bidirectional): these marks are what is escaped
   CHECK(terminal_text("\u009b31m\u202e\u2067x") == "\\xc2\\x9b31m\\xe2\\x80\\xae\\xe2\\x81\\xa7x");

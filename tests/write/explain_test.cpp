@@ -100,7 +100,9 @@ TEST_CASE("two kernels' numbers are described as equal to the bit, as ULPs apart
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
 }
 
-TEST_CASE("an explanation of more than 20 increments has one line each, unless all are requested") {
+TEST_CASE(
+    "an explanation of more than 20 increments has one line for each, unless the full explanation is "
+    "requested") {
   const std::string few = explained_text(0, 80, two_pairs_and(18), false);
   CHECK(few == explained_text(0, 80, two_pairs_and(18)));
   CHECK_THAT(few, Contains("Step 19, increment 1\n"));

@@ -297,7 +297,8 @@ TEST_CASE("The result of a beam with a section modulus has stresses, their extre
 }
 
 TEST_CASE(
-    "The result of a plate with a thickness has stresses at corners, and that of a plate with D has none") {
+    "The result of a plate with a thickness has stresses at corners, but a plate given by D has no "
+    "stresses") {
   const nlohmann::json thick = result_of(good_plate)["steps"][0];
   const nlohmann::json& corner = thick["elements"][1];
   CHECK(corner["sx"][2].get<double>() == Approx(6 * corner["mx"][2].get<double>()));

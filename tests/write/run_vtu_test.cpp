@@ -59,7 +59,7 @@ TEST_CASE("the points of a VTU grid have the reactions of supports and a bed's p
                                   results_of(r.what, r.what.steps[0], s).pairs[0].force / 0.5)));
 }
 
-TEST_CASE("only one of the states at the very start of a step's load becomes a picture") {
+TEST_CASE("several states at the very start of a step's load become a single picture") {
   // Each end of a beam on springs separates at the start of the load.
   const a_run r(
       "[beam]\nlength = 10.0\nelements = 40\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\n"
