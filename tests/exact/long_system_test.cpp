@@ -19,7 +19,8 @@ double off(const double_double& x, const rational& true_value) {
   return std::abs(contct::rounded(exactly(x) - true_value));
 }
 
-/// Compares all numbers of the two systems with their allowed differences, and returns how many there are.
+/// Compares all numbers of the two systems with their allowed differences, and returns the number of
+/// comparisons.
 int compare(const problem& p) {
   const long_system t = long_system_of(p);
   const exact_problem e = exact_problem_of(p);

@@ -94,7 +94,7 @@ TEMPLATE_TEST_CASE(
 }
 
 TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257, a defect of the listing") {
-  // Pair 2 is at a fixed dof, d* = 0, one unit from its face, and is still toggled.
+  // Pair 2 is at a fixed dof, d* = 0, one unit from its face, but is toggled.
   small_call<double> c({{0.0, 1.0, 0.9999, apart, above}, {0.0, 0.0, -1.0, apart, below}});
   c.ask();
   CHECK(c.smin == 0.9999);

@@ -31,7 +31,8 @@ inline small_call<double> call_for(double fault) {
       {{0.5, 2.0, fault, separated, face_above}, {0.0, 1.0, 4.0, in_contact, face_below}});
 }
 
-/// Returns the reported failure of a kernel, or an empty text if it answers correctly that there is no event.
+/// Returns the reported failure of a kernel, or an empty text if the kernel correctly answers without an
+/// event.
 inline std::string put(kernel& k, double fault) {
   small_call<double> c = call_for(fault);
   call<double> arguments = c.arguments();

@@ -344,7 +344,8 @@ TEST_CASE("a trace that is cut anywhere is refused, except between its calls") {
     const read_result r = read_all(good.substr(0, length));
     if (r.refused.empty()) {
       ++whole;
-      // The rest is complete if it ends between calls, or in the header, which then has no calls.
+      // The cut trace is complete if the cut is between calls, or in the header. A trace cut in its header
+      // has no calls.
       const bool behind_call_1 = length >= good.find("\n\ncall 2") && length <= good.find("call 2");
       const bool behind_call_2 = length >= good.size() - 1;
       CHECK(r.calls == (behind_call_2 ? 2 : behind_call_1 ? 1 : 0));

@@ -151,7 +151,7 @@ class Beam:
         h, (w0, slope0, w1, slope1) = self.x[e + 1] - self.x[e], u[2 * e : 2 * e + 4]
         pieces, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
         missing, turn = w1 - w, slope1 - slope
-        if e + 1 in self.hinges:  # the hinge at its right end has no moment, and the slope there is free
+        if e + 1 in self.hinges:  # the hinge at the element's right end has no moment, and a free slope
             _, length, line = pieces[-1]
             bent = at(line["moment"], length)
             shear = -3 * self.EI[e] * (missing + bent * h**2 / (2 * self.EI[e])) / h**3

@@ -51,7 +51,7 @@ STRUCTURES_TABLES = {
     "A `move`": "[[step]]\nmove = [ { %s } ]\n",
 }
 NOT_WITH_A_MATRIX = {"`spring` of a `[[support]]`", "`[[bed]]`", "A part of `uniform`"}
-SHARED = {"Places", "Degrees of freedom"}  # their keys are those of other tables
+SHARED = {"Places", "Degrees of freedom"}  # the keys of these tables are keys of other tables
 LEAST_KEYS, LEAST_EXAMPLES, LEAST_REFUSALS = 150, 20, 12
 
 

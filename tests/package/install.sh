@@ -1,6 +1,6 @@
 #!/bin/sh
 # install.sh SOURCE BUILD FIRST PREFIX: installs the build into FIRST, moves it to PREFIX, and checks that no installed
-# file names the former folders.
+# file names SOURCE, BUILD or FIRST.
 set -eu
 source=$1
 build=$2

@@ -1,4 +1,4 @@
-// Tests the driver's policy for rules other than that of 1989.
+// Tests the driver's policy for rules other than the 1989 rule.
 #include "contct/path/policy.hpp"
 
 #include <algorithm>

@@ -140,7 +140,7 @@ class comparing {
     }
   }
 
-  /// Returns the proved bound of a kind; for moments of supports it is that of moments.
+  /// Returns the proved bound of a kind, or for moments of supports the bound of moments.
   [[nodiscard]] double bound_of(number_kind kind, std::size_t at) const {
     const bool of_moment = kind == number_kind::reaction && p_.supports[at].dof != 0;
     constexpr quantity quantities[] = {quantity::w, quantity::slope, quantity::force, quantity::reaction};

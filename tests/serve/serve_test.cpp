@@ -223,7 +223,7 @@ TEST_CASE("contct_call returns a kernel's text of unit 26, and refuses a dof tha
   double ss[] = {0.0}, smin = 7.0;
   const int beyond[] = {2};
   CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, 1, 2, 2)).at("exit") == 2);
-  // (2 - 1) * 2147483647 + 2147483647 exceeds INTEGER, and so does (0 - 1) * -2147483648, although the dof
+  // (2 - 1) * 2147483647 + 2147483647 exceeds INTEGER. (0 - 1) * -2147483648 exceeds it too, although the dof
   // would be 1.
   CHECK(taken(contct_call("cpp", dd, dtest, cc, ss, &smin, beyond, isep, isurf, 1, INT_MAX, INT_MAX, 2))
             .at("exit") == 2);

@@ -29,7 +29,7 @@ problem beam_over_stops(double face, double q) {
       "stops.toml");
 }
 
-/// The final state of a path, and the results there.
+/// The final state of a path, and its results.
 struct ended {
   explicit ended(const problem& p) {
     const a_run run(p, "corrected");

@@ -10,8 +10,8 @@ using namespace contct;
 
 namespace {
 
-/// Returns a plate that is clamped along x = 0 and wider than high, so that the order of its rows differs
-/// from that of its dofs.
+/// Returns a plate that is clamped along x = 0 and wider than high, so that its rows and its dofs have
+/// different orders.
 linear_structure wide_plate() {
   const plate p{{0, 1, 2, 3}, {0, 1}, 50.0, 0.3};
   std::vector<support> clamp;

@@ -38,7 +38,7 @@ struct beam_problem {
   }
 };
 
-/// Copies what an observer sees.
+/// Copies the numbers and events that an observer receives.
 struct recorder final : observer {
   struct seen_increment {
     int step, number;

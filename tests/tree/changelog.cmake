@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
-# Fails unless the top entry of the changelog is that of the project's version, with a date, the other entries are
-# older, and each of the other pages shows this version only.
+# Fails unless the top entry of the changelog has a date and the project's version, the other entries are older, and
+# each of the other pages shows this version only.
 # Usage: cmake -DCHANGELOG=<CHANGELOG.md> -DVERSION=<version> [-DPAGES=<page>,..] -P changelog.cmake
 string(REPLACE "," ";" PAGES "${PAGES}")
 foreach(page IN LISTS PAGES)

@@ -2,7 +2,7 @@ cmake_minimum_required(VERSION 3.25)
 # Fails if a folder of cpp/contct includes a header of its own floor or of a higher floor, has no floor, or has more
 # than MOST sources.
 # Usage: cmake -DSOURCES=<cpp/contct> -DMOST=<files> -P floors.cmake
-# The list of floors begins with the lowest; a folder may include those of lower floors.
+# The list of floors begins with the lowest; a folder may include headers of lower floors only.
 set(floors text number "kernel matrix" "compare model" "solve" "path read" "certify" "exact" "session" "write lab" "serve")
 set(below "")
 foreach(floor IN LISTS floors)

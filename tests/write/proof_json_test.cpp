@@ -1,4 +1,4 @@
-// Tests that a proof file has what its checker needs, or a reason.
+// Tests that a proof file has all data that its checker needs, or the reason for missing bounds.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
