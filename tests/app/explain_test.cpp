@@ -168,7 +168,7 @@ TEST_CASE("contct explain reports a second kernel that rounds differently in ULP
       explained({pb7, "--kernels", "fortran," + plugin, "--json", (dir.path() / "out.json").string()});
   INFO(f.err);
   CHECK(f.exit == 1);
-  CHECK_THAT(f.out, Contains("ULP") && Contains("NOT"));  // the message may be wrapped elsewhere
+  CHECK_THAT(f.out, Contains("ULP") && Contains("NOT"));  // the message may be wrapped at another place
   CHECK_THAT(f.err, Contains("differs in"));
   const json all = json::parse(dir.read("out.json"));
   CHECK(all["status"] == "kernels-disagree");

@@ -325,7 +325,7 @@ TEST_CASE("with --strict an uncertified state gives exit status 3, and the messa
              Contains("step 4 is NOT certified: the deflections are off by 1.2e-08, 0.00012 % of the"));
   CHECK_THAT(strict.err, Contains("in increment 4.2 pair 1 (node 41, below) broke contact"));
   CHECK_THAT(strict.err,
-             Contains("contct run " + pb5 + " --kernels corrected"));  // the remedy
+             Contains("contct run " + pb5 + " --kernels corrected"));  // the suggested command
   const auto r = nlohmann::json::parse(dir.read("s.json"));
   CHECK(r["status"] == "solved");
   CHECK(r["steps"][0]["certificate"]["exact"] == true);

@@ -44,7 +44,7 @@ void pin() {
     threads(1);
 }
 
-/// Returns the name of the kernels that OpenBLAS chose; other libraries have no choice.
+/// Returns the name of the kernels that OpenBLAS chose; other libraries offer no choice.
 std::string core_type() {
   using getter = char* (*)();
   const auto name = reinterpret_cast<getter>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));

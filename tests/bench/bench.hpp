@@ -79,8 +79,8 @@ struct difference {
 };
 [[nodiscard]] difference difference_of(const run_of_engine& reference, const run_of_engine& other);
 
-/// The least seconds of a call without an event, of `rounds` rounds. The listing writes a line in such a
-/// call, so `fortran` is without the cost of a call without pairs, which is the cost of this line.
+/// The least time in seconds of a call without an event, among `rounds` rounds. In such a call the listing
+/// writes a line, so `fortran` excludes the time of a call without pairs, which only writes this line.
 struct seconds_of_a_call {
   double fortran;
   double cpp;

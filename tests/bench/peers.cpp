@@ -78,7 +78,7 @@ class newton {
     (void)cholmod_free_dense(&x, &common_);
   }
 
-  /// Updates the pressed pairs from `u`. Returns false if none changed.
+  /// Updates the pressed pairs from `u`. Returns false if no pair changed.
   bool take_pressed() {
     std::array<std::vector<std::size_t>, 2> changed;  // pairs no longer pressed, and newly pressed
     for (std::size_t i = 0; i < closed_.size(); ++i) {

@@ -115,7 +115,7 @@ TEST_CASE("A settlement reaches a face at the proportional share, and the next s
     // The middle moves half as far as the support.
     CHECK(path.seen.increments[0].fraction == Approx(0.25).epsilon(1e-12));
     CHECK(path.seen.increments[0].events.size() == 1);
-    // The spring k and the beam, with 48 EI / L^3 at midspan, resist the rest together.
+    // After contact, the spring k and the beam, with 48 EI / L^3 at midspan, act in parallel.
     const double beam_k = 48 * 1e4 / 216.0;
     const double w = (-0.02 * beam_k - 0.005 * 2e3) / (beam_k + 2e3);
     CHECK(path.u(1)[8] == Approx(w).epsilon(1e-10));

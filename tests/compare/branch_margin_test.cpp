@@ -52,7 +52,7 @@ TEST_CASE(
 
 TEST_CASE(
     "the branch margin of a wrong ISEP is its pair's DIFF, or SMIN if the other kernel toggled no pair") {
-  // SMIN is the number next to 1, so IF (SMIN.EQ.1.) is narrower than any DIFF.
+  // SMIN is the number next to 1, so the decision IF (SMIN.EQ.1.) has a narrower margin than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},
                                                       {0.0, 1.0, 4.0, separated, face_above}})
                                       .ask();

@@ -97,7 +97,7 @@ TEST_CASE("the last call counts as equal only if every follower's answer is equa
   const auto fault = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
   CHECK_FALSE(with_fault(fault).last_call_equal());
   CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
-  // One faulty follower is enough, whether it is first or last.
+  // One faulty follower makes the call unequal, whether it is first or last.
   for (const int place : {0, 1}) {
     const lockstep_on_path compared = place == 0 ? in_lockstep_with(faulty(fault), make_kernel("cpp"))
                                                  : in_lockstep_with(make_kernel("cpp"), faulty(fault));

@@ -15,7 +15,7 @@ for processor in "$@"; do
     *) echo "found \"$processor\"; allowed: aarch64, ppc64le, riscv64, s390x" >&2; exit 2 ;;
   esac
 done
-set -- "$@" --  # the traces follow
+set -- "$@" --  # the names of the traces follow after --
 for trace in reference/traces/*.trace; do
   [ -f "$trace" ] || { echo "reference/traces has no trace: nothing to replay" >&2; exit 1; }
   set -- "$@" "$trace"

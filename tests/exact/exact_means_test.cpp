@@ -102,7 +102,7 @@ TEST_CASE("the residual of a state in 32 digits is exact on either side of a fac
   const rational h = decimal_of(8e-11);
   const rational bends = 12 * decimal_of(7e-4) / (h * h * h);
   const double_double near = contct::long_rounded(face);
-  for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of the last digit of 32
+  for (const double off : {-0x1p-138, 0x1p-138}) {  // some tenths of a unit in the last of 32 digits
     std::vector<double_double> u(6, 0.0);
     u[4] = {near.hi, near.lo + off};
     const rational at = binary_value(u[4].hi) + binary_value(u[4].lo);

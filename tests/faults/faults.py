@@ -156,7 +156,7 @@ def memory_is_limited(command: Command) -> None:
         status, files, said = command.run({}, limited)
         what = f"{command.name}: {mib} MiB: exit {status}"
         has_begun |= status in (0, 2)
-        if has_begun or status == 127:  # 127: the message is the loader's
+        if has_begun or status == 127:  # 127: the loader wrote the message
             check(status in (0, 2, 127), f"{what}: {said}")
             check(said.count("\n") == (status != 0), f"{what}: {said}")
         else:  # before main(), where the loader does not check its memory and libgfortran has its own message

@@ -49,7 +49,7 @@ TEST_CASE("a call is refused if a dof is outside its arrays, or inside them only
         "computed "
         "within 32 bits");
   CHECK_THAT(verdict(0, {1, 1}, 1, 1), Contains("found ID 0, which is dof 0"));
-  // 1 after a 32-bit overflow.
+  // The dof would be 1 after a 32-bit overflow.
   CHECK_THAT(verdict(65537, {1, 65536}, 1, 1), Contains("which is dof 4294967297"));
   CHECK_THAT(verdict(65537, {-2147483647, 32768}, 1, 1), Contains("which is dof 1 with INDOF -2147483647"));
   CHECK_THAT(verdict(least, {1, 0}, 1, 1), Contains("which is dof 1 with INDOF 1 and NDOFPN 0"));

@@ -104,7 +104,7 @@ TEST_CASE("every random problem has valid supports, pairs and steps") {
     REQUIRE_FALSE(p.pairs.empty());
     for (const contact_pair& c : p.pairs) {
       CHECK((c.node >= 0 && c.node < count));
-      // A pair is at a fixed node only if no other node was drawn; this is the middle node.
+      // A pair may be at a fixed node only if no other node was drawn. This node is the middle node.
       CHECK((!fixed.contains(c.node) || c.node == count / 2));
       CHECK((c.surface == face_above || c.surface == face_below));
       CHECK(c.stiffness > 0.0);

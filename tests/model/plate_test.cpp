@@ -173,7 +173,8 @@ TEST_CASE("the three rigid-body motions of a plate need no force") {
       const auto rounding = multiply(of_signs, u);
       for (std::size_t i = 0; i < u.size(); ++i) CHECK(std::abs(force[i]) <= 1e-14 * rounding[i]);
     }
-    // The motions are up by 1 at the middle, 1 up at the right edge, and 1 up at the upper edge.
+    // The motions are a translation by 1, and rotations about the middle that lift the right edge or the
+    // upper edge by 1.
     CHECK(s.rigid_rows.front() == rigid_row{1, -1, -1});
     CHECK(s.rigid_rows[s.rigid_rows.size() - 3] == rigid_row{1, 1, 1});
     const double half_x = (p.x.back() - p.x.front()) / 2;

@@ -26,8 +26,8 @@ from edits import edited  # noqa: E402
 
 CPU_SECONDS = 5  # other mutants need a tenth of a second
 LEAST = 100
-LEAST_TOLD = 0.98  # of all mutants that belong to a line
-LEAST_TOLD_LATER = 0.9  # of the mutants in held_out
+LEAST_TOLD = 0.98  # share of mutants whose line must be named
+LEAST_TOLD_LATER = 0.9  # the same for the mutants in held_out
 UNMUTATED = "(as it is)"
 
 

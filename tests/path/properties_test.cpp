@@ -115,7 +115,7 @@ TEST_CASE("a structure held by supports returns to its start after loading and u
     check_deflections(f, [](std::size_t) { return 0.0; });
     loaded += f.largest() > 0.0 ? 1 : 0;
   }
-  CHECK(loaded > 900);  // the others have all loads on supports
+  CHECK(loaded > 900);  // the other problems have all loads on supports
 }
 
 TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements, to the bit") {

@@ -162,7 +162,7 @@ TEST_CASE("loads beyond the range of doubles end the path, and no state has an i
   recorder r;
   const path_end end = p.run("fortran", {&r});
   CHECK(end.status == path_status::not_factored);
-  p.pairs.clear();  // a path without pairs has no infinite number either
+  p.pairs.clear();  // without pairs the path has no infinite number either
   CHECK(p.run("fortran", {&r}).status == path_status::not_factored);
   for (const auto& step : r.steps) {
     for (const double x : step.u) CHECK(std::isfinite(x));

@@ -82,7 +82,7 @@ def check_block(block, events):
         run_ccx(job, block.peer_deck(load))
         u = values_at_end(job, "displacements", "ALL", 1, nodes)
         held = values_at_end(job, "forces", "GROUND", nodes + 1, len(block.supports))
-        # C3D8I has internal modes, which are numbered as nodes after the others.
+        # CalculiX's element C3D8I has internal modes, which are numbered as nodes after the others.
         both = [(ours, u[node - 1][way - 1] / block.SCALE) for ours, (node, way) in zip(step["displacement"], labels, strict=True) if node <= nodes]
         forces = [(pair["force"], f[2] / block.FORCE_SCALE) for pair, f in zip(step["pairs"], held, strict=True)]
         off, off_force = (max(abs(a - b) for a, b in of) / (max(abs(a) for a, _ in of) or 1.0) for of in (both, forces))

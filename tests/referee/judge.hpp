@@ -64,7 +64,7 @@ struct finding {
 /// The errors of a run, and the number of compared values.
 struct judgement {
   int steps = 0;      ///< steps that reach their load on both paths
-  int certified = 0;  ///< certified ones of these steps
+  int certified = 0;  ///< certified steps among these
   long values = 0;    ///< numbers compared with exact ones
   std::vector<finding> findings;
 };

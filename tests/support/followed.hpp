@@ -37,7 +37,8 @@ struct followed {
   }
 };
 
-/// Follows `p` under the corrected rule. Final states are proved, or else as the path reached them.
+/// Follows `p` under the corrected rule. Final states are proved if `proved`, and otherwise remain as the
+/// path reached them.
 inline followed follow(const random_problem& p, bool proved = true) {
   const linear_structure s = build(p.geometry, p.supports, p.pairs);
   certifier certifies(p, s);

@@ -27,7 +27,7 @@ inline sparse_matrix entries_of(const linear_structure& s) {
   return a;
 }
 
-/// Returns A x for a band A, of which both halves count.
+/// Returns A x for a symmetric A stored as a band.
 inline std::vector<double> product(const band_matrix& a, const std::vector<double>& x) {
   std::vector<double> y(x.size());
   for (int column = 0; column < a.order(); ++column) {
@@ -53,7 +53,7 @@ inline std::vector<double> displaced(const model& m, const std::vector<support>&
   return f;
 }
 
-/// Returns the matrix of points in space with a spring between any two and three dofs each.
+/// Returns the matrix of points in space, each with three dofs, with a spring between any two points.
 inline sparse_matrix braced(const std::vector<std::array<double, 3>>& points, double stiffness) {
   const auto n = 3 * points.size();
   std::vector<double> k(n * n);

@@ -18,8 +18,8 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// Explains a path of FORTRAN with C++ as the second kernel. `sink` gets each increment, and before it
-/// `first`, if given. Returns the path, which has the totals.
+/// Explains a path of FORTRAN with C++ as the second kernel. Passes each increment to `first`, if given, and
+/// then to `sink`. Returns the path, which has the totals.
 explained_path explain_run(const problem& p, explained_path::sink sink, observer* first = nullptr) {
   const auto leader = make_kernel("fortran");
   const std::string second[] = {"cpp"};

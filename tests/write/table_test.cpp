@@ -111,7 +111,8 @@ TEST_CASE("no text cell of a CSV file begins like a formula, with or without lea
 
 TEST_CASE("the table of increments has their numbers to the last digit, and their events") {
   const tables t = tables_of(a_run(loaded_and_freed));
-  REQUIRE(t.increments.size() == t.states.size());  // the table has a heading, and the states have the start
+  // The table has a heading row, and the states include the start.
+  REQUIRE(t.increments.size() == t.states.size());
   CHECK(t.increments[0] == row{"step", "increment", "kind", "s", "share", "force", "events", "closed", "open",
                                "at_face", "smin", "kernels", "node", "w", "name"});
   for (std::size_t i = 1; i < t.increments.size(); ++i) {

@@ -73,7 +73,7 @@ TEST_CASE("a message about an error has its size in units first, and then in per
   p.units = {"m", "kN"};
   const a_run r(std::move(p));
   const std::vector<std::string> complaints = certificate_complaints(r.result);
-  REQUIRE(complaints.size() == 2);  // 0.5 L^3 / 3 EI = 1.3333e-4 of 4.44e-3, see the file
+  REQUIRE(complaints.size() == 2);  // 0.5 L^3 / 3 EI = 1.3333e-4 of 4.44e-3, see near-tie.toml
   CHECK_THAT(
       complaints[1],
       Contains("the deflections are off by 0.00013 m, 3 % of the largest deflection; allowed: 0.0001 %"));
