@@ -86,7 +86,9 @@ TEST_CASE("in exact arithmetic, element_size makes equal elements between the co
   CHECK(e.stiffness[10].at(11) == -6 / (rational(3, 20) * rational(3, 20)));
 }
 
-TEST_CASE("in exact arithmetic, a bed's polynomial face is exact, and so is the test whether it is at 0") {
+TEST_CASE(
+    "in exact arithmetic, the value of a bed's polynomial face and the test whether the value is 0 are "
+    "exact") {
   const std::string bed = clamped + "[[bed]]\nmodulus = 1\n";
   const exact_problem e = of("[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + bed +
                              "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);

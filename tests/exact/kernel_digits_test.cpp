@@ -91,8 +91,7 @@ TEST_CASE("events that only the kernel's path or only the exact path has are rep
 }
 
 TEST_CASE(
-    "toggles of a pair that cancel at one share do not count as events, nor does a touch at the end of a "
-    "step") {
+    "neither toggles of a pair that cancel at one share nor a touch at the end of a step count as events") {
   const stop_run run;
   digit_counter counter(run.what, run.exactly);
   const std::vector<event> makes = {{0, change::make}};

@@ -45,7 +45,7 @@ TEST_CASE("without a request, unit 26 writes nothing and no file fort.26 appears
   CHECK_FALSE(std::filesystem::exists("fort.26"));
 }
 
-TEST_CASE("the text of unit 26 is returned only once, and then only text of later calls") {
+TEST_CASE("a second request for the text of unit 26 returns only the text of later calls") {
   fortran::unit_26 log;
   CHECK(log.take().empty());
   auto c = one_that_closes();

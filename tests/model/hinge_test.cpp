@@ -50,7 +50,7 @@ TEST_CASE(
   CHECK(held[2] == Approx(6).epsilon(hinge_rounding));
 }
 
-TEST_CASE("An element between two hinges sags as a simple beam that stands on two cantilevers") {
+TEST_CASE("An element between two hinges sags as a simple beam supported by two cantilevers") {
   const beam b = hinged({0, 1, 3, 4}, {1, 2});
   const load l = uniform_on(-2, {1});
   const std::vector<double> u = displaced(b, {{0, 0, true}, {0, 1, true}, {3, 0, true}, {3, 1, true}}, l);
