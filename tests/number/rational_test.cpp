@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "catch.hpp"
+#include "contct/number/random.hpp"
 
 using namespace contct;
 
@@ -43,6 +44,21 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
         rational(integer(1), integer(integer(1) << 107U)));
   CHECK(rounded(rational(huge)) == std::numeric_limits<double>::infinity());
   CHECK(rounded(rational(integer(-1), huge)) == 0.0);
+}
+
+TEST_CASE("the low part of a decimal, found without rational numbers, is that of its rational number") {
+  CHECK(long_decimal_of(0.5).lo == 0.0);
+  CHECK(long_decimal_of(0.1).lo == -0.4 * 0x1p-56);  // 0.1 is 0x1.999999999999ap-4 less 2/5 of 2^-56
+  contct::random_numbers random(11);
+  std::size_t compared = 0;
+  for (int i = 0; i < 20'000; ++i) {  // of all lengths and sizes, most of which take the short way
+    const double digits = std::floor(random.unit() * std::pow(10.0, random.whole(1, 16)));
+    const double x = (i % 2 == 0 ? digits : -digits) * std::pow(10.0, random.whole(-30, 5));
+    const double_double fast = long_decimal_of(x);
+    const double_double slow = long_rounded(decimal_of(x));
+    compared += std::size_t{fast.hi == x && fast.hi == slow.hi && fast.lo == slow.lo};
+  }
+  CHECK(compared == 20'000);
 }
 
 TEST_CASE("a rational is rounded to the nearest double, and a tie to the even double") {

@@ -26,7 +26,9 @@ rational exact_sum_of(std::span<const point_load> all) {
 
 template <class Number>
 Number number_of(double x) {
-  return std::is_same_v<Number, double> || is_whole(x) ? Number(x) : nearest<Number>(decimal_of(x));
+  if (std::is_same_v<Number, double> || is_whole(x)) return Number(x);
+  if constexpr (std::is_same_v<Number, double_double>) return long_decimal_of(x);
+  return nearest<Number>(decimal_of(x));
 }
 
 template <class Number>

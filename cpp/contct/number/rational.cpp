@@ -115,6 +115,31 @@ double_double long_rounded(const rational& x) {
   return std::isfinite(high) ? double_double(high, rounded(x - binary_value(high))) : double_double(high);
 }
 
+/// |x| = m 2^e is the double nearest to its decimal n / 10^k, so that n 2^-(e + k) - m 5^k, which 10^k 2^-(e
+/// + k) times their difference is, is at most 5^k / 2: arithmetic modulo 2^64 finds it.
+double_double long_decimal_of(double x) {
+  const decimal d = shortest_decimal(x);
+  int e = 0;
+  const auto m = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(x), &e), DBL_MANT_DIG));
+  e -= DBL_MANT_DIG;
+  constexpr int most = 27;  // 5^27 < 2^63
+  const auto k = static_cast<int>(-d.exponent);
+  if (k < 0 || k > most || e + k > 0) return long_rounded(decimal_of(x));
+  std::uint64_t n = 0;
+  for (const char digit : d.digits) n = 10 * n + static_cast<std::uint64_t>(digit - '0');
+  std::uint64_t five = 1;
+  for (int i = 0; i < k; ++i) five *= 5;
+  const std::uint64_t shifted = e + k > -64 ? n << -(e + k) : 0;
+  const auto in_halves = [](std::int64_t i) {
+    const auto high = static_cast<double>(i);
+    return double_double(high, static_cast<double>(i - static_cast<std::int64_t>(high)));
+  };
+  const double_double off =
+      in_halves(static_cast<std::int64_t>(shifted - m * five)) / in_halves(static_cast<std::int64_t>(five));
+  const double low = std::ldexp(off.hi, e);
+  return x < 0.0 ? double_double(x, -low) : double_double(x, low);
+}
+
 rational dot(const rational_vector& a, const rational_vector& b) {
   rational sum;
   for (std::size_t i = 0; i < a.size(); ++i)

@@ -47,6 +47,8 @@ void allocate_as_new_does();
 [[nodiscard]] double rounded(const rational& x);
 /// hi: the nearest double; lo: the double nearest to the rest.
 [[nodiscard]] double_double long_rounded(const rational& x);
+/// long_rounded(decimal_of(x)), but for 2^-100 of its low part. Most doubles take no rational number.
+[[nodiscard]] double_double long_decimal_of(double x);
 
 template <class Number>
 [[nodiscard]] Number nearest(const rational& x) {
