@@ -91,7 +91,7 @@ TEST_CASE(
     CHECK(polynomial_at(line.moment, 1.0) == Approx(ends.at(e, 1)[1]).epsilon(1e-10).margin(1e-10));
     CHECK(polynomial_at(line.shear, 1.0) == Approx(ends.at(e, 0)[1]).epsilon(1e-10));
     const double t = 0.3, d = 1e-4;
-    const auto slope_of = [&](const std::vector<double>& p) {
+    const auto slope_of = [&](const auto& p) {
       return (polynomial_at(p, t + d) - polynomial_at(p, t - d)) / (2 * d * line.h);
     };
     const double x = line.left + t * line.h;

@@ -10,46 +10,49 @@
 namespace contct {
 namespace {
 
-double sum_of_sizes(const std::vector<double>& p) {
+using poly = line_polynomial<double>;
+
+double sum_of_sizes(const poly& p) {
   double sum = 0.0;
   for (const double x : p) sum += std::abs(x);
   return sum;
 }
 
-/// A bound on the rounding error of a line's polynomial p. Its coefficients above the cubic ones have at most
-/// 20 roundings each; two evaluations by Horner's rule and the conversion to Bernstein's form have 6 for each
-/// degree, and each of 26 bisections one for each degree. A polynomial without a cubic part is at most its
-/// largest coefficient; fitting it to the ends adds at most a quarter of that for each degree.
-double rounding_in(const std::vector<double>& p) {
+/// The largest rounding error of a line's polynomial p: its coefficients above the cubic ones have at most 20
+/// roundings each, two rounds of Horner's rule and the conversion to Bernstein's form 6 a degree, and each of
+/// 26 bisections one a degree. Of a polynomial without a cubic part the largest value is at most that of its
+/// coefficients, and the parts of Hermite's functions that fit it to the ends at most a quarter a degree
+/// more.
+double rounding_in(const poly& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// An upper bound on the amount by which a polynomial in Bernstein's form exceeds `top`; amounts below
-/// `close` do not matter. `reached`: the amount that is certainly exceeded, since the first and last
-/// coefficients are values of the polynomial.
-double above(std::vector<double> b, double top, double close, int bisections, double& reached) {
-  const double beyond = std::ranges::max(b) - top;
-  reached = std::max({reached, b.front() - top, b.back() - top});
+/// The largest amount by which a polynomial in Bernstein's form exceeds `top`; amounts below `close` do not
+/// matter. `reached`: the amount that is certain, since its first and last coefficients are values.
+double above(const poly& p, double top, double close, int bisections, double& reached) {
+  const double beyond = std::ranges::max(p) - top;
+  reached = std::max({reached, p.front() - top, p.back() - top});
   if (beyond <= reached + close || bisections == 0) return std::max(beyond, 0.0);
-  std::vector<double> left;  // de Casteljau: `b` becomes the right half
-  for (std::size_t last = b.size(); last > 0; --last) {
-    left.push_back(b.front());
-    for (std::size_t i = 0; i + 1 < last; ++i) b[i] = b[i] / 2 + b[i + 1] / 2;
+  poly left;  // P. de Casteljau
+  poly right = p;
+  for (std::size_t last = p.size(); last > 0; --last) {
+    left.push_back(right.front());
+    for (std::size_t i = 0; i + 1 < last; ++i) right[i] = right[i] / 2 + right[i + 1] / 2;
   }
-  return std::max(above(std::move(left), top, close, bisections - 1, reached),
-                  above(std::move(b), top, close, bisections - 1, reached));
+  return std::max(above(left, top, close, bisections - 1, reached),
+                  above(right, top, close, bisections - 1, reached));
 }
 
-/// Bounds the excess of p over its printed extremes, plus its distance from the value at the right end.
-double off_extremes(const std::vector<double>& p, const value_range& printed, double right_end) {
-  constexpr int bisections = 26;  // a smooth maximum is found to 4^-26 of the polynomial's change
+/// The distance of the polynomial from its printed extremes, and from the reported value at its right end.
+double off_extremes(const poly& p, const value_range& printed, double right_end) {
+  constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
   const double close = rounding_in(p);
-  std::vector<double> b = bernstein_of(p);
+  poly b = bernstein_of(p);
   double reached = 0.0;
   double beyond = above(b, printed.most.value, close, bisections, reached);
   for (double& x : b) x = -x;
   reached = 0.0;
-  beyond = std::max(beyond, above(std::move(b), -printed.least.value, close, bisections, reached));
+  beyond = std::max(beyond, above(b, -printed.least.value, close, bisections, reached));
   return beyond + std::abs(polynomial_at(p, 1.0) - right_end) + close;
 }
 
@@ -69,9 +72,8 @@ double middle_of(const std::vector<element_line>& pieces, double h) {
 /// Left of a hinge, the error of w is the cubic with the left slope and the right curvature, which is 0 up to
 /// rounding. Its functions have the same bounds, and that of the curvature is at most h^2 / 27.
 void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
-  const std::vector<value_range> printed =
-      ranges_of({b}, l, state.displacement, {}, state.numbers.element_values);
   const beam_lines lines(b, l, state.displacement, state.numbers.element_values);
+  const std::vector<value_range> printed = ranges_of(b, lines, state.displacement);
   by_quantity& error = bounds.error;
   by_quantity inside;
   for (int e = 0; e < b.elements(); ++e) {
@@ -88,7 +90,7 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
     const double of_load = 0x1p-80 * last.load_size * h;
     bounds.size.take(quantity::w, std::abs(middle_of(pieces, h)));
     for (const element_line& line : pieces) {
-      const auto off = [&](const std::vector<double>& p, std::size_t name, double right_end) {
+      const auto off = [&](const poly& p, std::size_t name, double right_end) {
         return off_extremes(p, printed[name], &line == &last ? right_end : polynomial_at(p, 1.0));
       };
       if (line.load_size != 0.0) {  // otherwise both extremes are at the ends

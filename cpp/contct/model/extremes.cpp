@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "contct/model/elements.hpp"
 #include "contct/model/line.hpp"
 
 namespace contct {
 namespace {
 
-/// The coefficients of a polynomial, constant first.
-using poly = std::vector<double>;
+using poly = line_polynomial<double>;
 
 /// A zero of p between a and b; p(a) and p(b) have different signs.
 double zero_between(const poly& p, double a, double b) {
@@ -132,7 +132,12 @@ element_results stresses(const assembled& /*a*/, const element_results& /*forces
 
 std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
                                 std::span<const int> /*deflecting*/, std::span<const double> element_values) {
-  const beam_lines lines(b, l, u, element_values);
+  return ranges_of(b, beam_lines(b, l, u, element_values), u);
+}
+
+}  // namespace
+
+std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines, std::span<const double> u) {
   const element_line first = lines.at(0);
   const auto start = [&](double value) { return placed_value{value, b.x.front(), 0.0, 0}; };
   extremes w("w", start(u[0]));
@@ -155,6 +160,8 @@ std::vector<value_range> ranges(const beam& b, const load& l, std::span<const do
   if (has_stress) all.push_back(stress.range());
   return all;
 }
+
+namespace {
 
 std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<const double> u,
                                 std::span<const int> /*deflecting*/, std::span<const double> element_values) {
@@ -192,9 +199,9 @@ std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::
 
 }  // namespace
 
-std::vector<double> bernstein_of(std::span<const double> p) {
+line_polynomial<double> bernstein_of(const line_polynomial<double>& p) {
   const std::size_t degree = p.size() - 1;
-  poly b(p.begin(), p.end());  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
+  poly b = p;  // b_j = sum over i <= j of C(j, i) / C(degree, i) p_i
   double choose = 1.0;
   for (std::size_t i = 1; i <= degree; ++i) {
     choose *= static_cast<double>(degree - i + 1) / static_cast<double>(i);
@@ -224,8 +231,10 @@ value_range deflections_between(const beam& b, const beam_lines& lines, std::spa
 
 beam_lines::beam_lines(const beam& b, const load& l, std::span<const double> u,
                        std::span<const double> element_values)
-    : beam_(b), u_(u), ends_(results_in_elements(model{b}, l, u)), pieces_(pieces_of(b, l)) {
-  if (!element_values.empty()) ends_.values.assign(element_values.begin(), element_values.end());
+    : beam_(b), u_(u), pieces_(pieces_of(b, l)) {
+  using elements = beam_elements<double>;
+  ends_ = {elements::names(), elements::places, {element_values.begin(), element_values.end()}};
+  if (element_values.empty()) ends_.values = elements(b).values(l, u);
   for (const auto& h : line<double_double>(b.x, b.runs).lengths()) h_.push_back(h.hi);
 }
 
@@ -244,10 +253,11 @@ struct line_start {
 
 template <class Number>
 struct line_of {
-  std::vector<Number> w, moment, shear;
+  line_polynomial<Number> w, moment, shear;
 
-  /// Integrates the load q(t) from the left end; `curvature` is imposed.
-  line_of(const line_start<Number>& left, const std::vector<Number>& q, const Number& h, const Number& EI,
+  /// Under the load q(t) and an imposed curvature.
+  template <class Coefficients>
+  line_of(const line_start<Number>& left, const Coefficients& q, const Number& h, const Number& EI,
           const Number& curvature)
       : w(q.size() + 4), moment(q.size() + 2), shear(q.size() + 1) {
     shear[0] = left.shear;
@@ -283,7 +293,8 @@ element_line completed(element_line line) {
   return line;
 }
 
-poly in_doubles(const std::vector<double_double>& p) {
+template <class Coefficients>
+poly in_doubles(const Coefficients& p) {
   poly rounded;
   for (const double_double& c : p) rounded.push_back(c.hi);
   return rounded;
@@ -317,7 +328,7 @@ element_line beam_lines::at(int e) const {
 /// Computed from the left end in 32 digits; then each coefficient is rounded once. The error before this
 /// rounding is below 2^-80 of load_size, which includes the largest shear and moment.
 std::vector<element_line> beam_lines::pieces(int e) const {
-  if (!is_broken(e)) return {at(e)};
+  if (!is_broken(e)) return std::vector<element_line>(1, at(e));
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
   std::vector<element_line> all;
   double size = 0.0;

@@ -2,6 +2,7 @@
 // quantity with their places.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -13,14 +14,19 @@
 
 namespace contct {
 
-/// The exact solution of EI w_xxxx = q along an element of a beam or along a piece of an element, from the
-/// displacements of the element's nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1,
-/// constant first (see polynomial_at).
+/// Coefficients along an element, constant first: under a load that is linear they need no memory of their
+/// own.
+template <class Number>
+using line_polynomial = boost::container::small_vector<Number, 6>;
+
+/// An element of a beam, or a piece of one, exactly: the solution of EI w_xxxx = q with the displacements of
+/// its nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see
+/// polynomial_at).
 struct element_line {
   double left = 0.0, h = 0.0, right = 0.0;
-  std::vector<double> w, slope, moment, shear, load;
-  double load_size = 0.0;  ///< size of the loads: `load` is off by at most 2^-89 of it
-  double curvature = 0.0;  ///< the imposed curvature
+  line_polynomial<double> w, slope, moment, shear, load;
+  double load_size = 0.0;  ///< the magnitudes of `load`, each of which is off by at most 2^-89 of it
+  double curvature = 0.0;  ///< imposed
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
@@ -50,9 +56,9 @@ class beam_lines {
   std::map<int, alike_pieces> pieces_;
 };
 
-/// The coefficients of `polynomial` in Bernstein's form. For t from 0 to 1 its values are between the least
-/// and the largest coefficient.
-[[nodiscard]] std::vector<double> bernstein_of(std::span<const double> polynomial);
+/// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the
+/// largest of them.
+[[nodiscard]] line_polynomial<double> bernstein_of(const line_polynomial<double>& polynomial);
 
 /// The values of t inside an element at which w, the moment or the shear is extreme, ascending.
 [[nodiscard]] std::vector<double> extreme_places(const element_line& line);
@@ -92,8 +98,12 @@ struct value_range {
 /// the thickness, is unknown. `forces`: results_in_elements.
 [[nodiscard]] element_results stresses_of(const model& m, const element_results& forces);
 
-/// The largest error of the stresses from stresses_of, and of the stress anywhere along a beam, if no moment
-/// has a larger error than `moment` and no stress is larger than `largest`. Nothing if there are no stresses.
+/// The same of a beam by its lines.
+[[nodiscard]] std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines,
+                                                 std::span<const double> u);
+
+/// What each of those stresses may be off by, and any along a beam, where no moment is off by more than
+/// `moment` and no stress is larger than `largest`. Nothing where there are no stresses.
 [[nodiscard]] std::optional<double> stress_error(const model& m, double moment, double largest);
 
 }  // namespace contct

@@ -101,10 +101,11 @@ template <class Polynomial, class Number>
   for (std::size_t i = p.size(); i-- > 0;) sum = sum * x + p[i];
   return sum;
 }
-template <class Number>
-[[nodiscard]] std::vector<Number> derivative(const std::vector<Number>& p) {
-  std::vector<Number> d;
-  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * Number(static_cast<int>(i)));
+template <class Polynomial>
+[[nodiscard]] Polynomial derivative(const Polynomial& p) {
+  using number = typename Polynomial::value_type;
+  Polynomial d;
+  for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * number(static_cast<int>(i)));
   return d;
 }
 /// The integral of p q over x from `from` to `to`.

@@ -83,7 +83,9 @@ json envelope_json(const problem& p, const envelope& e, const envelope_curves& a
 }
 
 json piece_json(const element_line& line) {
-  const auto ends = [](const std::vector<double>& p) -> json { return {p.front(), polynomial_at(p, 1.0)}; };
+  const auto ends = [](const line_polynomial<double>& p) -> json {
+    return {p.front(), polynomial_at(p, 1.0)};
+  };
   return {{"x", {line.left, line.right}}, {"w", ends(line.w)},         {"theta", ends(line.slope)},
           {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
 }
