@@ -46,8 +46,7 @@ std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double
   const double tilt = std::abs((own[3] - own[0]).hi) + std::abs((own[9] - own[0]).hi);
   std::array<curvature_size, 4> sizes;
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto [xi, eta] = formulas::corners[k];
-    const auto c = formulas::curvatures_at<double>(xi, eta);
+    const auto& c = formulas::corner_curvatures<double>()[k];
     for (std::size_t i = 0; i < 12; ++i) {
       const double size = std::abs(v[i].hi) + tilt;
       sizes[k].bends += size * (std::abs(c.xx[i]) / (a * a) + std::abs(c.yy[i]) / (b * b));
@@ -106,12 +105,14 @@ double least_product_of(const assembled& /*a*/) {
 
 void long_system::add_product(std::span<const double_double> u, std::span<double_double> sum,
                               std::span<double> sizes) const {
+  std::vector<double> scaled(sizes.size());
+  for (std::size_t dof = 0; dof < sizes.size(); ++dof) scaled[dof] = root[dof] * std::abs(u[dof].hi);
   for (std::size_t dof = 0; dof < dofs(); ++dof) {
     double_double of_row = sum[dof];
     double size = 0.0;
     for (const auto& [column, entry] : stiffness[dof]) {
       of_row += entry * u[column];
-      if (!sizes.empty()) size += root[column] * std::abs(u[column].hi);
+      if (!sizes.empty()) size += scaled[column];
     }
     sum[dof] = of_row;
     if (!sizes.empty()) sizes[dof] += root[dof] * size;

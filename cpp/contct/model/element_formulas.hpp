@@ -64,8 +64,19 @@ shape_curvatures<Number> curvatures_at(const Number& xi, const Number& eta) {
   return c;
 }
 
-/// Integrals over the square from -1 to 1, for every two shape functions, of w_xx w_xx, w_yy w_yy, (w_xx w_yy
-/// + w_yy w_xx) / 2 and w_xy w_xy.
+/// At the four corners.
+template <class Number>
+const std::array<shape_curvatures<Number>, 4>& corner_curvatures() {
+  static const auto all = [] {
+    std::array<shape_curvatures<Number>, 4> at{};
+    for (std::size_t k = 0; k < 4; ++k)
+      at[k] = curvatures_at<Number>(Number(corners[k].xi), Number(corners[k].eta));
+    return at;
+  }();
+  return all;
+}
+
+/// Integrals over the square from -1 to 1 of w_xx w_xx, w_yy w_yy, (w_xx w_yy + w_yy w_xx) / 2 and w_xy w_xy.
 template <class Number>
 struct bending_integrals {
   std::array<std::array<Number, 12>, 12> xx_xx{}, yy_yy{}, xx_yy{}, xy_xy{};
@@ -278,11 +289,14 @@ std::array<curvature<Number>, 4> curvatures_at_corners(const Number& a, const Nu
                                                        const std::array<Number, 12>& v) {
   std::array<curvature<Number>, 4> at{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto c = curvatures_at<Number>(Number(corners[k].xi), Number(corners[k].eta));
+    const shape_curvatures<Number>& c = corner_curvatures<Number>()[k];
+    const auto add = [](Number& sum, const Number& share, const Number& x) {
+      if (!(share == Number(0))) sum += share * x;  // most are 0
+    };
     for (std::size_t i = 0; i < 12; ++i) {
-      at[k].xx += c.xx[i] * v[i];
-      at[k].yy += c.yy[i] * v[i];
-      at[k].xy += c.xy[i] * v[i];
+      add(at[k].xx, c.xx[i], v[i]);
+      add(at[k].yy, c.yy[i], v[i]);
+      add(at[k].xy, c.xy[i], v[i]);
     }
     at[k].xx = at[k].xx / (a * a);
     at[k].yy = at[k].yy / (b * b);

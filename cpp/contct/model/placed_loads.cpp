@@ -61,7 +61,7 @@ class beam_sources {
     }
   }
 
-  [[nodiscard]] bool acts_on(int e) const { return !sources_on(e).empty(); }
+  [[nodiscard]] bool acts_on(int e) const { return !on_all_.empty() || (!on_.empty() && !on_[e].empty()); }
   [[nodiscard]] rational h(int e) const { return points_.length(e); }
   [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
@@ -86,9 +86,10 @@ class beam_sources {
       return s.values.size() == 1 && s.from <= beam_.x[std::min(e, other)] &&
              s.to >= beam_.x[std::max(e, other) + 1];
     };
-    const std::vector<std::size_t> own = sources_on(e);
-    return own == sources_on(other) && beam_.is_alike(e, other) && points_.are_equal(e, other) &&
-           std::all_of(own.begin(), own.end(), is_same_on_both);
+    const bool have_own = !on_.empty();
+    return (!have_own || on_[e] == on_[other]) && beam_.is_alike(e, other) && points_.are_equal(e, other) &&
+           std::all_of(on_all_.begin(), on_all_.end(), is_same_on_both) &&
+           (!have_own || std::all_of(on_[e].begin(), on_[e].end(), is_same_on_both));
   }
 
  private:
@@ -224,7 +225,8 @@ std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load&
   }
   for (const placed_load& r : l.placed) add_rectangle(p, r, whole, part);
   std::vector<summed_pressure<Number>> all(p.elements());
-  for (int e = 0; e < p.elements(); ++e) all[e].value = nearest<Number>(whole[e]);
+  for (int e = 0; e < p.elements(); ++e)
+    all[e].value = e > 0 && whole[e] == whole[e - 1] ? all[e - 1].value : nearest<Number>(whole[e]);
   const line<rational> along_x(p.x, p.x_runs);
   const line<rational> along_y(p.y, p.y_runs);
   for (const auto& [e, sum] : part) {
