@@ -3,16 +3,22 @@
 #pragma once
 
 #include <boost/container/flat_map.hpp>
+#include <boost/container/small_vector.hpp>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "contct/model/elements.hpp"
 
 namespace contct {
 
-/// A symmetric matrix: for each row, the entries that may differ from 0, by column.
+/// A symmetric matrix: of each row the entries that may differ from 0, by column. A beam's six need no memory
+/// of their own.
 template <class Number>
-using sparse_rows = std::vector<boost::container::flat_map<int, Number>>;
+using sparse_row = boost::container::flat_map<int, Number, std::less<int>,
+                                              boost::container::small_vector<std::pair<int, Number>, 6>>;
+template <class Number>
+using sparse_rows = std::vector<sparse_row<Number>>;
 
 /// A candidate contact pair.
 template <class Number>
@@ -68,8 +74,10 @@ struct equations {
 template <class Number, class Kind, class Elements>
 void assemble(const Kind& /*kind*/, const Elements& elements, sparse_rows<Number>& k) {
   for_each_stiffness(elements, [&k](int /*e*/, const auto& dofs, const auto& own) {
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      for (std::size_t j = 0; j < dofs.size(); ++j) k[dofs[i]][dofs[j]] += own[i][j];
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      sparse_row<Number>& row = k[dofs[i]];
+      for (std::size_t j = 0; j < dofs.size(); ++j) row[dofs[j]] += own[i][j];
+    }
   });
 }
 
