@@ -62,6 +62,7 @@ class certain_contacts {
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
   /// Can half a unit in the last digits of a matrix make K_A indefinite? False if `free_motions` is given.
   [[nodiscard]] bool last_digits_decide() const;
+  [[nodiscard]] std::optional<double> square_without_z(const long_residual& r) const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
   [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const contact_set& b) const;
   /// Removes from `closed` the pairs that may be separated; returns false if there are none.
