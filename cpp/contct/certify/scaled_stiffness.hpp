@@ -63,10 +63,12 @@ class scaled_stiffness {
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
 
  private:
-  /// S K_A S - shift I as a band or as sparse columns.
+  /// The products of a narrow band are summed in 32 digits.
+  [[nodiscard]] bool is_narrow() const { return subdiagonals_ && *subdiagonals_ <= 16; }
+  /// S K_A S - shift I, in rows of the band, or by columns.
   template <class Number>
   [[nodiscard]] band_of_numbers<Number> band(double shift) const;
-  [[nodiscard]] sparse_columns columns(double shift) const;
+  [[nodiscard]] sparse_columns columns() const;
   template <class Put>
   void each_entry(double shift, const Put& put) const;
   void solve_rows(std::span<double> x) const;
@@ -87,6 +89,8 @@ class scaled_stiffness {
   /// The off-diagonal entries of springs between two dofs; the key has both dofs.
   std::map<std::pair<int, int>, double_double> beside_;
   std::vector<double> scale_;  // S [dofs]
+  long_band narrow_;           // S K_A S as a narrow band
+  sparse_columns columns_;     // by columns, rounded
   band_matrix factor_;
   std::unique_ptr<sparse_factor> sparse_;  // used instead of factor_
   std::optional<long_band> long_;          // used instead of factor_ and sparse_
