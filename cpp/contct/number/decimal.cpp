@@ -26,14 +26,15 @@ std::string take_digits(std::string_view& rest) {
   return digits;
 }
 
-/// Removes a sign at the front; true if it is a minus.
+/// Removes a sign at the front of `rest`; returns true if the sign is a minus.
 bool take_minus(std::string_view& rest) {
   const bool minus = !rest.empty() && rest.front() == '-';
   if (minus || (!rest.empty() && rest.front() == '+')) rest.remove_prefix(1);
   return minus;
 }
 
-/// The exponent in `rest`, at most `endless`; 0 if `rest` is empty. Nothing if `rest` is not an exponent.
+/// The exponent that all of `rest`, such as "e-3", consists of: 0 if `rest` is empty, nothing if `rest` is
+/// not an exponent. Its magnitude is limited to `endless`.
 std::optional<std::int64_t> exponent_in(std::string_view rest) {
   if (rest.empty()) return 0;
   if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
@@ -46,15 +47,14 @@ std::optional<std::int64_t> exponent_in(std::string_view rest) {
   return minus ? -exponent : exponent;
 }
 
-/// The parts of a literal.
 struct written_decimal {
   bool negative, is_whole;
   std::string digits;
   std::int64_t last;  // the power of ten of the last digit
 };
 
-/// The parts of `literal`, such as "-1_000.5e-3" or "1.5D+02". Nothing if it is not a decimal: hexadecimal,
-/// infinite, empty.
+/// The parts of `literal`, such as "-1_000.5e-3" or "1.5D+02". Nothing if `literal` is not a decimal number,
+/// for example if it is hexadecimal, infinite or empty.
 std::optional<written_decimal> written_in(std::string_view literal) {
   written_decimal w{take_minus(literal), false, take_digits(literal), 0};
   w.is_whole = literal.empty();
@@ -71,7 +71,7 @@ std::optional<written_decimal> written_in(std::string_view literal) {
   return w;
 }
 
-/// The number that `literal` means; nothing if it is not a decimal.
+/// The number that `literal` means; nothing if `literal` is not a decimal.
 std::optional<decimal> decimal_in(std::string_view literal) {
   const std::optional<written_decimal> w = written_in(literal);
   if (!w) return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<decimal> decimal_in(std::string_view literal) {
 std::optional<int> last_written_digit(std::string_view literal) {
   const std::optional<written_decimal> w = written_in(literal);
   if (!w || w->is_whole) return std::nullopt;
-  constexpr std::int64_t most = 1000;  // beyond any double
+  constexpr std::int64_t most = 1000;  // larger than the power of ten of any double
   return static_cast<int>(std::clamp(w->last, -most, most));
 }
 
@@ -106,7 +106,7 @@ bool is_shortest(std::string_view literal, double x) {
 }
 
 std::string rounding_words(std::string_view literal, double x) {
-  // Without a format, to_chars writes all binary digits of a whole number beyond 2^53.
+  // Without a format, to_chars may write all digits of a whole number beyond 2^53, not only the shortest.
   std::array<char, 32> shortest{};
   char* const last = shortest.data() + shortest.size();
   const auto end = std::abs(x) < 1e16

@@ -1,4 +1,4 @@
-// Decimal literals, and the doubles that they become.
+// Decimal literals and the doubles that they are read as.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ struct decimal {
 /// not a decimal, or if it is a whole number without point and exponent, which is exact.
 [[nodiscard]] std::optional<int> last_written_digit(std::string_view literal);
 
-/// The shortest decimal that reads as `x`, which is finite.
+/// The shortest decimal that reads as the finite `x`.
 [[nodiscard]] decimal shortest_decimal(double x);
 
-/// True if `literal` is the shortest decimal that reads as `x`, or is not a decimal.
+/// True if `literal` is the shortest decimal of its double `x`, or if it is not a decimal.
 [[nodiscard]] bool is_shortest(std::string_view literal, double x);
 
-/// A warning that `literal` is not the shortest decimal: "found 0.10000000000000000555; the shortest decimal
-/// of its double, 0.1, is used everywhere".
+/// The warning that `literal` is not the shortest decimal of `x`: "found 0.10000000000000000555; the shortest
+/// decimal of its double, 0.1, is used everywhere".
 [[nodiscard]] std::string rounding_words(std::string_view literal, double x);
 
 }  // namespace contct

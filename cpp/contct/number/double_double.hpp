@@ -11,7 +11,7 @@ struct double_double {
   double hi = 0.0, lo = 0.0;
 
   constexpr double_double() = default;
-  constexpr double_double(double x) : hi(x) {}  // NOLINT(google-explicit-constructor): numbers mix
+  constexpr double_double(double x) : hi(x) {}  // NOLINT(google-explicit-constructor): for mixed sums
   constexpr double_double(int x) : hi(x) {}     // NOLINT(google-explicit-constructor)
   constexpr double_double(double h, double l) : hi(h), lo(l) {}
 

@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-// Passes through volatile, so that the compiler does not compute the result.
+// Returns x through a volatile variable, so that the compiler does not compute with x at compile time.
 double opaque(double x) {
   volatile double held = x;
   return held;
@@ -34,7 +34,7 @@ bool results_are_flushed() {
   const double smallest_normal = opaque(std::numeric_limits<double>::min());
   const double half = smallest_normal * opaque(0.5);
   volatile double held = half;
-  // Scales up before comparing: under DAZ a comparison with zero would be wrong, too.
+  // DAZ alone also makes this function return true, because the product then reads `held` as zero.
   return opaque(held) * opaque(0x1p+60) * opaque(0x1p+60) == 0.0;
 }
 
@@ -43,7 +43,7 @@ bool operands_are_flushed() {
   return subnormal * opaque(0x1p+60) == 0.0;
 }
 
-/// Optimisation flags cannot be measured, but the compiler's macros show them.
+/// Rearranged sums cannot be measured, but macros show the compiler flags that allow them.
 constexpr bool may_rearrange() {
 #if defined __FAST_MATH__ || (defined __FINITE_MATH_ONLY__ && __FINITE_MATH_ONLY__)
   return true;

@@ -1,11 +1,11 @@
-// Random numbers that are the same on every platform: splitmix64, in integer arithmetic.
+// Random numbers that are the same on every platform, unlike those of the standard library's distributions.
 #pragma once
 
 #include <cstdint>
 
 namespace contct {
 
-/// Sebastiano Vigna's splitmix64. Distributions of the standard library differ between implementations.
+/// Sebastiano Vigna's generator splitmix64.
 class random_numbers {
  public:
   explicit constexpr random_numbers(std::uint64_t seed) : state_(seed) {}

@@ -30,7 +30,8 @@ int leading_exponent(const rational& x) {
   return e;
 }
 
-/// Digits "123" with exponent -1 are "0.123": a plain decimal if that is short, otherwise with an exponent.
+/// Writes the digits "123" with exponent -1, that of the first digit, as "0.123". An exponent below -5 or
+/// above 20 is written, as in "1.23e-7".
 std::string decimal_words(std::string digits, int exponent) {
   const int count = static_cast<int>(digits.size());
   if (exponent < -5 || exponent > 20) {
@@ -43,7 +44,8 @@ std::string decimal_words(std::string digits, int exponent) {
 }
 
 #ifdef CONTCT_HAS_GMP
-/// Returns `got`, a result of malloc or realloc; calls the new handler if it is null.
+/// Returns `got`, a result of malloc or realloc, unless it is null: then calls the new handler, or else
+/// aborts.
 void* or_end(void* got) {
   if (got != nullptr) return got;
   if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
@@ -86,8 +88,8 @@ rational binary_value(double x) {
 }
 
 double rounded(const rational& x) {
-  // |x| = n 2^unit, where n < 2^53 is rounded once; subnormal numbers have fewer bits. Boost's own conversion
-  // overflows if numerator or denominator does.
+  // Rounds |x| once, to n 2^unit with a whole number n of at most 53 bits, or fewer for a subnormal number.
+  // Boost's own conversion overflows if the numerator or the denominator exceeds the largest double.
   const integer top = abs(numerator(x));
   const integer bottom = denominator(x);
   constexpr int least_unit = DBL_MIN_EXP - DBL_MANT_DIG;
@@ -115,8 +117,9 @@ double_double long_rounded(const rational& x) {
   return std::isfinite(high) ? double_double(high, rounded(x - binary_value(high))) : double_double(high);
 }
 
-/// |x| = m 2^e is the double nearest to its decimal n / 10^k, so that n 2^-(e + k) - m 5^k, which 10^k 2^-(e
-/// + k) times their difference is, is at most 5^k / 2: arithmetic modulo 2^64 finds it.
+/// The double |x| = m 2^e is the one nearest to its decimal n / 10^k. The decimal minus |x| is 2^e / 5^k
+/// times the integer n 2^-(e + k) - m 5^k, whose magnitude is at most 5^k / 2. Arithmetic modulo 2^64 gives
+/// this integer exactly, although its two terms may overflow.
 double_double long_decimal_of(double x) {
   const decimal d = shortest_decimal(x);
   int e = 0;
@@ -164,7 +167,7 @@ std::string fraction_words(const rational& x) {
 std::string short_words(const rational& x, int digits) {
   constexpr double digits_of_bit = 0.30103;
   const auto bits = static_cast<double>(length_in_bits(numerator(x)) + length_in_bits(denominator(x)));
-  if (bits * digits_of_bit <= digits + 2) {  // two more digits: the estimate may be too large
+  if (bits * digits_of_bit <= digits + 2) {  // two digits more, because the estimate may be too large
     std::string words = fraction_words(x);
     const auto counted = static_cast<int>(words.size()) - (x < 0 ? 1 : 0) - (denominator(x) == 1 ? 0 : 1);
     if (counted <= digits) return words;
@@ -178,7 +181,7 @@ std::string short_words(const rational& x, int digits) {
     shown.pop_back();
     ++exponent;
   }
-  const bool all = denominator(scaled) == 1;  // then zeros at the end can be omitted
+  const bool all = denominator(scaled) == 1;  // then the decimal is exact
   while (all && shown.size() > 1 && shown.back() == '0') shown.pop_back();
   return (x < 0 ? "-" : "") + decimal_words(shown, exponent);
 }

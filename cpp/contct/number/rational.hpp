@@ -1,4 +1,4 @@
-// Rational numbers, by GMP if it is found, and their conversion from and to decimals.
+// Rational numbers, by GMP or else by Boost, and their conversion from and to decimals.
 #pragma once
 
 #ifdef CONTCT_HAS_GMP
@@ -33,21 +33,22 @@ struct too_long : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Makes GMP call the new handler, which must not return, when memory runs out; by default GMP aborts the
+/// Makes GMP call the new handler, which must not return, when memory runs out. By default GMP aborts the
 /// process.
 void allocate_as_new_does();
 
-/// The shortest decimal that reads as the finite `x`: 1/10 for 0.1. Every number of a file has this meaning.
+/// The shortest decimal that reads as the finite `x`: 1/10 for 0.1. Numbers in files have this meaning.
 [[nodiscard]] rational decimal_of(double x);
 
 /// The exact value of a double. Throws std::domain_error if `x` is not finite.
 [[nodiscard]] rational binary_value(double x);
 
-/// The nearest double, ties to even; infinite if it is out of range.
+/// The double nearest to x, ties to even; infinite if x is out of range.
 [[nodiscard]] double rounded(const rational& x);
-/// hi: the nearest double; lo: the double nearest to the rest.
+/// hi is the double nearest to x, and lo the double nearest to x - hi; lo is 0 if hi is infinite.
 [[nodiscard]] double_double long_rounded(const rational& x);
-/// long_rounded(decimal_of(x)), but for 2^-100 of its low part. Most doubles take no rational number.
+/// long_rounded(decimal_of(x)), except that the low part may have a relative error of 2^-100 before its
+/// rounding. Most doubles need no rational numbers for it.
 [[nodiscard]] double_double long_decimal_of(double x);
 
 template <class Number>
@@ -67,12 +68,12 @@ void add(rational_vector& sum, const rational_vector& part, const rational& shar
 /// "p/q" in lowest terms, or "p".
 [[nodiscard]] std::string fraction_words(const rational& x);
 
-/// The fraction if its numerator and denominator have at most `digits` digits together; otherwise `digits`
-/// significant digits, rounded half away from 0: "0.078947368421", "-1.25e-07". Trailing zeros are omitted
-/// only if no other digits follow.
+/// The fraction if its numerator and denominator have at most `digits` digits together, as in "-208/58875".
+/// Otherwise a decimal of `digits` significant digits, rounded half away from 0: "-0.003532909", "3.333e-11".
+/// Trailing zeros are omitted only if the decimal is exact.
 [[nodiscard]] std::string short_words(const rational& x, int digits);
 
-/// The larger length in bits of the numerator and the denominator.
+/// The length of the numerator or the denominator in bits, whichever is larger.
 [[nodiscard]] std::size_t length_in_bits(const rational& x);
 
 }  // namespace contct
