@@ -30,7 +30,7 @@ neighbours graph_of(const sparse_matrix& a) {
   return {boost::construct_inplace_from_sources_and_targets, from, to, static_cast<std::uint32_t>(a.order)};
 }
 
-/// A vertex with the fewest neighbours in each connected component.
+/// For each connected component, a vertex with the fewest neighbours.
 std::deque<std::uint32_t> first_of_components(const neighbours& g) {
   std::vector<char> seen(num_vertices(g), 0);
   std::deque<std::uint32_t> firsts;

@@ -8,7 +8,7 @@
 
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
-// gfortran passes the length of each CHARACTER argument after the others.
+// gfortran passes the lengths of CHARACTER arguments after all other arguments.
 extern "C" {
 void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
                                       const int* ldab, int* info, std::size_t uplo_length);
@@ -33,9 +33,9 @@ std::vector<double> unit_scale(std::span<const double> diagonal) {
   return d;
 }
 
-/// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), from a handful of solves. dpbcon guards
-/// its solves against overflow (dlatbs): for an ill-conditioned matrix this scans the rest of the vector at
-/// every row, which takes minutes on a beam of 100,000 nodes. This function has no such guard.
+/// Hager and Higham's estimate of the 1-norm of the inverse (dlacn2), by a handful of solves. Unlike dpbcon,
+/// this function does not guard its solves against overflow: for an ill-conditioned matrix dpbcon's guard
+/// (dlatbs) scans the rest of the vector at every row, which takes minutes on a beam of 100,000 nodes.
 double norm_of_inverse(int n, const in_place_solver& solve) {
   std::vector<double> v(n);
   std::vector<double> x(n);
@@ -45,7 +45,7 @@ double norm_of_inverse(int n, const in_place_solver& solve) {
   double estimate = 0.0;
   do {
     CONTCT_FC_GLOBAL(dlacn2, DLACN2)(&n, v.data(), x.data(), isgn.data(), &estimate, &kase, isave);
-    if (kase != 0) solve(x);  // the matrix is symmetric
+    if (kase != 0) solve(x);  // dlacn2 asks for A^-1 x or A^-T x, which are equal
   } while (kase != 0);
   return estimate;
 }
@@ -96,7 +96,7 @@ stiffness_factor::stiffness_factor(const stiffness_matrix& k) : k_(k) {
   if (!k_.is_band()) sparse_ = sparse_factor::make(k_.columns());
 }
 
-/// Adds springs between two rows to the matrix for this factor, and removes them again.
+/// A spring between two rows changes an off-diagonal entry of the matrix only during this factorisation.
 bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
   std::vector<std::pair<double*, double>> own;
   for (const spring_at& s : springs) {
@@ -110,7 +110,8 @@ bool stiffness_factor::factor_columns(std::span<const spring_at> springs) {
   return done;
 }
 
-/// The norm omits the off-diagonal entries of springs between two rows, which at most double it.
+/// The norm omits the off-diagonal entries of springs between two rows. With one such spring at a row, these
+/// entries at most double the norm.
 double stiffness_factor::reciprocal_condition(std::span<const spring_at> springs) {
   const std::vector<double> diagonal = k_.diagonal_with(springs);
   if (!k_.is_band()) {

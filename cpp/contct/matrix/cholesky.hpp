@@ -1,5 +1,5 @@
-// Cholesky factors by LAPACK for bands (dpbtrf, dpbtrs) and by CHOLMOD for sparse matrices, with springs
-// added to K, and reciprocal condition numbers.
+// Cholesky factors of a stiffness matrix K with springs, by LAPACK for bands (dpbtrf, dpbtrs) and by CHOLMOD
+// for sparse matrices, and reciprocal condition numbers.
 #pragma once
 
 #include <functional>
@@ -12,49 +12,52 @@
 
 namespace contct {
 
-/// Replaces `matrix` by its Cholesky factor L, A = L L^T (dpbtrf, lower). False if a pivot is not positive.
-/// Rounding can make the factorisation succeed for a mechanism.
+/// Replaces `matrix`, A, by its Cholesky factor L with A = L L^T (dpbtrf, lower). Returns false if a pivot is
+/// not positive. Rounding can make the factorisation of a mechanism succeed.
 [[nodiscard]] bool factor(band_matrix& matrix);
 
-/// Solves A x = b in place with the factor of A (dpbtrs), for one or several right-hand sides, one after the
-/// other.
+/// Solves A x = b in place with the factor of A (dpbtrs). `b`: one or several right-hand sides, stored one
+/// after the other.
 void solve_with(const band_matrix& factor_of_a, std::span<double> b);
 
 using in_place_solver = std::function<void(std::span<double>)>;
 
-/// The LAPACK in use: its version by ILAVER and the library that contains dpbtrf, as in "LAPACK 3.11.0,
-/// liblapack.so.3.11.0"; if OpenBLAS is loaded, also its configuration. Results of solves differ between
-/// these libraries; the calls of CONTCT do not.
+/// Describes the LAPACK in use: its version by ILAVER and the library that contains dpbtrf, as in "LAPACK
+/// 3.11.0, liblapack.so.3.11.0"; if OpenBLAS is loaded, also its configuration. Results of solves depend on
+/// these libraries; the CONTCT kernels do not use them.
 [[nodiscard]] std::string lapack_identity();
 
-/// Reciprocal condition number in the 1-norm of `k`, with `diagonal` [rows] as its diagonal and scaled to a
-/// unit diagonal, which makes it independent of units: 1 / (norm of A times norm of its inverse). Estimated
-/// as by dpbcon, in linear time. `solve` solves with the unscaled matrix.
+/// Estimates the reciprocal condition number in the 1-norm of A, which is `k` with `diagonal` [rows] as its
+/// diagonal, scaled to a unit diagonal: 1 / (norm of A times norm of its inverse). The scaling makes the
+/// number independent of units. 0 if an entry of `diagonal` is not positive. `solve` solves with the unscaled
+/// matrix, a few times.
 [[nodiscard]] double reciprocal_condition(const stiffness_matrix& k, std::span<const double> diagonal,
                                           const in_place_solver& solve);
 
-/// Whole decimal digits that a solution keeps: -log10(eps / rcond), from 0 to 15.
+/// The number of whole decimal digits, from 0 to 15, that a solution keeps: -log10(eps / rcond), eps = 2^-53.
 [[nodiscard]] int digits_left(double rcond);
 
-/// K with springs, factored by LAPACK if K is a band, otherwise by CHOLMOD. Memory: a factor; for a sparse K
-/// also a copy of its entries.
+/// K with springs, factored by LAPACK if K is a band, otherwise by CHOLMOD. Memory: one factor; for a sparse
+/// K also a copy of its entries.
 class stiffness_factor {
  public:
   /// `k` must outlive this object.
   explicit stiffness_factor(const stiffness_matrix& k);
 
-  /// With an existing factor of K; `k` is not stored as a band.
+  /// Uses `of_k`, an object that factors K, instead of making one. `k` must be stored by columns, and outlive
+  /// this object.
   stiffness_factor(const stiffness_matrix& k, std::unique_ptr<sparse_factor> of_k)
       : k_(k), sparse_(std::move(of_k)) {}
 
-  /// False if a pivot is not positive. Rounding can make the factorisation succeed for a mechanism.
+  /// Factors K with `springs`. Returns false if a pivot is not positive. Rounding can make the factorisation
+  /// of a mechanism succeed.
   [[nodiscard]] bool factor(std::span<const spring_at> springs) {
     if (sparse_) return factor_columns(springs);
     assemble(springs);
     return contct::factor(band_);
   }
 
-  /// Solves in place, by rows, for one or several right-hand sides, one after the other.
+  /// Solves in place. `b`: right-hand sides, one after the other, each in the order of K's rows.
   void solve(std::span<double> b) {
     if (sparse_) return sparse_->solve(b);
     solve_with(band_, b);
@@ -67,12 +70,12 @@ class stiffness_factor {
     return static_cast<double>(k_.order()) * kd * kd;
   }
 
-  /// Reciprocal condition of K with `springs`, its diagonal scaled to 1; 0 if it cannot be factored.
-  /// Overwrites the factor.
+  /// The reciprocal condition number of K with `springs`, scaled to a unit diagonal; 0 if this matrix cannot
+  /// be factored. Overwrites the factor.
   [[nodiscard]] double reciprocal_condition(std::span<const spring_at> springs);
 
  private:
-  /// Overwrites the last factor.
+  /// Writes K with `springs` into band_, over the last factor.
   void assemble(std::span<const spring_at> springs) {
     band_ = k_.band();
     for (const spring_at& s : springs) {

@@ -9,7 +9,8 @@
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 extern "C" {
-// Only its address is used; declared as in cholesky.cpp, because release builds compile both files together.
+// Only the address of dpbtrf is used. It is declared as in cholesky.cpp, because release builds compile both
+// files together.
 void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
                                       const int* ldab, int* info, std::size_t uplo_length);
 void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
@@ -18,8 +19,8 @@ void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 namespace contct {
 namespace {
 
-/// The name of the library file that contains the loaded dpbtrf, without its folder; empty if it is not
-/// found. Throws bad_alloc.
+/// The file name of the library that contains the loaded dpbtrf; empty if dladdr does not find the library.
+/// Throws std::bad_alloc.
 std::string library_of_dpbtrf() {
   Dl_info found{};
   // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses
@@ -31,7 +32,7 @@ std::string library_of_dpbtrf() {
   return (wrong ? std::filesystem::path(found.dli_fname) : real).filename().string();
 }
 
-/// The configuration and core type of OpenBLAS; empty if it is not loaded.
+/// The configuration and core type of OpenBLAS; empty if OpenBLAS is not loaded.
 std::string openblas_identity() {
   using configuration = char*();
   // NOLINTNEXTLINE(*-reinterpret-cast)

@@ -18,7 +18,7 @@ __attribute__((weak)) void omp_set_max_active_levels(int levels);
 namespace contct {
 namespace {
 
-/// Keeps this thread from starting OpenMP threads. CHOLMOD asks for four threads to copy a supernode:
+/// Keeps this thread from starting OpenMP threads. CHOLMOD requests four threads to copy a supernode;
 /// starting them and waiting for them took a sixth of the time of a plate's path.
 class no_openmp_threads {
  public:
@@ -44,8 +44,8 @@ T* made(T* by_cholmod) {
   return by_cholmod;
 }
 
-/// CHOLMOD's settings and workspace. It must not be copied; `cholmod`, its only owner, cannot be copied
-/// either.
+/// CHOLMOD's settings and workspace. A workspace must not be copied; its only owner, `cholmod`, cannot be
+/// copied.
 struct workspace : cholmod_common {
   workspace() : cholmod_common{} {
     cholmod_start(this);
@@ -56,8 +56,8 @@ struct workspace : cholmod_common {
   ~workspace() { cholmod_finish(this); }
 };
 
-/// One row of up to eight right-hand sides. They are solved together, so that the factor is read from memory
-/// once. CHOLMOD's own solve leaves this to BLAS; the reference BLAS takes twice as long.
+/// One row of up to eight right-hand sides, which are solved together, so that the factor is read from memory
+/// only once. CHOLMOD's own solve calls BLAS for this, and takes twice as long with the reference BLAS.
 using row_of_block = std::array<double, 8>;
 
 /// A supernode of CHOLMOD's L: neighbouring columns with the same rows below them, stored as one dense block.
@@ -69,8 +69,8 @@ class supernode {
         height_(static_cast<const int*>(l.pi)[number + 1] - static_cast<const int*>(l.pi)[number]),
         width_(static_cast<const int*>(l.super)[number + 1] - static_cast<const int*>(l.super)[number]) {}
 
-  /// Solves L Y = B for these columns. Returns at once if their rows of B are 0, as is usual for unit
-  /// vectors.
+  /// Does the part of solving L Y = B, in place, that belongs to this supernode's columns. Returns at once if
+  /// B is 0 in the rows of these columns, as is usual for unit vectors.
   void go_forward(std::vector<row_of_block>& b) const {
     const auto is_zero = [](const row_of_block& r) { return r == row_of_block{}; };
     if (std::all_of(rows_, rows_ + width_, [&](int row) { return is_zero(b[row]); })) return;
@@ -83,7 +83,7 @@ class supernode {
     }
   }
 
-  /// Solves L^T X = Y for these columns.
+  /// Does the part of solving L^T X = Y, in place, that belongs to this supernode's columns.
   void go_back(std::vector<row_of_block>& b) const {
     for (int j = width_; j-- > 0;) {
       const double* const column = entries_ + std::size_t{1} * j * height_;
@@ -107,7 +107,7 @@ class supernode {
 class cholmod final : public sparse_factor {
  public:
   explicit cholmod(sparse_columns a) : a_(std::move(a)) {
-    const bool large = a_.order() >= 25'000;  // METIS takes longer, but its order saves more
+    const bool large = a_.order() >= 25'000;  // METIS takes longer, but its order saves more than that
     order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
                    : std::initializer_list<int>{CHOLMOD_AMD});
     cholmod_sparse view = view_of_a();
@@ -170,7 +170,7 @@ class cholmod final : public sparse_factor {
   [[nodiscard]] double flops() const override { return work_.fl; }
 
  private:
-  /// Allocates a factor in this order, and vectors for solves.
+  /// Allocates a factor with the rows in the order of order_, and vectors for solves.
   void prepare() {
     factor_ = made(cholmod_copy_factor(order_, &work_));
     // x_, y_ and e_ are for cholmod_solve2, which crashes if it cannot allocate them itself.
@@ -182,7 +182,7 @@ class cholmod final : public sparse_factor {
     for (int i = 0; i < a_.order(); ++i) places_[order[i]] = i;
   }
 
-  /// Makes CHOLMOD take the best of these orders.
+  /// Makes CHOLMOD try all of these orderings and take the best one.
   void order_by(std::initializer_list<int> orders) {
     work_.nmethods = 0;
     for (const int order : orders) work_.method[work_.nmethods++].ordering = order;
@@ -211,7 +211,7 @@ class cholmod final : public sparse_factor {
     std::copy_n(static_cast<const double*>(x_->x), b.size(), b.begin());
   }
 
-  /// Solves for as many right-hand sides as a row_of_block has, or fewer.
+  /// Solves for at most as many right-hand sides as a row_of_block has numbers.
   void solve_block(std::span<double> b) {
     const std::size_t n = factor_->n;
     block_.assign(n, {});
@@ -223,7 +223,7 @@ class cholmod final : public sparse_factor {
 
   workspace work_;
   sparse_columns a_;
-  std::vector<int> places_;          // the factor's row of each row of A
+  std::vector<int> places_;          // [rows of A] the row in the factor
   cholmod_factor* order_ = nullptr;  // symbolic factor: the order of rows
   cholmod_factor* factor_ = nullptr;
   std::vector<row_of_block> block_;  // [rows of the factor]

@@ -1,5 +1,5 @@
-// CHOLMOD's Cholesky factor of a sparse matrix. Builds without CHOLMOD have this header too, but cannot make
-// a factor.
+// CHOLMOD's Cholesky factor of a sparse matrix. Builds without CHOLMOD can include this header, but cannot
+// make a factor.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace contct {
 
-/// The factor of a symmetric positive definite matrix A, with rows ordered for little fill. Rows are numbered
-/// as in A, from 0.
+/// The factor of a symmetric positive definite matrix A, whose rows it orders for little fill. Diagonals and
+/// right-hand sides are in the order of A.
 class sparse_factor {
  public:
   /// True if CHOLMOD is built in.
   [[nodiscard]] static bool available();
 
-  /// Finds the order of rows by AMD; if there are many rows, by METIS or AMD, whichever is better. Keeps A.
-  /// Throws std::bad_alloc, and std::logic_error if CHOLMOD is not built in.
+  /// Stores `a` as A and orders its rows by AMD; many rows by METIS or AMD, whichever is better. Does not
+  /// factor A. Throws std::bad_alloc, and std::logic_error if CHOLMOD is not built in.
   [[nodiscard]] static std::unique_ptr<sparse_factor> make(sparse_columns a);
 
   sparse_factor() = default;
@@ -28,29 +28,29 @@ class sparse_factor {
   sparse_factor(const sparse_factor&) = delete;
   sparse_factor& operator=(const sparse_factor&) = delete;
 
-  /// Bytes of the factor in dense blocks; known before it is computed.
+  /// The bytes of the factor, stored in dense blocks; known before A is factored.
   [[nodiscard]] virtual std::int64_t bytes() const = 0;
 
-  /// Factors A with `diagonal` [order] as its diagonal. False if a pivot is not positive. Throws
+  /// Factors A with `diagonal` [order] as its diagonal. Returns false if a pivot is not positive. Throws
   /// std::bad_alloc.
   [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
-  /// A, for changes of off-diagonal entries before the next `factor`. Throws std::logic_error if MPI ranks
-  /// share the factor.
+  /// Returns A, so that the caller can change off-diagonal entries before the next `factor`. Throws
+  /// std::logic_error if MPI ranks share the factor.
   [[nodiscard]] virtual sparse_columns& matrix() {
     throw std::logic_error("this factor's matrix cannot be changed");
   }
 
-  /// Solves A x = b in place, for one or several right-hand sides, one after the other. Throws
+  /// Solves A x = b in place. `b`: one or several right-hand sides, one after the other. Throws
   /// std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
 
-  /// L by columns; row i of A is row places()[i] of L. Afterwards the factor cannot solve any more.
+  /// Returns L by columns; row i of A is row places()[i] of L. Afterwards the factor cannot solve any more.
   [[nodiscard]] virtual sparse_columns lower() = 0;
   [[nodiscard]] virtual const std::vector<int>& places() const = 0;
 
-  /// Makes a factor of another matrix with entries at the same positions, in the same order of rows. Throws
-  /// as `make` does, and std::logic_error if MPI ranks share this factor.
+  /// Makes a factor of `a`, whose entries are at the same positions as those of A, with the same order of
+  /// rows. Throws as `make` does, and std::logic_error if MPI ranks share this factor.
   [[nodiscard]] virtual std::unique_ptr<sparse_factor> likewise(const sparse_columns& /*a*/) const {
     throw std::logic_error("this factor's order cannot be taken over");
   }

@@ -15,8 +15,8 @@ int place_of(int row, std::span<const int> rows) {
   return rows.empty() ? row : rows[row];
 }
 
-/// Calls on(column, value) for each diagonal entry and below(row, column, value) for the others, column by
-/// column. `Stored`: the variant of storages, const or not.
+/// Calls on(column, value) for each diagonal entry and below(row, column, value) for each stored entry below
+/// the diagonal, column by column. `Stored`: the variant of the two storages, const or not.
 template <class Stored, class On, class Below>
 void each_entry(Stored& stored, On on, Below below) {
   if (auto* const band = std::get_if<band_matrix>(&stored)) {
@@ -86,7 +86,8 @@ band_matrix band_of(const sparse_matrix& a, std::span<const int> rows) {
 
 namespace {
 
-/// By row or by column, in linear time; equal ones in the order that they had.
+/// Sorts entries by `place`, which is their row or their column, in linear time. Entries with the same
+/// `place` keep their order.
 std::vector<matrix_entry> sorted_by(int matrix_entry::*place, const std::vector<matrix_entry>& all,
                                     std::size_t order) {
   std::vector<std::size_t> next(order + 1);

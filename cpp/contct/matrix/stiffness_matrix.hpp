@@ -23,7 +23,7 @@ namespace contct {
 ///         a31 a32 a33                  column 3: a33 a43  *
 ///             a42 a43 a44              column 4: a44  *   *
 ///
-/// The places marked * are allocated but never read. Memory: 8 (kd + 1) bytes a row.
+/// The places marked * are allocated but never read. Memory for doubles: 8 (kd + 1) bytes a row.
 template <class Number>
 class band_of_numbers {
  public:
@@ -34,12 +34,12 @@ class band_of_numbers {
   [[nodiscard]] int order() const { return order_; }
   [[nodiscard]] int subdiagonals() const { return subdiagonals_; }
 
-  /// Entry (row, column), row >= column, row - column <= kd.
+  /// Entry (row, column), where row >= column and row - column <= kd.
   [[nodiscard]] Number& at(std::size_t row, std::size_t column) { return entries_[place(row, column)]; }
   [[nodiscard]] const Number& at(std::size_t row, std::size_t column) const {
     return entries_[place(row, column)];
   }
-  /// The first column of `row` inside the band.
+  /// The first column that the band has in `row`.
   [[nodiscard]] int first(int row) const { return row < subdiagonals_ ? 0 : row - subdiagonals_; }
 
   /// Adds `value` at (row, column) and, by symmetry, at (column, row).
@@ -70,50 +70,49 @@ struct matrix_entry {
   double value;
 };
 
-/// A symmetric matrix as other programs write it: single entries, each place of the lower triangle at most
-/// once; all other entries are 0. 16 bytes an entry.
+/// A symmetric matrix as other programs write it: entries of the lower triangle, each place at most once. All
+/// other places of this triangle are 0. Memory: 16 bytes an entry.
 struct sparse_matrix {
   int order = 0;
   std::vector<matrix_entry> entries;
   /// [entries] the power of ten of each entry's last digit in the file, or exact_entry if the entry was not
-  /// rounded. Empty: all are exact.
+  /// rounded. Empty: all entries are exact.
   std::vector<std::int16_t> last_digits = {};
   static constexpr std::int16_t exact_entry = -32768;
-  /// Half a unit in the last digit of an entry.
+  /// Half a unit in the last digit of an entry; 0 if the entry is exact.
   [[nodiscard]] double half_unit(std::size_t entry) const {
     if (last_digits.empty() || last_digits[entry] == exact_entry) return 0.0;
     return 0.5 * std::pow(10.0, last_digits[entry]);
   }
 
-  /// The uncertainty of x'A x: half a unit in the last digit of each entry, plus the rounding of a program
-  /// that sums each entry in doubles, two units in the last place of the diagonals.
+  /// The uncertainty of x'A x. Each entry a_ij may be off by half a unit in its last digit, and by the
+  /// rounding of the program that summed it in doubles: two units in the last place of sqrt(a_ii a_jj).
   [[nodiscard]] double doubt(std::span<const double> x) const;
 
-  /// y = A x in long double.
+  /// Returns A x, computed in long double.
   [[nodiscard]] std::vector<long double> times(std::span<const double> x) const;
 };
 
-/// The largest distance of an entry from the diagonal, if row i of the matrix is at `rows[i]`; at i if `rows`
-/// is empty.
+/// The number of subdiagonals of `a` as a band, where row i of `a` is row rows[i], or i if `rows` is empty.
 [[nodiscard]] int subdiagonals_of(const sparse_matrix& a, std::span<const int> rows);
 
-/// Bytes of `a` as a band in the order `rows`.
+/// The bytes of band_of(a, rows).
 [[nodiscard]] inline std::int64_t bytes_of_band(const sparse_matrix& a, std::span<const int> rows) {
   return std::int64_t{8} * a.order * (subdiagonals_of(a, rows) + 1);
 }
 
-/// `a` as a band in the order `rows`.
+/// Converts `a` to a band, where row i of `a` is row rows[i], or i if `rows` is empty.
 [[nodiscard]] band_matrix band_of(const sparse_matrix& a, std::span<const int> rows);
 
-/// The row of each dof, from 0, in an order with a small bandwidth, by reverse Cuthill and McKee; empty if
-/// the order of `a` is as good. Linear in the entries, except for sorting neighbours by their degree. It has
-/// its own source file, which needs Boost.Graph.
+/// [order] for each row of `a` the row, from 0, in a band with few subdiagonals, by reverse Cuthill and
+/// McKee; empty if the given order is as good. Takes time linear in the entries, except that neighbours are
+/// sorted by degree.
 [[nodiscard]] std::vector<int> rows_for_small_band(const sparse_matrix& a);
 
-/// The lower triangle by columns, from 0. Every column begins with its diagonal entry, which may be 0.
-/// Memory: 12 bytes an entry.
+/// The lower triangle of a symmetric matrix, by columns; rows and columns count from 0. Every column begins
+/// with its diagonal entry, which may be 0. Memory: 12 bytes an entry.
 struct sparse_columns {
-  /// [order + 1] the place of each column's diagonal, then the number of entries.
+  /// [order + 1] the index of each column's diagonal entry in `rows` and `values`; last, their size.
   std::vector<int> starts = {0};
   std::vector<int> rows;       ///< [entries] ascending within a column
   std::vector<double> values;  ///< [entries]
@@ -121,18 +120,19 @@ struct sparse_columns {
   [[nodiscard]] int order() const { return static_cast<int>(starts.size()) - 1; }
   [[nodiscard]] double& diagonal(std::size_t row) { return values[starts[row]]; }
   [[nodiscard]] double diagonal(std::size_t row) const { return values[starts[row]]; }
-  /// A stored entry below the diagonal. Throws std::out_of_range if the entry is not stored.
+  /// The stored entry (row, column), where row >= column. Throws std::out_of_range if there is none.
   [[nodiscard]] double& at(int row, int column);
 };
 
-/// `a` by columns. Throws std::length_error if there are more entries than an int can count.
+/// Converts `a` to columns. Throws std::length_error if there are more entries than an int can count.
 [[nodiscard]] sparse_columns columns_of(const sparse_matrix& a);
 
-/// `a` by columns, without its zeros.
+/// Converts `a` to columns, without zeros off the diagonal.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
-/// A spring at one row: its stiffness is added to the diagonal. If `other` >= 0, a spring between two rows:
-/// -stiffness is also added off the diagonal, where the matrix must have an entry.
+/// A spring at one row: `stiffness` is added to the diagonal. If `other` >= 0, a spring between two rows:
+/// `stiffness` is added to both diagonal entries, and subtracted from the entry off the diagonal, which the
+/// matrix must have.
 struct spring_at {
   int row = 0;
   double stiffness = 0.0;
@@ -157,7 +157,7 @@ class stiffness_matrix {
   }
 
   [[nodiscard]] bool is_band() const { return std::holds_alternative<band_matrix>(stored_); }
-  /// The following throw std::bad_variant_access if K has another storage.
+  /// band() and columns() throw std::bad_variant_access if K is stored in the other way.
   [[nodiscard]] band_matrix& band() { return std::get<band_matrix>(stored_); }
   [[nodiscard]] const band_matrix& band() const { return std::get<band_matrix>(stored_); }
   [[nodiscard]] sparse_columns& columns() { return std::get<sparse_columns>(stored_); }
@@ -171,29 +171,30 @@ class stiffness_matrix {
   }
   void add_to_diagonal(std::size_t row, double value) { diagonal(row) += value; }
 
-  /// [rows] the diagonal of K with springs.
+  /// The diagonal of K with `springs` [rows].
   [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
-  /// The entries off the diagonal, of both triangles, in the columns that are marked in `columns` [rows].
+  /// The entries off the diagonal that are not 0, from both triangles, in every column that is marked in
+  /// `columns` [rows].
   [[nodiscard]] std::vector<matrix_entry> entries_in(std::span<const char> columns) const;
-  /// Clears every row and column r with `pivots[r]` > 0 [rows], and sets its diagonal entry to this pivot.
+  /// Where pivots[r] > 0 [rows]: clears row r and column r, and sets their diagonal entry to pivots[r].
   void fix(std::span<const double> pivots);
-  /// Replaces K by D K D, where D is diagonal: `d` [rows].
+  /// Replaces K by D K D, where D is the diagonal matrix of `d` [rows].
   void scale(std::span<const double> d);
 
-  /// r = r - K x, computed in long double.
+  /// Subtracts K x from r, in long double.
   void subtract_product(std::span<const double> x, std::span<long double> r) const;
   void subtract_product(std::span<const long double> x, std::span<long double> r) const;
 
-  /// The largest column sum of magnitudes of D K D, where D is diagonal, `d` [rows], and `diagonal` [rows] is
-  /// used as the diagonal of K.
+  /// The 1-norm (largest column sum of magnitudes) of D K D, where D is the diagonal matrix of `d` [rows],
+  /// and K has `diagonal` [rows] as its diagonal.
   [[nodiscard]] double one_norm(std::span<const double> diagonal, std::span<const double> d) const;
 
  private:
   std::variant<band_matrix, sparse_columns> stored_;
 };
 
-/// K by columns, if it is a band with more zeros than other entries, as for a plate: products with it are the
-/// same to the bit and take a tenth of the time. Otherwise nothing.
+/// K by columns, if K is a band and more than half of its entries are 0, as for a plate; otherwise nothing.
+/// Products with K have the same bits in both storages, and by columns they take a tenth of the time.
 [[nodiscard]] std::optional<stiffness_matrix> without_zeros(const stiffness_matrix& k);
 
 }  // namespace contct
