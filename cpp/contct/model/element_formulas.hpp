@@ -14,7 +14,8 @@
 
 namespace contct {
 
-/// The magnitude that rounding errors are relative to; 0 for rational numbers, which have no rounding errors.
+/// The magnitude that the rounding errors of a double_double are relative to. 0 for rational numbers, which
+/// have no rounding errors, and for doubles, for which no size is needed.
 template <class Number>
 [[nodiscard]] double size_of(const Number& /*x*/) {
   return 0.0;
@@ -33,8 +34,9 @@ struct corner {
 };
 inline constexpr std::array<corner, 4> corners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
 
-/// Second derivatives of the twelve shape functions by xi and eta. The shape functions of the corner at
-/// (xi_k, eta_k) are, with u = xi xi_k and v = eta eta_k,
+/// The second derivatives of the twelve shape functions by xi and eta, which are -1 and 1 at the edges of an
+/// element. With u = xi xi_k, v = eta eta_k, half the width a and half the height b, the shape functions of
+/// the dofs w, wx and wy at the corner (xi_k, eta_k) are
 ///     w       (1 + u)(1 + v)(2 + u + v - u^2 - v^2) / 8
 ///     a wx    xi_k (1 + u)^2 (u - 1)(1 + v) / 8
 ///     b wy    eta_k (1 + v)^2 (v - 1)(1 + u) / 8
@@ -43,7 +45,6 @@ struct shape_curvatures {
   std::array<Number, 12> xx{}, yy{}, xy{};
 };
 
-/// The second derivatives at (xi, eta), each from -1 to 1.
 template <class Number>
 shape_curvatures<Number> curvatures_at(const Number& xi, const Number& eta) {
   shape_curvatures<Number> c;
@@ -64,7 +65,7 @@ shape_curvatures<Number> curvatures_at(const Number& xi, const Number& eta) {
   return c;
 }
 
-/// At the four corners.
+/// curvatures_at the four corners; computed only once.
 template <class Number>
 const std::array<shape_curvatures<Number>, 4>& corner_curvatures() {
   static const auto all = [] {
@@ -76,7 +77,8 @@ const std::array<shape_curvatures<Number>, 4>& corner_curvatures() {
   return all;
 }
 
-/// Integrals over the square from -1 to 1 of w_xx w_xx, w_yy w_yy, (w_xx w_yy + w_yy w_xx) / 2 and w_xy w_xy.
+/// [i][k] the integrals over xi and eta from -1 to 1 of products of the second derivatives of shape functions
+/// i and k: xx xx, yy yy, (xx yy + yy xx) / 2 and xy xy.
 template <class Number>
 struct bending_integrals {
   std::array<std::array<Number, 12>, 12> xx_xx{}, yy_yy{}, xx_yy{}, xy_xy{};
@@ -88,8 +90,8 @@ struct weighted_place {
   Number at, weight;
 };
 
-/// Boole's rule, whose points and weights are rational: it is exact for degree 5, and the integrands have
-/// degree 4. For doubles: Gauss's three points.
+/// Boole's rule, whose points and weights are rational. It is exact for degree 5, and the integrands have
+/// degree 4 in xi and in eta. For doubles: Gauss's three points.
 template <class Number>
 std::vector<weighted_place<Number>> places_of_integration() {
   std::vector<weighted_place<Number>> all;
@@ -122,7 +124,7 @@ bending_integrals<Number> integrate() {
   return sum;
 }
 
-/// q(left + t h) as a polynomial in t, by Horner's rule.
+/// The coefficients, in t, of q(left + t h), where `polynomial` has those of q(x). By Horner's rule.
 template <class Number>
 std::vector<Number> in_element(std::span<const Number> polynomial, const Number& left, const Number& h) {
   std::vector<Number> q;
@@ -145,8 +147,8 @@ std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Numb
   return {{{k, m, -k, m}, {m, near, -m, far}, {-k, -m, k, -m}, {m, far, -m, near}}};
 }
 
-/// Shear at both ends and moment at both ends of a Hermite element without load, from its displacements `u`.
-/// Rotations are taken relative to the chord, because a large rigid-body motion would cancel digits.
+/// Shear at the left and right end, then moment at the left and right end, of a Hermite element without load.
+/// Rotations are taken relative to the chord: otherwise a large rigid-body motion would cancel digits.
 template <class Number>
 std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
   const Number chord = (u[2] - u[0]) / h;
@@ -159,11 +161,11 @@ std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::sp
   return {v, v, -m1, m2};
 }
 
-// A released element carries no moment at its right end. The rotation of this end, -(3 / 2h (w1 - w2) +
-// theta1 / 2) plus the rotation by loads on the element, is condensed out.
+// A released element has a hinge at its right end, so that its moment is 0 there. The rotation of this end is
+// condensed out: -(3 / 2h (w1 - w2) + theta1 / 2), plus the rotation by loads on the element.
 
-/// Condensation subtracts these factors, times the load on the right rotation, from the loads on the other
-/// three dofs.
+/// The factors of condensation: the load on the right rotation times these factors is subtracted from the
+/// loads on the other three dofs.
 template <class Number>
 std::array<Number, 3> released_shares(const Number& h) {
   const Number along = Number(3) / 2 / h;
@@ -186,8 +188,8 @@ std::array<Number, 4> released_end_forces(const Number& EI, const Number& h, std
   return {moment / h, moment / h, -moment, Number(0)};
 }
 
-/// Work of the load a0 + a1 x + .. on the shape functions of the element from `left` to left + h, in doubles.
-/// The load is evaluated at Gauss points: as a polynomial in t it would lose digits far from x = 0.
+/// Work of the load a0 + a1 x + .. on the shape functions of the element from `left` to left + h. The load is
+/// evaluated at Gauss points: its coefficients in t = (x - left) / h would lose digits far from x = 0.
 inline std::array<double, 4> beam_load_between(std::span<const double> polynomial, double left, double h) {
   if (polynomial.size() == 1) {
     const double q = polynomial[0];
@@ -205,8 +207,8 @@ inline std::array<double, 4> beam_load_between(std::span<const double> polynomia
   return f;
 }
 
-// A plate's element is computed in xi = x / a and eta = y / b, from -1 to 1, and in the dofs w, a wx, b wy,
-// which are all lengths. Units and aspect ratio enter last.
+// A plate's element is computed in xi = x / a and eta = y / b, where x and y count from its middle, and in
+// the dofs w, a wx, b wy, which are all lengths. Units and aspect ratio enter last.
 
 /// The factors that convert the dofs w, wx, wy to w, a wx, b wy.
 template <class Number>
@@ -248,8 +250,8 @@ std::array<std::array<Number, 12>, 12> plate_stiffness(const Number& a, const Nu
   return k;
 }
 
-/// `u` in the dofs w, a wx, b wy, minus the plane through corners 0, 1 and 3: a large rigid-body motion would
-/// cancel the digits of the bending.
+/// Converts the displacements `u` to the dofs w, a wx, b wy, and subtracts the plane through the deflections
+/// of corners 0, 1 and 3: otherwise a large rigid-body motion would cancel the digits of the bending.
 template <class Number>
 std::array<Number, 12> plate_deformation(const Number& a, const Number& b, const std::array<Number, 12>& u) {
   const Number along_x = u[3] - u[0];
@@ -283,7 +285,7 @@ struct curvature {
   Number xx{}, yy{}, xy{};
 };
 
-/// w_xx, w_yy and w_xy at the four corners for the deformation `v`.
+/// w_xx, w_yy and w_xy at the four corners for `v`, a plate_deformation.
 template <class Number>
 std::array<curvature<Number>, 4> curvatures_at_corners(const Number& a, const Number& b,
                                                        const std::array<Number, 12>& v) {
@@ -291,7 +293,7 @@ std::array<curvature<Number>, 4> curvatures_at_corners(const Number& a, const Nu
   for (std::size_t k = 0; k < 4; ++k) {
     const shape_curvatures<Number>& c = corner_curvatures<Number>()[k];
     const auto add = [](Number& sum, const Number& share, const Number& x) {
-      if (!(share == Number(0))) sum += share * x;  // most are 0
+      if (!(share == Number(0))) sum += share * x;  // most shares are 0
     };
     for (std::size_t i = 0; i < 12; ++i) {
       add(at[k].xx, c.xx[i], v[i]);

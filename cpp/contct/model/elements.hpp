@@ -1,5 +1,5 @@
 // The elements of beams and plates: stiffness, loads and results. `Number` is double, double_double or
-// rational. equations.hpp and `build` assemble a structure from these classes.
+// rational. equations_of and `build` assemble a structure from these classes.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@
 
 namespace contct {
 
-/// The work of loads on the shape functions of one element. `size`: the sum of the magnitudes of its terms.
+/// The work of loads on the shape functions of one element. `size`: for each number of `force`, the sum of
+/// the magnitudes of its terms; see size_of.
 template <class Number, std::size_t Dofs>
 struct element_work {
   std::array<int, Dofs> dofs{};
@@ -47,8 +48,8 @@ class beam_elements {
                           : formulas::beam_stiffness(EI(e), h_[e]);
   }
 
-  /// Calls visit(element, work) with the work of all loads on an element together. In doubles, if no load is
-  /// placed, calls it for each distributed load separately.
+  /// Calls visit(element, work) once for each loaded element, with the work of all its loads. In doubles, if
+  /// no load is placed: once for each distributed load and each element that it acts on.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
     if constexpr (std::is_same_v<Number, double>) {
@@ -80,7 +81,7 @@ class beam_elements {
     return forces;
   }
 
-  /// The parts of element_results: names, places in an element, values.
+  /// names, places and values: the members of element_results.
   [[nodiscard]] static std::vector<std::string_view> names() { return {"shear", "moment"}; }
   static constexpr int places = 2;
   [[nodiscard]] std::vector<Number> values(const load& l, std::span<const Number> u) const {
@@ -90,7 +91,7 @@ class beam_elements {
     return all;
   }
 
-  /// Adds to `need` [dofs] the forces of the adjacent elements at each dof, minus their loads.
+  /// Adds to `need` [dofs] the forces of adjacent elements, minus the loads on these elements.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
     const auto forces = end_forces(l, u);
     for (std::size_t e = 0; e < forces.size(); ++e) {
@@ -110,7 +111,7 @@ class beam_elements {
     return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], u)
                           : formulas::beam_end_forces<Number>(EI(e), h_[e], u);
   }
-  /// `work`, after condensing the load on a released right end.
+  /// Returns `work` after condensing out the load on a released right end.
   [[nodiscard]] element_work<Number, 4> condensed(int e, element_work<Number, 4> work) const {
     if (!is_released(e)) return work;
     const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e]);
@@ -175,7 +176,7 @@ class plate_elements {
     return sums;
   }
 
-  /// Calls visit(element, work) for every element, with the work of all loads on it.
+  /// If there are loads, calls visit(element, work) for every element, with the work of all loads on it.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
     if (l.distributed.empty() && l.placed.empty()) return;
@@ -189,17 +190,17 @@ class plate_elements {
     for (const int dof : dofs_of(e)) own[next++] = u[dof];
     return own;
   }
-  /// The bending deformation of an element: see plate_deformation.
+  /// The bending deformation of element `e`: see plate_deformation.
   [[nodiscard]] vector deformation(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     return formulas::plate_deformation(own.a, own.b, displacement(e, u));
   }
-  /// The nodal forces that hold the element at the displacements `u`.
+  /// The nodal forces that hold element `e` at the displacements `u`.
   [[nodiscard]] vector forces(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     return formulas::plate_forces(own.a, own.b, D_, nu_, displacement(e, u));
   }
-  /// M_x, M_y and M_xy at the element's corners: see element_results.
+  /// M_x, M_y and M_xy at the corners of element `e`: see element_results.
   [[nodiscard]] std::array<std::array<Number, 4>, 3> moments(int e, std::span<const Number> u) const {
     const halves own = halves_of(e);
     const auto at = formulas::curvatures_at_corners(own.a, own.b, deformation(e, u));
@@ -212,7 +213,7 @@ class plate_elements {
     return m;
   }
 
-  /// The parts of element_results: names, places in an element, values.
+  /// names, places and values: the members of element_results.
   [[nodiscard]] static std::vector<std::string_view> names() { return {"mx", "my", "mxy"}; }
   static constexpr int places = 4;
   [[nodiscard]] std::vector<Number> values(const load& /*l*/, std::span<const Number> u) const {
@@ -222,7 +223,7 @@ class plate_elements {
     return all;
   }
 
-  /// Adds to `need` [dofs] the forces of the adjacent elements at each dof, minus their loads.
+  /// Adds to `need` [dofs] the forces of adjacent elements, minus the loads on these elements.
   void add_needs(const load& l, std::span<const Number> u, std::span<Number> need) const {
     const std::vector<summed_pressure<Number>> pressure = pressures(l);
     for (int e = 0; e < count(); ++e) {
@@ -262,7 +263,7 @@ class plate_elements {
   Number D_, nu_;
 };
 
-/// For a structure given by its matrix, which has no elements, lengths or areas.
+/// The elements of a structure given by its matrix: none, and no lengths or areas.
 template <class Number>
 struct no_elements {
   template <class Visit>

@@ -12,8 +12,8 @@
 
 namespace contct {
 
-/// A symmetric matrix: of each row the entries that may differ from 0, by column. A beam's six need no memory
-/// of their own.
+/// A row of a symmetric matrix: the entries that may differ from 0, by column. Up to six entries, as in a row
+/// of a beam, are stored without an allocation.
 template <class Number>
 using sparse_row = boost::container::flat_map<int, Number, std::less<int>,
                                               boost::container::small_vector<std::pair<int, Number>, 6>>;
@@ -34,7 +34,7 @@ struct pair_in {
   [[nodiscard]] Number seen_in(const Vector& u) const {
     return other < 0 ? u[dof] : Number(u[dof] - u[other]);
   }
-  /// Adds the pair's force to `f` at `dof`, and the opposite force at `other`.
+  /// Adds the force of the pair to `f` at `dof`, and the opposite force at `other`.
   template <class Vector, class Value>
   void add_to(Vector& f, const Value& force) const {
     f[dof] += force;
@@ -53,9 +53,9 @@ struct support_in {
 /// The loads at the end of a step.
 template <class Number>
 struct loads_in {
-  std::vector<Number> force;  ///< [dofs] consistent loads
-  std::vector<double> size;   ///< [dofs] the sum of the magnitudes of their parts; 0 for rational numbers
-  std::vector<Number> settlement;  ///< [dofs] the displacements of fixed dofs; 0 at all others
+  std::vector<Number> force;       ///< [dofs] consistent loads
+  std::vector<double> size;        ///< [dofs] the sum of the magnitudes of the parts of `force`: see size_of
+  std::vector<Number> settlement;  ///< [dofs] the prescribed displacements; 0 at other dofs
   std::vector<Number> moved;       ///< [dofs] how far the faces of the pairs at the dof are moved
   bool from_zero = false;          ///< see load::from_zero
 };
@@ -150,7 +150,7 @@ template <class Number, class Elements>
   return f;
 }
 
-/// `p` must outlive the equations.
+/// `p` must outlive the equations, because loads_of uses it.
 template <class Number>
 [[nodiscard]] equations<Number> equations_of(const problem& p) {
   equations<Number> e;

@@ -13,18 +13,18 @@
 
 namespace contct {
 
-// A number of a file means the shortest decimal that reads as the same double. In double it is this double.
-// Values derived from several numbers are computed exactly and then rounded once, also to double_double: see
-// line.cpp.
+// A number of a file means the shortest decimal that reads as the same double. As a double, it is this
+// double. Functions of several numbers compute from the decimals exactly, and round once to double_double:
+// see line.cpp.
 
 template <class Number>
 [[nodiscard]] Number number_of(double x);
 
-/// a - b, without loss of digits by cancellation.
+/// a - b. As double_double or rational, computed from the decimals, so that cancellation loses no digits.
 template <class Number>
 [[nodiscard]] Number difference_of(double a, double b);
 
-/// x times the factor of a combination.
+/// x times `factor`, the factor of a combination.
 template <class Number>
 [[nodiscard]] Number product_of(double x, double factor);
 
@@ -34,14 +34,14 @@ template <class Number>
 template <>
 [[nodiscard]] double sum_of(std::span<const point_load> all);
 
-/// The coefficients of a load, in rational numbers. For a distributed load: the sum of its parts in the file,
+/// The coefficients of a load; only for rational. For a distributed load: the sum of its parts in the file,
 /// each times its factors.
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const distributed_load& d);
 template <class Number>
 [[nodiscard]] std::vector<Number> coefficients_of(const placed_load& p);
 
-/// D of a plate, or E t^3 / 12 (1 - nu^2) if the file gives E and t.
+/// D of a plate; computed as E t^3 / (12 (1 - nu^2)) if the file gives E and t.
 template <class Number>
 [[nodiscard]] Number stiffness_of(const plate& p);
 
@@ -49,22 +49,22 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number stiffness_of(const beam& b, int element);
 
-/// The values of a polynomial in x at nodes of a beam, computed exactly: far from x = 0 its terms may cancel
-/// in every digit.
+/// The values of a polynomial in x at nodes of a beam, computed exactly: far from x = 0 the terms of the
+/// polynomial may cancel in every digit.
 template <class Number>
 [[nodiscard]] std::vector<Number> values_at(const beam& b, std::span<const double> polynomial,
                                             std::span<const int> nodes);
 
-/// A run of equal elements, and the number and coordinate of its first point.
+/// A run of equal elements, and the index and coordinate of its first point.
 struct even_part {
   std::size_t first;
   double start;
   even_run run;
 };
 
-/// The points of a line as the file gives them: equal parts of lengths, or one number for each point. In
-/// double, the points have their rounded coordinates. A point is computed on demand: a long beam has many,
-/// and few are needed in rational numbers.
+/// The points of a line as the file gives them: runs of equal intervals, or one number for each point. In
+/// double, the points have their rounded coordinates. A point is computed on demand, because a long beam has
+/// many points, and few of them are needed in rational numbers.
 template <class Number>
 class line {
  public:
@@ -97,7 +97,7 @@ class line {
     return at(static_cast<std::size_t>(at_or_above - x_.begin()));
   }
 
-  /// The distance from a point to the next one, without rounding the points.
+  /// The distance from point `interval` to the next point, without rounding the points.
   [[nodiscard]] Number length(std::size_t interval) const {
     if (parts_.empty()) return difference_of<Number>(x_[interval + 1], x_[interval]);
     return length_in(part_from(interval));

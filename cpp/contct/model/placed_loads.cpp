@@ -14,7 +14,7 @@ namespace {
 using exact_poly = rational_vector;
 
 /// The first and the last interval of a line that a load from `from` to `to` acts on. If `from` equals `to`,
-/// both are the interval that contains this place.
+/// first and last are the interval that contains this place.
 std::pair<int, int> intervals_of(const std::vector<double>& x, double from, double to) {
   const auto most = static_cast<std::ptrdiff_t>(x.size()) - 2;
   const std::ptrdiff_t first = std::upper_bound(x.begin(), x.end(), from) - x.begin() - 1;
@@ -78,8 +78,8 @@ class beam_sources {
     return all;
   }
 
-  /// True if the elements are equal and the same constant loads cover both: each element then is one piece.
-  /// Not every such case is recognised.
+  /// True if the elements are equal, and the same constant loads cover both elements, so that each is one
+  /// piece. Not every such case is recognised.
   [[nodiscard]] bool are_alike(int e, int other) const {
     const auto is_same_on_both = [&](std::size_t i) {
       const source& s = all_[i];
@@ -106,12 +106,12 @@ class beam_sources {
   const beam& beam_;
   line<rational> points_;
   std::vector<source> all_;
-  std::vector<std::size_t> on_all_;           // the loads, by their place in all_, that act on every element
-  std::vector<std::vector<std::size_t>> on_;  // [elements] the other loads; empty if there are none
+  std::vector<std::size_t> on_all_;           // indices in all_ of loads on every element
+  std::vector<std::vector<std::size_t>> on_;  // [elements] indices of the other loads; empty: there are none
 };
 
-/// Adds the work of `a` on Hermite's shape functions. An imposed curvature does the work of EI times it on
-/// their second derivatives.
+/// Adds to `force` the work of `a` on Hermite's shape functions. An imposed curvature acts as the moment EI
+/// times this curvature on their second derivatives.
 void add_work(const acting& a, const rational& h, const rational& EI, std::array<rational, 4>& force) {
   static const std::array<exact_poly, 4> shapes = {
       {{1, 0, -3, 2}, {0, 1, -2, 1}, {0, 0, 3, -2}, {0, 0, -1, 1}}};
@@ -165,8 +165,8 @@ std::vector<rational> cuts_of(const std::vector<acting>& all) {
   return cuts;
 }
 
-/// Adds the pressure of a rectangle to the elements that it covers: to `whole` if it covers all of an
-/// element, otherwise to `part`.
+/// Adds the pressure of a rectangle to the elements that it covers: if it covers a whole element, the
+/// pressure to `whole`; otherwise the work on the shape functions of the element to `part`.
 void add_rectangle(const plate& p, const placed_load& l, std::vector<rational>& whole,
                    std::map<int, std::array<rational, 12>>& part) {
   const line<rational> along_x(p.x, p.x_runs);

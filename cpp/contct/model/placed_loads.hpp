@@ -13,8 +13,8 @@
 
 namespace contct {
 
-/// Calls visit(element, force) for every loaded element of a beam. `force`: the work of all loads together on
-/// the element's shape functions, each number rounded once.
+/// Calls visit(element, force) for every loaded element of a beam. `force`: the work of all its loads
+/// together on its shape functions, each number rounded once.
 template <class Number>
 void for_each_exact_work(const beam& b, const load& l,
                          const std::function<void(int, const std::array<Number, 4>&)>& visit);
@@ -23,7 +23,8 @@ void for_each_exact_work(const beam& b, const load& l,
 template <class Number>
 struct summed_pressure {
   Number value{};
-  /// If a load acts on only a part of the element: the work of all loads on its shape functions.
+  /// Used instead of `value` if a load acts on only a part of the element: the work of all loads on the shape
+  /// functions of the element.
   std::optional<std::array<Number, 12>> on_parts = {};
 };
 /// [elements] the pressure of all loads together, rounded once.
@@ -32,12 +33,12 @@ template <class Number>
 
 /// A part of a beam's element along which the load is one polynomial. Each number is rounded once.
 struct element_piece {
-  double left, right;               ///< x of its ends, if they are inside the element
+  double left, right;               ///< x of the ends of the piece
   double_double h, EI;              ///< length and bending stiffness
   std::vector<double_double> q;     ///< the load, in t from 0 to 1 along the piece, constant first
   double_double curvature;          ///< the imposed curvature: M = EI (w'' - curvature)
-  double_double force{}, moment{};  ///< point loads at its left end
-  double size = 0.0;                ///< the sum of the magnitudes of its loads, each as a force per length
+  double_double force{}, moment{};  ///< point loads at the left end of the piece
+  double size = 0.0;                ///< the sum of the magnitudes of the loads, each as a force per length
 
   [[nodiscard]] bool is_plain() const { return curvature == 0.0 && force == 0.0 && moment == 0.0; }
 };
@@ -46,7 +47,7 @@ struct alike_pieces {
   int last;
   std::vector<element_piece> pieces;
 };
-/// The pieces of every loaded element. Key: the first of consecutive elements with the same pieces.
+/// The pieces of every loaded element of `b`. Key: the first of consecutive elements with the same pieces.
 [[nodiscard]] std::map<int, alike_pieces> pieces_of(const beam& b, const load& l);
 /// The pieces of `element`; null if no load acts on it.
 [[nodiscard]] const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all,
