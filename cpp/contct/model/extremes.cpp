@@ -41,20 +41,21 @@ std::vector<double> zeros_of(const poly& p) {
 }
 
 /// The least and the largest of the values of one quantity. Values that agree to within `equal_values`, as at
-/// mirror images, count as equal: the place of the first is shown.
+/// symmetric places, count as equal: the place of the first is shown.
 class extremes {
  public:
   extremes(std::string_view name, const placed_value& first)
       : name_(name), least_{first, first.value}, most_{first, first.value} {}
 
-  /// If the extreme so far equals v, its place is kept unless it is at x >= `from`, in the same piece as v.
+  /// Takes the value v. If v equals the extreme so far, the place of the extreme is kept, unless this place
+  /// is at x >= `from`, in the same piece as v.
   void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
     if (v.value < least_.shown.value) least_.follow(v, from);
     if (v.value > most_.shown.value) most_.follow(v, from);
   }
 
-  /// Takes the quantity `of` / `over` along element `e` of a beam. `left_value` and `right_value` are its
-  /// values at the ends of the element: they are more accurate than the polynomials.
+  /// Takes the quantity `of` / `over` along element `e` of a beam. `left_value` and `right_value`, the values
+  /// of the quantity at the ends of the element, are more accurate than the polynomials.
   void take_element(const std::vector<element_line>& pieces, int e, poly element_line::*of, double left_value,
                     double right_value, double over = 1.0) {
     for (const element_line& line : pieces) {
@@ -255,7 +256,7 @@ template <class Number>
 struct line_of {
   line_polynomial<Number> w, moment, shear;
 
-  /// Under the load q(t) and an imposed curvature.
+  /// Integrates from the left end, under the load q(t) and an imposed curvature.
   template <class Coefficients>
   line_of(const line_start<Number>& left, const Coefficients& q, const Number& h, const Number& EI,
           const Number& curvature)
@@ -287,7 +288,7 @@ struct line_of {
   }
 };
 
-/// Adds the slope, dw/dx.
+/// Returns `line` with its slope, dw/dx.
 element_line completed(element_line line) {
   for (const double d : derivative(line.w)) line.slope.push_back(d / line.h);
   return line;
@@ -325,8 +326,9 @@ element_line beam_lines::at(int e) const {
                     on != nullptr ? on->front().size : 0.0});
 }
 
-/// Computed from the left end in 32 digits; then each coefficient is rounded once. The error before this
-/// rounding is below 2^-80 of load_size, which includes the largest shear and moment.
+/// Computes the pieces from the left end in 32 digits, and then rounds each coefficient once. With the length
+/// h of the element, the error before this rounding is below 2^-80 load_size h in the shear and 2^-80
+/// load_size h^2 in the moment; load_size includes the largest shear and moment.
 std::vector<element_line> beam_lines::pieces(int e) const {
   if (!is_broken(e)) return std::vector<element_line>(1, at(e));
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
@@ -334,7 +336,7 @@ std::vector<element_line> beam_lines::pieces(int e) const {
   double size = 0.0;
   for (const element_piece& p : *pieces_at(pieces_, e)) {
     left.shear += p.force;
-    left.moment -= p.moment;  // a moment load on the slope lowers M
+    left.moment -= p.moment;  // a moment load that is positive as the slope lowers M
     const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);
     element_line piece{p.left, p.h.hi, p.right, in_doubles(line.w), {}, {}, {}, in_doubles(p.q)};
     piece.moment = in_doubles(line.moment);
@@ -360,9 +362,10 @@ element_results stresses_of(const model& m, const element_results& forces) {
   return std::visit([&](const auto& kind) { return stresses(kind, forces); }, m.kind);
 }
 
-/// Most stresses are linear in the moments; the principal and von Mises stresses are not. Let each moment
-/// change by at most 1. The von Mises stress is the root of a positive form, x^2 - x y + y^2 + 3 xy^2 <= 6,
-/// so it changes by at most sqrt(6). A principal stress, an eigenvalue, changes by at most 2.
+/// Most stresses are linear in the moments; the principal and von Mises stresses are not. Let the moments
+/// change by x, y and xy, each at most 1 in magnitude. The von Mises stress, the root of a positive definite
+/// quadratic form, changes by at most the root of x^2 - x y + y^2 + 3 xy^2 <= 6. A principal stress, an
+/// eigenvalue, changes by at most 2.
 std::optional<double> stress_error(const model& m, double moment, double largest) {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest;
   if (const auto* const b = std::get_if<beam>(&m.kind)) {

@@ -14,31 +14,33 @@
 
 namespace contct {
 
-/// Coefficients along an element, constant first: under a load that is linear they need no memory of their
-/// own.
+/// The coefficients of a polynomial along an element, constant first. Up to six, as for w under a linear
+/// load, are stored without an allocation.
 template <class Number>
 using line_polynomial = boost::container::small_vector<Number, 6>;
 
-/// An element of a beam, or a piece of one, exactly: the solution of EI w_xxxx = q with the displacements of
-/// its nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1, constant first (see
+/// The exact deflected line of a beam's element or of a piece of an element: the solution of EI w_xxxx = q
+/// with the displacements of the nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1 (see
 /// polynomial_at).
 struct element_line {
   double left = 0.0, h = 0.0, right = 0.0;
   line_polynomial<double> w, slope, moment, shear, load;
-  double load_size = 0.0;  ///< the magnitudes of `load`, each of which is off by at most 2^-89 of it
+  /// The sum of the magnitudes of the loads, each as a force per length, and in a broken element also of
+  /// shear and moment: rounding errors are relative to load_size.
+  double load_size = 0.0;
   double curvature = 0.0;  ///< imposed
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
 class beam_lines {
  public:
-  /// `b` and `u` must outlive this object. `element_values`: values at the ends of elements, as in
-  /// element_results, if more accurate ones than from `u` are known.
+  /// `b` and `u` must outlive this object. `element_values`: element_results::values, if more accurate ones
+  /// than those computed from `u` are known.
   beam_lines(const beam& b, const load& l, std::span<const double> u,
              std::span<const double> element_values = {});
 
-  /// The line of element `e` (from 0) as one piece. If is_broken(e), the loads are left out, and only the
-  /// values at t = 0 are correct.
+  /// The line of element `e` (from 0) as one piece. If is_broken(e), the line is computed without loads, and
+  /// only its values at t = 0 are correct.
   [[nodiscard]] element_line at(int e) const;
   /// The pieces of element `e` between the places where a load begins, ends or acts at a point; the whole
   /// element if there are no such places. Shear or moment jumps where a load acts at a point.
@@ -56,11 +58,11 @@ class beam_lines {
   std::map<int, alike_pieces> pieces_;
 };
 
-/// The coefficients of a polynomial in Bernstein's form: from t = 0 to 1 it is between the least and the
-/// largest of them.
+/// The Bernstein coefficients of a polynomial. From t = 0 to 1 the polynomial lies between the least and the
+/// largest Bernstein coefficient.
 [[nodiscard]] line_polynomial<double> bernstein_of(const line_polynomial<double>& polynomial);
 
-/// The values of t inside an element at which w, the moment or the shear is extreme, ascending.
+/// The values of t inside an element, ascending, at which w, the moment or the shear has an extreme.
 [[nodiscard]] std::vector<double> extreme_places(const element_line& line);
 
 /// A value with its coordinates, and with its node (from 0) if it is at a node.
@@ -92,18 +94,19 @@ struct value_range {
                                                  std::span<const int> deflecting,
                                                  std::span<const double> element_values = {});
 
-/// Stresses at the lower fibre or face, where sagging is tension; at the upper one they have the opposite
-/// sign. For a beam: "stress", M / W at both ends of each element. For a plate: "sx", "sy", "txy", principal
-/// "s1" >= "s2" and "von_mises" at the corners of each element, sx = 6 m_x / t^2 and so on. Empty if W, or
-/// the thickness, is unknown. `forces`: results_in_elements.
+/// Stresses at the lower fibre or face, where sagging causes tension. For a beam: "stress", M / W at both
+/// ends of each element. For a plate: "sx", "sy", "txy", principal "s1" >= "s2" and "von_mises" at the
+/// corners of each element, sx = 6 m_x / t^2 and so on. At the upper fibre or face, all stresses but
+/// "von_mises" have the opposite sign. Empty if W, or the thickness, is unknown. `forces`:
+/// results_in_elements.
 [[nodiscard]] element_results stresses_of(const model& m, const element_results& forces);
 
-/// The same of a beam by its lines.
+/// ranges_of a beam whose `lines` are already computed.
 [[nodiscard]] std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines,
                                                  std::span<const double> u);
 
-/// What each of those stresses may be off by, and any along a beam, where no moment is off by more than
-/// `moment` and no stress is larger than `largest`. Nothing where there are no stresses.
+/// A bound on the error of each stress from stresses_of, and of each stress along a beam, if no moment is
+/// wrong by more than `moment` and no stress is larger than `largest`. Nothing if there are no stresses.
 [[nodiscard]] std::optional<double> stress_error(const model& m, double moment, double largest);
 
 }  // namespace contct

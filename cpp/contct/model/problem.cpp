@@ -15,7 +15,7 @@ void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
   for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
 }
 
-/// The forces of the adjacent elements at each dof, minus their loads.
+/// At each dof the forces of the adjacent elements, minus the loads on these elements.
 template <class Kind>
 std::vector<double> needs_of(const Kind& kind, const load& l, std::span<const double> u) {
   std::vector<double> need(u.size());
@@ -67,7 +67,7 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   for (int dof = 0; dof < s.dofs(); ++dof)
     if (!(s.stiffness.diagonal(s.row_of(dof)) > 0.0)) refuse_without_stiffness(a, dof);
 
-  // Only the motions that the supports leave free are found, so no dof counts as supported.
+  // find_free_motions finds only motions that the supports leave free, so no dof counts as supported below.
   free_motions motions;
   try {
     motions = find_free_motions(s.stiffness, a.free_motions, [&](std::span<const double> in_rows) {
@@ -84,8 +84,7 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   s.supported_dofs.clear();
   for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
     if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];
-  // A matrix does not show which dofs are lengths. Dofs of pairs are lengths; without pairs, all dofs count
-  // as lengths.
+  // A matrix does not show which dofs are deflections: the dofs of pairs count, or without pairs all dofs.
   s.lengths.assign(a.dofs(), s.pairs.empty() ? 1 : 0);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
     s.lengths[s.dof_of_pair(i)] = 1;
@@ -105,7 +104,6 @@ resultant sum_of_loads(const assembled& /*a*/, const load& l) {
   return {contct::rounded(sum), {}};
 }
 
-/// The unit of a quantity of a structure given by a matrix.
 std::string unit_at(const assembled& a, const problem& p, std::string_view quantity, int dof) {
   const placed_dof at = dof >= 0 && a.places.known() ? a.places.dofs[dof] : placed_dof{};
   const bool has_pair = std::any_of(p.pairs.begin(), p.pairs.end(), [dof](const contact_pair& c) {
@@ -119,7 +117,6 @@ std::string unit_at(const assembled& a, const problem& p, std::string_view quant
 
 }  // namespace
 
-/// A plate's nodes are numbered along its shorter side, which gives the smallest bandwidth.
 std::vector<int> rows_in_band(const model& m) {
   if (const auto* a = std::get_if<assembled>(&m.kind)) return a->rows;
   const auto* const of_plate = std::get_if<plate>(&m.kind);
@@ -170,7 +167,7 @@ std::vector<double> reactions(const model& m, const load& l, std::span<const sup
   const std::vector<double> need = std::visit([&](const auto& kind) { return needs_of(kind, l, u); }, m.kind);
   std::vector<double> points(u.size(), 0.0);
   add_point_loads(l, per_node, points);
-  for (const support& s : supports)  // if the dof is also fixed, the fixed support carries the spring's force
+  for (const support& s : supports)  // on a fixed dof, the fixed support also carries the spring's force
     if (!s.fixed) points[s.node * per_node + s.dof] -= s.spring * u[s.node * per_node + s.dof];
   std::vector<double> values;
   std::set<int> reacted;

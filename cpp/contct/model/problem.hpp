@@ -25,7 +25,7 @@ struct even_run {
 
 /// A beam's cross-section as in the file; 0: unknown.
 struct beam_section {
-  double E = 0.0, I = 0.0;  ///< EI is their product
+  double E = 0.0, I = 0.0;  ///< EI is the product of E and I
   double W = 0.0;           ///< section modulus: M / W is the stress at the extreme fibres
   double A = 0.0;           ///< area
   double weight = 0.0;      ///< per volume
@@ -59,13 +59,13 @@ struct beam {
 };
 
 /// A rectangular Kirchhoff plate of Adini-Clough-Melosh elements: three dofs a node, the deflection w (up)
-/// and the slopes wx = dw/dx, wy = dw/dy. Its nodes are the points of a grid. All numbers are from 0: grid
-/// point (i, j), at x[i] and y[j], is node j * columns + i; the element with its lower left corner there is
+/// and the slopes wx = dw/dx, wy = dw/dy. The nodes are the points of a grid. All numbers count from 0: grid
+/// point (i, j), at x[i] and y[j], is node j * columns + i. The element with this lower left corner is
 /// element j * (columns - 1) + i.
 struct plate {
   std::vector<double> x;              ///< grid lines, strictly increasing, at least two
   std::vector<double> y;              ///< grid lines, as x
-  double D = 0.0;                     ///< bending stiffness E t^3 / 12 (1 - nu^2), positive
+  double D = 0.0;                     ///< bending stiffness E t^3 / (12 (1 - nu^2)), positive
   double nu = 0.0;                    ///< Poisson's ratio, above -1 and at most 0.5
   double E = 0.0;                     ///< Young's modulus; 0 if the file gives D
   double thickness = 0.0;             ///< 0 if the file gives D
@@ -81,7 +81,8 @@ struct plate {
   [[nodiscard]] int elements() const { return (columns() - 1) * (rows() - 1); }
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
   [[nodiscard]] int node_at(int i, int j) const { return j * columns() + i; }
-  /// An element's corners, counter-clockwise from the lower left: (i, j), (i+1, j), (i+1, j+1), (i, j+1).
+  /// An element's corner nodes, counter-clockwise from the lower left: (i, j), (i+1, j), (i+1, j+1), (i,
+  /// j+1).
   [[nodiscard]] std::array<int, 4> corners_of(int element) const {
     const int i = element % (columns() - 1);
     const int j = element / (columns() - 1);
@@ -95,7 +96,6 @@ struct plate {
       for (int d = 0; d < dofs_per_node; ++d) dofs[next++] = dofs_per_node * node + d;
     return dofs;
   }
-  /// An element's size along x and along y.
   [[nodiscard]] double width_of(int element) const {
     const int i = element % (columns() - 1);
     return x[i + 1] - x[i];
@@ -117,13 +117,13 @@ struct placed_node {
   std::array<double, 3> at;
 };
 
-/// A straight line between two nodes, from 0.
+/// A straight line between the nodes `from` and `to`, which count from 0.
 struct mesh_edge {
   int from, to;
-  int elements;  ///< the number of elements with this edge; 1 for a coupling
+  int elements;  ///< the number of elements that have this edge; 1 for a coupling
 };
 
-/// The position of a dof.
+/// The node of a dof, and its direction there.
 struct placed_dof {
   int node = -1;      ///< from 0; -1 if unknown
   int direction = 0;  ///< 1 to 3 along x, y and z, 4 to 6 about them; 0 if unknown
@@ -134,7 +134,7 @@ struct placed_dof {
 /// The positions of the dofs of an assembled structure, for pictures only.
 struct placed_nodes {
   std::vector<placed_node> nodes;  ///< empty: no position is known
-  std::vector<mesh_edge> edges;    ///< from < to, each once
+  std::vector<mesh_edge> edges;    ///< from < to, each edge once
   std::vector<placed_dof> dofs;    ///< [dofs]; empty if `nodes` is empty
   std::vector<std::string> notes;  ///< the parts of the files that are not drawn, a sentence each
 
@@ -148,9 +148,9 @@ struct assembled {
   sparse_matrix stiffness;          ///< positive semidefinite
   std::vector<std::string> labels;  ///< [dofs] unique; empty: "1", "2", ...
   std::string labels_from;          ///< the file with the labels
-  std::vector<int> rows;            ///< [dofs] row of each dof in the band; empty: the dof's number
+  std::vector<int> rows;            ///< [dofs] the row of each dof in the band; empty: row and dof are equal
   bool as_band = true;              ///< if false, K is stored by columns, for CHOLMOD
-  std::optional<int> free_motions;  ///< rigid-body motions on its supports, if known
+  std::optional<int> free_motions;  ///< the number of its rigid-body motions on supports, if known
   placed_nodes places;              ///< for pictures only
 
   static constexpr int dofs_per_node = 1;
@@ -204,20 +204,20 @@ struct model {
   return a != nullptr ? "dof " + on_one_line(a->label_of(node)) : "node " + std::to_string(node + 1);
 }
 
-/// [dofs] the row of each dof in the band; empty: the dof's number. Plates are numbered along the shorter
-/// side.
+/// [dofs] the row of each dof in the band; empty: row and dof are equal. Plates are numbered along the
+/// shorter side, which gives the smallest bandwidth.
 [[nodiscard]] std::vector<int> rows_in_band(const model& m);
 /// The number of subdiagonals of the band in the order of rows_in_band.
 [[nodiscard]] int subdiagonals(const model& m);
 
 /// Assembles the model with its supports. For a matrix, finds the rigid-body motions that the supports leave
 /// free: see find_free_motions. Throws std::invalid_argument if an entry of an element's stiffness is not a
-/// finite number, naming the element (from 1); if a dof of a matrix has neither stiffness nor support; and
-/// when find_free_motions throws it.
+/// finite number, naming the element (from 1); if a dof of a matrix has neither stiffness nor support; and as
+/// find_free_motions does.
 [[nodiscard]] linear_structure build(const model& m, std::span<const support> supports,
                                      std::vector<contact_pair> pairs);
 
-/// Throws std::invalid_argument for a dof of a matrix that has neither stiffness nor support.
+/// Throws std::invalid_argument, which says that `dof` of a matrix has neither stiffness nor support.
 [[noreturn]] void refuse_without_stiffness(const assembled& a, int dof);
 
 /// Adds the consistent load vector of `l` to `f` [dofs]. Loads on a matrix are forces at dofs. Point loads at
@@ -230,8 +230,8 @@ void add_consistent_loads(const model& m, const load& l, std::span<double> f);
 [[nodiscard]] std::vector<double> tributary_shares(const model& m);
 
 /// The force (or moment) of each support on the structure, in the order of `supports`. Elastic support: minus
-/// spring times displacement. Fixed support: the forces of the adjacent elements, minus their loads and the
-/// point loads at its dof. If several supports fix a dof, the first one gets all of the reaction.
+/// spring times displacement. Fixed support: the forces of the adjacent elements, minus the loads on these
+/// elements and the point loads at the dof. If several supports fix a dof, the first gets the whole reaction.
 [[nodiscard]] std::vector<double> reactions(const model& m, const load& l, std::span<const support> supports,
                                             std::span<const double> u);
 
@@ -255,7 +255,7 @@ struct element_results {
   [[nodiscard]] std::size_t elements() const {
     return names.empty() ? 0 : values.size() / (names.size() * places);
   }
-  /// Quantity `name` of an element, at all its places. Elements and names from 0.
+  /// Quantity `name` of an element at all its places. Elements and names count from 0.
   [[nodiscard]] std::span<const double> at(std::size_t element, std::size_t name) const {
     return std::span(values).subspan((element * names.size() + name) * places, places);
   }
@@ -264,10 +264,10 @@ struct element_results {
 /// The results in every element, under displacement `u` [dofs] and load `l`.
 [[nodiscard]] element_results results_in_elements(const model& m, const load& l, std::span<const double> u);
 
-/// The sum of all upward forces, and the moments about the origin, one for each slope among the dofs and
-/// positive as this slope. For a beam: the sum of F x and the loads on theta. For a plate: the sum of F x and
-/// the loads on wx; the sum of F y and the loads on wy. For a matrix: the sum of all its loads, of any kind,
-/// and no moments. Summed exactly, from the decimals of the file, and rounded once.
+/// The sum of all upward forces, and the moments about the origin: one for each slope among the dofs,
+/// positive as this slope. Beam: the sum of F x and the loads on theta. Plate: the sum of F x and the loads
+/// on wx; the sum of F y and the loads on wy. Matrix: the sum of all loads, of any kind, and no moments. All
+/// sums are exact sums of the decimals in the file, rounded once.
 struct resultant {
   double force = 0.0;
   std::vector<double> moments;
@@ -275,17 +275,17 @@ struct resultant {
 
 [[nodiscard]] resultant resultant_of(const model& m, const load& l);
 
-/// The pairs of a [[bed]]: one at each of its nodes, with stiffness modulus * share.
+/// The pairs of a [[bed]]: one at each node of the bed, with stiffness modulus * share.
 struct bed {
   double modulus;             ///< force per length (area) of deflection, positive
   std::vector<double> share;  ///< tributary length, or area, of each pair
-  std::size_t first_pair;     ///< its first pair, from 0; its other pairs follow
+  std::size_t first_pair;     ///< the first pair of the bed, from 0; its other pairs follow
   /// The coefficients, constant first, if the faces are a polynomial in x along a beam; otherwise empty.
   std::vector<double> face = {};
-  std::optional<bool> closed = {};  ///< in contact at the start; empty: not in the file
+  std::optional<bool> closed = {};  ///< in contact at the start; empty: the file does not say
 };
 
-/// The names of the units, which are only printed. Both are given, or both are empty.
+/// The names of the units, which are only printed. Length and force are either both given or both empty.
 struct unit_labels {
   std::string length, force;
 };
@@ -300,25 +300,26 @@ struct problem {
   std::string title;
   model geometry;
   std::vector<support> supports;
-  std::vector<contact_pair> pairs;  ///< those of all [[contact]] in file order, then those of the beds
+  std::vector<contact_pair> pairs;  ///< the pairs of every [[contact]] in file order, then those of beds
   std::vector<load> steps;          ///< total load at the end of each step
-  std::vector<bed> beds;            ///< their pairs are in `pairs`
+  std::vector<bed> beds;            ///< the pairs of the beds are in `pairs`
   unit_labels units;
   std::vector<std::string> warnings;
   std::vector<std::string> files;  ///< paths of the files that the problem file names
-  /// The keys of the pairs of every [[contact]] [pairs]; pairs of beds have none.
+  /// [pairs of every [[contact]]] the keys of each pair, in the order of `pairs`; pairs of beds have no keys.
   std::vector<pair_keys> keys;
 };
 
-/// The unit of a quantity, with a blank before it; empty if the problem names no units. Quantities: "w",
-/// "moment", "shear", "mx", "force", "pressure", "contact" (of a bed), ... For a matrix: the unit of "w" or
-/// "force" at `dof` (from 0), if a pair or a known position shows the kind of the dof.
+/// The unit of a quantity, with a blank before it; empty if the problem names no units, and for slopes.
+/// Quantities: "w", "moment", "shear", "mx", "force", "pressure", "contact" (the length or area of a bed in
+/// contact), ... For a matrix: the unit of "w" or "force" at `dof` (from 0), if a pair or a known position
+/// shows the kind of the dof.
 [[nodiscard]] std::string unit_words(const problem& p, std::string_view quantity, int dof = -1);
 /// True if the steps are combinations, each applied to the unloaded structure.
 [[nodiscard]] inline bool starts_from_zero(const problem& p) {
   return !p.steps.empty() && p.steps.front().from_zero;
 }
-/// The pairs, with their faces moved by `l`.
+/// The pairs of `p`, with the faces moved as `l` prescribes.
 [[nodiscard]] std::vector<contact_pair> pairs_under(const problem& p, const load& l);
 
 }  // namespace contct
