@@ -327,8 +327,8 @@ element_line beam_lines::at(int e) const {
 }
 
 /// Computes the pieces from the left end in 32 digits, and then rounds each coefficient once. With the length
-/// h of the element, the error before this rounding is below 2^-80 load_size h in the shear and 2^-80
-/// load_size h^2 in the moment; load_size includes the largest shear and moment.
+/// h of the element, the error before this rounding is below 2^-80 load_size h in the shear and
+/// 2^-80 load_size h^2 in the moment; load_size includes the largest shear and moment.
 std::vector<element_line> beam_lines::pieces(int e) const {
   if (!is_broken(e)) return std::vector<element_line>(1, at(e));
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};

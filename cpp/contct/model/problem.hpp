@@ -81,8 +81,8 @@ struct plate {
   [[nodiscard]] int elements() const { return (columns() - 1) * (rows() - 1); }
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
   [[nodiscard]] int node_at(int i, int j) const { return j * columns() + i; }
-  /// An element's corner nodes, counter-clockwise from the lower left: (i, j), (i+1, j), (i+1, j+1), (i,
-  /// j+1).
+  /// The corners of an element, counter-clockwise from the lower left: (i, j), (i+1, j), (i+1, j+1),
+  /// (i, j+1).
   [[nodiscard]] std::array<int, 4> corners_of(int element) const {
     const int i = element % (columns() - 1);
     const int j = element / (columns() - 1);

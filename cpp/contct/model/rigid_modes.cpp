@@ -15,7 +15,7 @@ extern "C" void CONTCT_FC_GLOBAL(dsyev, DSYEV)(const char* jobz, const char* upl
 namespace contct {
 namespace {
 
-constexpr int most_tried = 10;              // six rigid-body motions, and four others
+constexpr int most_tried = 10;              // eigenvectors: six rigid-body motions, and four more
 constexpr double surely_held = 1e-11;       // reciprocal condition above which no motion is free
 constexpr double free_if_declared = 1e-10;  // largest eigenvalue of a declared motion
 constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10};
@@ -42,7 +42,7 @@ std::string short_words(double x) {
       size + "; allowed: none below -" + short_words(negative_beyond));
 }
 
-/// D K D with 1 on the diagonal; `d` becomes the diagonal of D.
+/// Returns D K D with 1 on the diagonal; `d` becomes the diagonal of D.
 stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
   stiffness_matrix a = k;
   for (int row = 0; row < k.order(); ++row) d.push_back(1.0 / std::sqrt(k.diagonal(row)));
@@ -50,7 +50,8 @@ stiffness_matrix scaled(const stiffness_matrix& k, numbers& d) {
   return a;
 }
 
-/// Factors A after adding the least of `shifts` to its diagonal with which it can be factored.
+/// Adds a shift to the diagonal of A and factors A, with the least of `shifts` for which this succeeds.
+/// Throws std::invalid_argument if there is none.
 void factor_shifted(stiffness_factor& a, int order) {
   for (const double shift : shifts) {
     std::vector<spring_at> everywhere(order);
@@ -78,7 +79,7 @@ class subspace {
   }
 
   numbers values;
-  std::vector<numbers> vectors;  // their eigenvectors, orthonormal
+  std::vector<numbers> vectors;  // eigenvectors of `values`, orthonormal
   numbers left_over;             // the length of A x - lambda x for each eigenvector x
 
  private:
@@ -126,7 +127,7 @@ class subspace {
     }
   }
 
-  /// Replaces `h` by its eigenvectors, one after the other.
+  /// Replaces `h` by its eigenvectors, one after the other, and sets `values` to its eigenvalues.
   void diagonalise(numbers& h) {
     const int m = static_cast<int>(vectors.size());
     values.assign(vectors.size(), 0.0);
@@ -166,7 +167,8 @@ void converge(subspace& space, std::optional<int> known) {
   }
 }
 
-/// [rows of the matrix] the vectors as displacements. A row that is not larger than rounding becomes 0.
+/// The displacements by the rigid-body motions [rows of the matrix]; the largest is 1. A row that is not
+/// larger than its rounding error becomes 0.
 std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const free_motions& f) {
   std::vector<rigid_row> rows(d.size());
   numbers sizes(d.size());
@@ -185,7 +187,7 @@ std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const fr
   return rows;
 }
 
-/// The number of rigid-body motions: those whose stiffness exceeds neither `free_below` nor its uncertainty.
+/// The number of rigid-body motions: eigenvalues that exceed neither `free_below` nor their uncertainty.
 int count_in_doubt(const subspace& space, const numbers& d,
                    const std::function<double(std::span<const double>)>& doubt) {
   int count = count_free(space.values);
@@ -225,7 +227,7 @@ void rigid_rank::hold(int dof, int other) {
   if (rank_ == most_rigid_motions) return;
   // Only the direction of the row counts: a slope's row, 1 over a length, may be of any size.
   rigid_row direction = rows_[dof];
-  double size = 0.0;  // the largest number that is subtracted
+  double size = 0.0;  // the largest entry of the two rows
   if (other >= 0) {
     size = std::max(largest_of(direction), largest_of(rows_[other]));
     for (std::size_t i = 0; i < direction.size(); ++i) direction[i] -= rows_[other][i];
@@ -243,7 +245,7 @@ void rigid_rank::hold(int dof, int other) {
 
 rigid_row rigid_rank::free_part(const rigid_row& motion) const {
   rigid_row rest = motion;
-  for (int pass = 0; pass < 2; ++pass) {  // twice is enough for Gram-Schmidt
+  for (int pass = 0; pass < 2; ++pass) {  // for Gram-Schmidt two passes are enough
     for (int k = 0; k < rank_; ++k) {
       const double share = along(rest, basis_[k]);
       for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= share * basis_[k][i];

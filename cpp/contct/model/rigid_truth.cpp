@@ -6,7 +6,7 @@
 
 namespace contct {
 
-/// [motions] in the order of rigid_shape's rows
+/// [motions] the work, in the order of the rows of rigid_shape.
 struct rigid_work::numbers {
   std::vector<rational> all;
 };
@@ -53,7 +53,7 @@ struct rigid_shape {
   [[nodiscard]] int motions() const {
     return corners.empty() ? dofs_per_node() : static_cast<int>(corners.size());
   }
-  /// The straight part that begins at `node` or passes through it; for the last node, the last part.
+  /// The straight part that begins at `node` or contains it; the last part for the last node.
   [[nodiscard]] std::size_t part_of(int node) const {
     if (corners.empty()) return 0;
     const auto right = std::upper_bound(corners.begin(), corners.end() - 1, node);
@@ -103,7 +103,7 @@ struct rigid_shape {
 
 namespace {
 
-/// The part of `row` that is orthogonal to all of `orthogonal`.
+/// The part of `row` that is orthogonal to all rows of `orthogonal`, which are orthogonal to each other.
 rational_vector rest_of(rational_vector row, std::span<const rational_vector> orthogonal) {
   for (const rational_vector& b : orthogonal) add(row, b, -dot(row, b) / dot(b, b));
   return row;
@@ -117,7 +117,7 @@ std::vector<rational_vector> orthogonal_of(std::span<const rational_vector> rows
   return all;
 }
 
-/// True if the point nearest to `sum` in the span of `parts` is a sum of the parts with nonnegative factors.
+/// True if the projection of `sum` onto the span of `parts` is a sum of the parts with nonnegative factors.
 /// False if the parts are not independent.
 bool has_positive_shares(const rational_vector& sum, std::span<const rational_vector> parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -168,7 +168,8 @@ bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> par
   }
 }
 
-/// Calls visit(first, last) for each run of consecutive elements, from 0; `elements` empty: for all.
+/// Calls visit(first, last) for each run of consecutive numbers in `elements`, from 0; if `elements` is
+/// empty, once for all elements, of which there are `all`.
 template <class Visit>
 void for_each_run(const std::vector<int>& elements, int all, const Visit& visit) {
   if (elements.empty()) return visit(0, all - 1);
@@ -192,7 +193,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
     return orthogonal_of(rows);
   }
 
-  /// is_independent for the cases that need no arithmetic.
+  /// The result of is_independent, if it needs no arithmetic.
   [[nodiscard]] std::optional<bool> seen_at_once(std::span<const int> held, int dof) const {
     if (held.empty()) return true;
     if (!corners.empty()) return std::nullopt;
@@ -229,7 +230,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
     for (const int e : d.elements) add_elements(e % columns, e / columns, 1, 1);
   }
 
-  /// A curvature does no work.
+  /// An imposed curvature does no work on a rigid-body motion.
   void add_placed(const placed_load& p, rational_vector& work) const {
     const rational_vector q = coefficients_of<rational>(p);
     const line<rational>& x = along_x.points();
@@ -248,7 +249,8 @@ struct rigid_truth::shape : rigid_shape<rational> {
   }
 
  private:
-  /// Motions are linear along a straight part, so its load does the work of two forces at its ends.
+  /// Adds the work of the load `q` from `from` to `to`. In each straight part a motion is linear, so that the
+  /// load on this part does the work of two forces at the ends of the load.
   void add_strip(const rational_vector& q, const rational& from, const rational& to,
                  rational_vector& work) const {
     const std::size_t parts = corners.empty() ? 1 : corners.size() - 1;
@@ -264,7 +266,7 @@ struct rigid_truth::shape : rigid_shape<rational> {
 
   using ends = std::pair<rational, rational>;
 
-  /// A uniform pressure acts at the middle of its rectangle.
+  /// A uniform pressure does the work of its resultant at the middle of the rectangle.
   void add_rectangle(const rational& pressure, const ends& x, const ends& y, rational_vector& work) const {
     const rational force = pressure * (x.second - x.first) * (y.second - y.first);
     work[0] += force;
@@ -345,7 +347,7 @@ bool rigid_truth::is_carried(const rigid_work& work, std::span<const int> suppor
       stopped.push_back(std::move(rest));
     if (static_cast<int>(stopped.size()) == motions()) return true;
   }
-  // From here on only motions that the supports do not stop count. A face above carries upward loads.
+  // From here on, only motions that the supports leave free count. A face above carries upward loads.
   std::vector<rational_vector> presses;
   for (const contact_pair& p : pairs) {
     rational_vector& part = presses.emplace_back(shape_->row_of(p.node * shape_->dofs_per_node()));
@@ -369,7 +371,7 @@ std::optional<free_motion> rigid_truth::driven_by(const rigid_work& work, std::s
   const bool is_all = steepest.size() <= parts.size();
   const double done = contct::rounded(dot(work.exactly().all, steepest));
   return free_motion{[parts, rows, steepest, is_all, shape = shape_](int dof) {
-                       constexpr double surely_moves = 1e-3;  // relative to the row
+                       constexpr double surely_moves = 1e-3;  // relative to the largest entry of the row
                        const double moved = along(parts, rows[dof]);
                        if (is_all && std::abs(moved) >= surely_moves * largest_of(rows[dof])) return moved;
                        return contct::rounded(dot(steepest, shape->row_of(dof)));

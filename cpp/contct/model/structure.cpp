@@ -116,14 +116,14 @@ std::optional<free_motion> linear_structure::driven_motion(const rigid_rank& hel
 
 namespace {
 
-/// A power of four near `stiffness`; its square root is exact.
+/// A power of four near `stiffness`, because the square root of a power of four is exact.
 double power_of_four_near(double stiffness) {
   constexpr int largest = 511;  // 4^512 overflows
   if (!(stiffness > 0.0)) return 1.0;
   return std::ldexp(1.0, 2 * std::min(largest, static_cast<int>(std::lround(std::log2(stiffness) / 2))));
 }
 
-/// Decouples the rows of fixed dofs, and keeps the entries that couple settling dofs to free dofs.
+/// Decouples the rows of fixed dofs; keeps in to_settling the entries that couple settling to free dofs.
 void fix(linear_structure& s) {
   std::vector<double> pivots(s.fixed.size(), 0.0);
   std::vector<char> settling_rows(s.settles.size(), 0);

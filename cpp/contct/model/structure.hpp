@@ -20,16 +20,16 @@ struct nodal_value {
   int node = 0;         ///< from 0
   int dof = 0;          ///< within the node, from 0
   double value = 0.0;   ///< positive as the dof
-  double factor = 1.0;  ///< from a combination; the load is the product of the two decimals (product_of)
+  double factor = 1.0;  ///< of a combination; the load is product_of(value, factor)
 };
 using point_load = nodal_value;               ///< a force or moment, work-conjugate to the dof
 using prescribed_displacement = nodal_value;  ///< the displacement of a dof that a support fixes
 using face_move = nodal_value;                ///< how far the faces of all pairs at the node are moved
 
-/// A polynomial of a file times `factor` times `times`, multiplied as decimals.
+/// A polynomial in a file times `factor` times `times`, multiplied as decimals.
 struct scaled_polynomial {
   std::vector<double> coefficients;
-  double factor = 1.0;  ///< factor from a combination
+  double factor = 1.0;  ///< the factor of a combination
   double times = 1.0;   ///< for self-weight: the area or thickness that multiplies the weight per volume
 };
 
@@ -38,7 +38,7 @@ struct scaled_polynomial {
 struct distributed_load {
   std::vector<double> polynomial;  ///< coefficients, constant first; at least one
   std::vector<int> elements;       ///< from 0; empty means all
-  /// The polynomials of a file that add up to `polynomial`, for exact arithmetic; empty: it is the only one.
+  /// The file's polynomials whose sum is `polynomial`, for exact arithmetic; empty: `polynomial` itself.
   std::vector<scaled_polynomial> parts = {};
 };
 
@@ -46,8 +46,8 @@ struct distributed_load {
 /// imposed curvature of a beam, as by a temperature gradient.
 enum class load_kind { force, point, moment, curvature };
 
-/// A load that need not follow the mesh. A coordinate equal to that of a node or grid line means this node or
-/// line exactly; any other coordinate means its decimal.
+/// A load that need not follow the mesh. If a coordinate equals that of a node or grid line, it means this
+/// node or line exactly; otherwise the decimal of the coordinate.
 struct placed_load {
   load_kind what = load_kind::force;
   double from = 0.0, to = 0.0;     ///< along x, from < to; equal for a point between nodes
@@ -132,13 +132,13 @@ void for_each_loaded_element(const load& l, int elements, Visit visit) {
     for_each_loaded_element(d, elements, [&](int e) { visit(e, d.polynomial); });
 }
 
-/// Gauss-Legendre quadrature on [0, 1].
+/// A point of Gauss-Legendre quadrature on [0, 1].
 struct gauss_point {
   double t;       ///< place, between 0 and 1
   double weight;  ///< the weights add up to 1
 };
 
-/// `n` points, exact for polynomials up to degree 2 n - 1. n >= 1.
+/// The `n` >= 1 points whose sum is exact for polynomials up to degree 2 n - 1.
 [[nodiscard]] std::vector<gauss_point> gauss_points(int n);
 
 /// A permanent support of one dof, in both directions.
@@ -147,18 +147,19 @@ struct support {
   int dof = 0;           ///< within the node, from 0
   bool fixed = true;     ///< held in place; otherwise elastic
   double spring = 0.0;   ///< stiffness of an elastic support
-  bool settles = false;  ///< fixed, and steps may prescribe its displacement
+  bool settles = false;  ///< fixed, and steps may prescribe a displacement of the dof
 };
 
 /// A candidate contact pair: a one-sided spring between a node and a face, which is fixed or belongs to
-/// another node. With another node, the pair depends on the difference of the two deflections.
+/// another node. With another node, the pair depends on the difference of the two deflections, and no support
+/// fixes either deflection.
 struct contact_pair {
   int node = 0;            ///< from 0
   int surface = 0;         ///< n: face_above (+1) or face_below (-1)
   double face = 0.0;       ///< c: the position of the face
   double stiffness = 0.0;  ///< k of its spring, positive
   bool closed = false;     ///< in contact at the start
-  int other = -1;  ///< the node with the face, from 0; -1: the face is fixed. No support fixes either w
+  int other = -1;          ///< the node with the face, from 0; -1: the face is fixed
 
   /// w of the node, minus w of `other` if there is one. `u`: displacements, or rows of numbers [dofs].
   template <class Vector>
@@ -186,22 +187,22 @@ struct linear_structure {
   int deflection = 0;          ///< the dof of a node that is its deflection, from 0 (INDOF - 1)
   stiffness_matrix stiffness;  ///< includes elastic supports; rows of fixed dofs are decoupled: see in_row
   std::vector<char> fixed;     ///< [dofs] 1 if a support fixes the dof
-  std::vector<char> settles;   ///< [dofs] 1 if its support prescribes a displacement; empty: none does
+  std::vector<char> settles;   ///< [dofs] 1 if steps may prescribe the dof's displacement; empty: all 0
   std::vector<matrix_entry> to_settling;  ///< K's entries in rows of free dofs and columns of settling dofs
-  std::vector<contact_pair> pairs;        ///< in the order of their numbers
+  std::vector<contact_pair> pairs;        ///< in the order of pair numbers
 
-  std::vector<int> rows;  ///< [dofs] row of each dof in `stiffness`; empty: the dof's number
+  std::vector<int> rows;  ///< [dofs] the row of each dof in `stiffness`; empty: row and dof are equal
 
   int rigid_motions = 0;  ///< 2 + number of hinges for a beam, 3 for a plate, up to 6 for a matrix
   std::vector<rigid_row> rigid_rows;  ///< [dofs] the displacements by the rigid-body motions
-  std::vector<int> supported_dofs;    ///< the dofs whose supports stop rigid-body motions
+  std::vector<int> supported_dofs;    ///< the dof of each support; empty for a matrix
   /// The exact rigid-body motions of a beam or plate; null for a matrix.
   std::shared_ptr<const rigid_truth> truth;
   std::optional<rigid_rank> on_supports;  ///< held_by_supports(), if `truth` is known
   /// The largest error of `rigid_rows`, relative to the largest row: 0 for beams and plates.
   double rigid_rounding = 0.0;
 
-  /// [dofs] 1 if the dof is a deflection; empty: the dof `deflection` of each node is.
+  /// [dofs] 1 if the dof is a deflection; empty: dof `deflection` of each node is the deflection.
   std::vector<char> lengths;
 
   [[nodiscard]] int dofs() const { return stiffness.order(); }
@@ -217,18 +218,18 @@ struct linear_structure {
   [[nodiscard]] bool deflects(int dof) const {
     return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
-  /// The rank before any dof is held.
+  /// The rank when no dof is held.
   [[nodiscard]] rigid_rank nothing_held() const {
     return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
   }
-  /// The motions that the supports stop.
+  /// The rank of the supported dofs.
   [[nodiscard]] rigid_rank held_by_supports() const {
     if (on_supports) return *on_supports;
     rigid_rank rank = nothing_held();
     for (std::size_t i = 0; i < supported_dofs.size() && !is_held(rank); ++i) rank.hold(supported_dofs[i]);
     return rank;
   }
-  /// The motions that are stopped by the supports and by the pairs i, from 0, with `closed(i)`.
+  /// The rank of the supported dofs and of each pair i (from 0) for which closed(i) is true.
   template <class Closed>
   [[nodiscard]] rigid_rank held_by(Closed closed) const {
     rigid_rank rank = held_by_supports();
@@ -238,22 +239,22 @@ struct linear_structure {
   }
   /// True if `rank` includes all rigid-body motions.
   [[nodiscard]] bool is_held(const rigid_rank& rank) const { return rank.rank() >= rigid_motions; }
-  /// The rigid-body motion in the direction in which the work grows fastest, among those that `held` leaves
-  /// free; nothing if the load does no work on any of them. Decided by `work` if it is known, otherwise by
-  /// the rounded `load` [dofs].
+  /// The rigid-body motion in the direction in which the work grows fastest, among the motions that `held`
+  /// leaves free; nothing if the load does no work on any of them. Uses `work` if it is known, otherwise the
+  /// rounded `load` [dofs].
   [[nodiscard]] std::optional<free_motion> driven_motion(const rigid_rank& held, std::span<const double> load,
                                                          const rigid_work& work) const;
-  /// True if there is an equilibrium under a load of this work. Nothing if `truth` or `work` is unknown, or
-  /// if the supports leave more than 8 rigid-body motions.
+  /// True if there is an equilibrium under a load that does `work`. Nothing if `truth` or `work` is unknown,
+  /// or if the supports leave more than 8 rigid-body motions.
   [[nodiscard]] std::optional<bool> has_equilibrium(const rigid_work& work) const {
     constexpr int most_decided = 8;  // the time of the search doubles with each motion
     if (!truth || !work.is_known() || rigid_motions - held_by_supports().rank() > most_decided)
       return std::nullopt;
     return truth->is_carried(work, supported_dofs, pairs);
   }
-  /// The first pairs that stop the motions that `rank` leaves free. Counts these pairs as held.
+  /// Returns the first pairs that stop motions that `rank` leaves free, and counts these pairs as held.
   [[nodiscard]] std::vector<int> pairs_that_hold(rigid_rank& rank) const;
-  /// The dof, from 0, at which pair `i` (from 0) acts.
+  /// The dof, from 0, of the node of pair `i` (from 0).
   [[nodiscard]] int dof_of_pair(std::size_t i) const { return pairs[i].node * dofs_per_node + deflection; }
   /// The dof that carries the face of pair `i`; -1 if the face is fixed.
   [[nodiscard]] int other_of_pair(std::size_t i) const {
@@ -268,7 +269,7 @@ struct linear_structure {
   void hold(rigid_rank& rank, std::size_t i) const { rank.hold(dof_of_pair(i), other_of_pair(i)); }
 };
 
-/// Adds supports and pairs to an assembled structure: springs and fixed dofs change its stiffness.
+/// Adds supports and pairs to the assembled structure `s`. Springs and fixed dofs change its stiffness.
 void put_on_supports(linear_structure& s, std::span<const support> supports, std::vector<contact_pair> pairs);
 
 /// Completes a load vector `f` [dofs], which already contains the loads of `l`: sets settling dofs to the
@@ -279,10 +280,9 @@ void add_settlements(const linear_structure& s, const load& l, std::span<double>
 /// Adds to `moved` [dofs] how far `l` moves the faces at each dof.
 void add_moves(const load& l, int dofs_per_node, std::span<double> moved);
 
-/// A path uses displacements relative to the moving faces: v = u - m, where m is how far the faces at a dof
-/// are moved. The distance c + m - u of a pair from its face is then c - v with a constant c, and K u = f
-/// becomes K v = f - K m. Changes `f` [dofs], which already contains the settlements, to the right-hand side
-/// for v.
+/// Changes `f` [dofs], which already contains the settlements, to the right-hand side for the displacements
+/// v = u - m of a path, where m is how far the faces at a dof are moved. The distance c + m - u of a pair
+/// from its face is then c - v with a constant c, and K u = f becomes K v = f - K m.
 void count_from_faces(const linear_structure& s, std::span<const double> moved, std::span<double> f);
 
 }  // namespace contct
