@@ -49,8 +49,7 @@ class stiffness_factor {
   stiffness_factor(const stiffness_matrix& k, std::unique_ptr<sparse_factor> of_k)
       : k_(k), sparse_(std::move(of_k)) {}
 
-  /// Factors K with `springs`. Returns false if a pivot is not positive. Rounding can make the factorisation
-  /// of a mechanism succeed.
+  /// Factors K with `springs`. Returns false if a pivot is not positive: see contct::factor.
   [[nodiscard]] bool factor(std::span<const spring_at> springs) {
     if (sparse_) return factor_columns(springs);
     assemble(springs);

@@ -9,8 +9,7 @@
 #include "contct/matrix/fortran_names.h"  // CONTCT_FC_GLOBAL(name, NAME), made by CMake
 
 extern "C" {
-// Only the address of dpbtrf is used. It is declared as in cholesky.cpp, because release builds compile both
-// files together.
+// Declared as in cholesky.cpp, because release builds compile both files together.
 void CONTCT_FC_GLOBAL(dpbtrf, DPBTRF)(const char* uplo, const int* n, const int* kd, double* ab,
                                       const int* ldab, int* info, std::size_t uplo_length);
 void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
@@ -19,8 +18,7 @@ void CONTCT_FC_GLOBAL(ilaver, ILAVER)(int* major, int* minor, int* patch);
 namespace contct {
 namespace {
 
-/// The file name of the library that contains the loaded dpbtrf; empty if dladdr does not find the library.
-/// Throws std::bad_alloc.
+/// The file name of the library that contains dpbtrf; empty if it is not found. Throws std::bad_alloc.
 std::string library_of_dpbtrf() {
   Dl_info found{};
   // NOLINTNEXTLINE(*-reinterpret-cast): dladdr and dlsym have untyped addresses

@@ -44,8 +44,7 @@ T* made(T* by_cholmod) {
   return by_cholmod;
 }
 
-/// CHOLMOD's settings and workspace. A workspace must not be copied; its only owner, `cholmod`, cannot be
-/// copied.
+/// CHOLMOD's settings and workspace, which must not be copied: its only owner, `cholmod`, cannot be copied.
 struct workspace : cholmod_common {
   workspace() : cholmod_common{} {
     cholmod_start(this);
@@ -107,7 +106,7 @@ class supernode {
 class cholmod final : public sparse_factor {
  public:
   explicit cholmod(sparse_columns a) : a_(std::move(a)) {
-    const bool large = a_.order() >= 25'000;  // METIS takes longer, but its order saves more than that
+    const bool large = a_.order() >= 25'000;  // METIS takes longer, but its order saves more time
     order_by(large ? std::initializer_list<int>{CHOLMOD_METIS, CHOLMOD_AMD}
                    : std::initializer_list<int>{CHOLMOD_AMD});
     cholmod_sparse view = view_of_a();

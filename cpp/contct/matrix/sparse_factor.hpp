@@ -1,5 +1,4 @@
-// CHOLMOD's Cholesky factor of a sparse matrix. Builds without CHOLMOD can include this header, but cannot
-// make a factor.
+// CHOLMOD's Cholesky factor of a sparse matrix. Builds without CHOLMOD cannot make a factor.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +30,7 @@ class sparse_factor {
   /// The bytes of the factor, stored in dense blocks; known before A is factored.
   [[nodiscard]] virtual std::int64_t bytes() const = 0;
 
-  /// Factors A with `diagonal` [order] as its diagonal. Returns false if a pivot is not positive. Throws
+  /// Factors A with `diagonal` [order] on its diagonal; false if a pivot is not positive. Throws
   /// std::bad_alloc.
   [[nodiscard]] virtual bool factor(std::span<const double> diagonal) = 0;
 
@@ -41,8 +40,7 @@ class sparse_factor {
     throw std::logic_error("this factor's matrix cannot be changed");
   }
 
-  /// Solves A x = b in place. `b`: one or several right-hand sides, one after the other. Throws
-  /// std::bad_alloc.
+  /// Solves A x = b in place. `b`: right-hand sides, one after the other. Throws std::bad_alloc.
   virtual void solve(std::span<double> b) = 0;
 
   /// Returns L by columns; row i of A is row places()[i] of L. Afterwards the factor cannot solve any more.

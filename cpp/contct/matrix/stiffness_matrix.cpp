@@ -86,8 +86,7 @@ band_matrix band_of(const sparse_matrix& a, std::span<const int> rows) {
 
 namespace {
 
-/// Sorts entries by `place`, which is their row or their column, in linear time. Entries with the same
-/// `place` keep their order.
+/// Sorts entries by `place`, row or column, in linear time; entries with equal places keep their order.
 std::vector<matrix_entry> sorted_by(int matrix_entry::*place, const std::vector<matrix_entry>& all,
                                     std::size_t order) {
   std::vector<std::size_t> next(order + 1);

@@ -173,8 +173,7 @@ class stiffness_matrix {
 
   /// The diagonal of K with `springs` [rows].
   [[nodiscard]] std::vector<double> diagonal_with(std::span<const spring_at> springs) const;
-  /// The entries off the diagonal that are not 0, from both triangles, in every column that is marked in
-  /// `columns` [rows].
+  /// The entries off the diagonal other than 0, of both triangles, in the columns marked in `columns` [rows].
   [[nodiscard]] std::vector<matrix_entry> entries_in(std::span<const char> columns) const;
   /// Where pivots[r] > 0 [rows]: clears row r and column r, and sets their diagonal entry to pivots[r].
   void fix(std::span<const double> pivots);

@@ -34,7 +34,6 @@ struct pair_in {
   [[nodiscard]] Number seen_in(const Vector& u) const {
     return other < 0 ? u[dof] : Number(u[dof] - u[other]);
   }
-  /// Adds the force of the pair to `f` at `dof`, and the opposite force at `other`.
   template <class Vector, class Value>
   void add_to(Vector& f, const Value& force) const {
     f[dof] += force;
@@ -42,7 +41,6 @@ struct pair_in {
   }
 };
 
-/// A permanent support.
 template <class Number>
 struct support_in {
   int dof;

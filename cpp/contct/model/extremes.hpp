@@ -1,5 +1,4 @@
-// Results for a whole structure: the deflected line of a beam between its nodes, and the extremes of each
-// quantity with their places.
+// Results for a whole structure: the deflected lines of beams, and the extremes of each quantity.
 #pragma once
 
 #include <boost/container/small_vector.hpp>

@@ -45,7 +45,7 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number stiffness_of(const plate& p);
 
-/// EI of a beam's element: the file's, or the product of its section's E and I.
+/// EI of a beam's element, as in the file or as the product of the section's E and I.
 template <class Number>
 [[nodiscard]] Number stiffness_of(const beam& b, int element);
 

@@ -1,5 +1,4 @@
-// Loads that need not follow the mesh, in exact arithmetic: on parts of beams and plates, and at places of a
-// beam between its nodes.
+// Loads that need not follow the mesh (placed_load), in exact arithmetic.
 #pragma once
 
 #include <array>
@@ -13,8 +12,8 @@
 
 namespace contct {
 
-/// Calls visit(element, force) for every loaded element of a beam. `force`: the work of all its loads
-/// together on its shape functions, each number rounded once.
+/// Calls visit(element, force) for every loaded element of a beam. `force`: the work that all loads together
+/// do on the shape functions of the element; each number is rounded once.
 template <class Number>
 void for_each_exact_work(const beam& b, const load& l,
                          const std::function<void(int, const std::array<Number, 4>&)>& visit);
@@ -49,7 +48,7 @@ struct alike_pieces {
 };
 /// The pieces of every loaded element of `b`. Key: the first of consecutive elements with the same pieces.
 [[nodiscard]] std::map<int, alike_pieces> pieces_of(const beam& b, const load& l);
-/// The pieces of `element`; null if no load acts on it.
+/// The pieces of `element`; null if no load acts on this element.
 [[nodiscard]] const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all,
                                                           int element);
 

@@ -15,7 +15,6 @@ void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
   for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
 }
 
-/// At each dof the forces of the adjacent elements, minus the loads on these elements.
 template <class Kind>
 std::vector<double> needs_of(const Kind& kind, const load& l, std::span<const double> u) {
   std::vector<double> need(u.size());

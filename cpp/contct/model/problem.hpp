@@ -123,7 +123,7 @@ struct mesh_edge {
   int elements;  ///< the number of elements that have this edge; 1 for a coupling
 };
 
-/// The node of a dof, and its direction there.
+/// The node and the direction of a dof.
 struct placed_dof {
   int node = -1;      ///< from 0; -1 if unknown
   int direction = 0;  ///< 1 to 3 along x, y and z, 4 to 6 about them; 0 if unknown
@@ -150,7 +150,7 @@ struct assembled {
   std::string labels_from;          ///< the file with the labels
   std::vector<int> rows;            ///< [dofs] the row of each dof in the band; empty: row and dof are equal
   bool as_band = true;              ///< if false, K is stored by columns, for CHOLMOD
-  std::optional<int> free_motions;  ///< the number of its rigid-body motions on supports, if known
+  std::optional<int> free_motions;  ///< the number of rigid-body motions on its supports, if known
   placed_nodes places;              ///< for pictures only
 
   static constexpr int dofs_per_node = 1;

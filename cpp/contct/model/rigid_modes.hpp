@@ -40,7 +40,6 @@ using rigid_row = std::array<double, most_rigid_motions>;
   return std::inner_product(q.begin(), q.end(), row.begin(), 0.0);
 }
 
-/// The largest magnitude in a row.
 [[nodiscard]] inline double largest_of(const rigid_row& row) {
   double largest = 0.0;
   for (const double entry : row) largest = std::max(largest, std::abs(entry));
@@ -87,7 +86,7 @@ inline constexpr double negative_beyond = 1e-10;
 
 struct free_motions {
   int count = 0;
-  std::vector<rigid_row> rows;  ///< [rows of the matrix] the displacements by these rigid-body motions
+  std::vector<rigid_row> rows;  ///< [rows of the matrix] the displacements by the `count` rigid-body motions
   double rounding = 0.0;        ///< the largest relative error of `rows`
 };
 
@@ -128,9 +127,9 @@ struct free_motion {
   double work;                        ///< the work of the load on the motion, positive
 };
 
-/// The exact rigid-body motions of a beam or plate: up by 1, and turns about the middle that lift an end by
-/// 1. A beam with hinges has instead one motion for each end and each hinge, which lifts this point by 1 and
-/// none of the other ends and hinges.
+/// The exact rigid-body motions of a beam or plate: up by 1, and turns about the middle that lift the end at
+/// the largest x, or y, by 1. A beam with hinges has instead one motion for each end and each hinge, which
+/// lifts this point by 1 and none of the other ends and hinges.
 class rigid_truth {
  public:
   explicit rigid_truth(const beam& b);

@@ -29,9 +29,7 @@ class centred_line {
   Number first_, half_;
 };
 
-/// The rigid-body motions of a beam or plate: up by 1, and turns about the middle that lift the end at the
-/// largest x, or y, by 1. A beam with hinges has one motion for each end and each hinge: it lifts this point
-/// by 1 and none of the other ends and hinges, and keeps the beam straight between them.
+/// The rigid-body motions that rigid_truth describes. A beam stays straight between its ends and hinges.
 template <class Number>
 struct rigid_shape {
   using row = std::vector<Number>;
@@ -146,9 +144,9 @@ std::vector<rational_vector> nearest_of(const rational_vector& sum, std::span<co
   return nearest;
 }
 
-/// True if `sum` is a sum of `parts` with nonnegative factors. The nearest such sum needs no more parts than
-/// there are motions. Each round adds the part that reduces the distance fastest and drops parts that are not
-/// needed. The search ends because every round reduces the distance.
+/// True if `sum` is a sum of `parts` with nonnegative factors. The nearest of these sums needs no more parts
+/// than there are motions. Each round adds the part that reduces the distance from `sum` fastest and drops
+/// parts that are not needed. The search ends because every round reduces the distance.
 bool is_in_cone(const rational_vector& sum, std::span<const rational_vector> parts) {
   std::vector<rational_vector> carrying;
   for (;;) {

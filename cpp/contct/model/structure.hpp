@@ -46,8 +46,8 @@ struct distributed_load {
 /// imposed curvature of a beam, as by a temperature gradient.
 enum class load_kind { force, point, moment, curvature };
 
-/// A load that need not follow the mesh. If a coordinate equals that of a node or grid line, it means this
-/// node or line exactly; otherwise the decimal of the coordinate.
+/// A load that need not follow the mesh. A coordinate that equals the coordinate of a node or grid line means
+/// this node or line exactly; any other coordinate means its decimal.
 struct placed_load {
   load_kind what = load_kind::force;
   double from = 0.0, to = 0.0;     ///< along x, from < to; equal for a point between nodes
@@ -132,13 +132,13 @@ void for_each_loaded_element(const load& l, int elements, Visit visit) {
     for_each_loaded_element(d, elements, [&](int e) { visit(e, d.polynomial); });
 }
 
-/// A point of Gauss-Legendre quadrature on [0, 1].
+/// A point of a Gauss-Legendre rule on [0, 1].
 struct gauss_point {
   double t;       ///< place, between 0 and 1
   double weight;  ///< the weights add up to 1
 };
 
-/// The `n` >= 1 points whose sum is exact for polynomials up to degree 2 n - 1.
+/// The `n` >= 1 points of the rule that is exact for polynomials up to degree 2 n - 1.
 [[nodiscard]] std::vector<gauss_point> gauss_points(int n);
 
 /// A permanent support of one dof, in both directions.
@@ -218,11 +218,9 @@ struct linear_structure {
   [[nodiscard]] bool deflects(int dof) const {
     return lengths.empty() ? dof % dofs_per_node == deflection : lengths[dof] != 0;
   }
-  /// The rank when no dof is held.
   [[nodiscard]] rigid_rank nothing_held() const {
     return truth ? rigid_rank(*truth) : rigid_rank(rigid_rows, std::max(1e-12, rigid_rounding));
   }
-  /// The rank of the supported dofs.
   [[nodiscard]] rigid_rank held_by_supports() const {
     if (on_supports) return *on_supports;
     rigid_rank rank = nothing_held();
@@ -265,7 +263,6 @@ struct linear_structure {
   [[nodiscard]] auto seen_by_pair(std::size_t i, const Vector& u) const {
     return pairs[i].seen_in(u, dofs_per_node, deflection);
   }
-  /// Counts pair `i` as held.
   void hold(rigid_rank& rank, std::size_t i) const { rank.hold(dof_of_pair(i), other_of_pair(i)); }
 };
 

@@ -33,8 +33,7 @@ bool take_minus(std::string_view& rest) {
   return minus;
 }
 
-/// The exponent that all of `rest`, such as "e-3", consists of: 0 if `rest` is empty, nothing if `rest` is
-/// not an exponent. Its magnitude is limited to `endless`.
+/// The exponent that `rest` is, such as "e-3"; 0 if `rest` is empty, nothing if it is not an exponent.
 std::optional<std::int64_t> exponent_in(std::string_view rest) {
   if (rest.empty()) return 0;
   if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
@@ -53,8 +52,7 @@ struct written_decimal {
   std::int64_t last;  // the power of ten of the last digit
 };
 
-/// The parts of `literal`, such as "-1_000.5e-3" or "1.5D+02". Nothing if `literal` is not a decimal number,
-/// for example if it is hexadecimal, infinite or empty.
+/// The parts of `literal`, such as "-1_000.5e-3" or "1.5D+02"; nothing if `literal` is not a decimal.
 std::optional<written_decimal> written_in(std::string_view literal) {
   written_decimal w{take_minus(literal), false, take_digits(literal), 0};
   w.is_whole = literal.empty();

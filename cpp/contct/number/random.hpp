@@ -1,4 +1,4 @@
-// Random numbers that are the same on every platform, unlike those of the standard library's distributions.
+// Random numbers that are the same on every platform, unlike those of standard distributions.
 #pragma once
 
 #include <cstdint>

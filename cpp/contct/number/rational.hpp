@@ -47,8 +47,8 @@ void allocate_as_new_does();
 [[nodiscard]] double rounded(const rational& x);
 /// hi is the double nearest to x, and lo the double nearest to x - hi; lo is 0 if hi is infinite.
 [[nodiscard]] double_double long_rounded(const rational& x);
-/// long_rounded(decimal_of(x)), except that the low part may have a relative error of 2^-100 before its
-/// rounding. Most doubles need no rational numbers for it.
+/// long_rounded(decimal_of(x)), for most doubles without rational numbers; the low part may then have a
+/// relative error of 2^-100 before its rounding.
 [[nodiscard]] double_double long_decimal_of(double x);
 
 template <class Number>
