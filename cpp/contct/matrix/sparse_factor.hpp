@@ -11,8 +11,8 @@
 
 namespace contct {
 
-/// The factor of a symmetric positive definite matrix A, whose rows it orders for little fill. Diagonals and
-/// right-hand sides are in the order of A.
+/// The factor of a symmetric positive definite matrix A. The factor orders the rows of A for little fill;
+/// diagonals and right-hand sides stay in the order of A.
 class sparse_factor {
  public:
   /// True if CHOLMOD is built in.

@@ -63,7 +63,7 @@ class band_of_numbers {
 
 using band_matrix = band_of_numbers<double>;
 
-/// One entry of the lower triangle, row >= column, both from 0.
+/// An entry of a symmetric matrix; row and column count from 0. In a sparse_matrix, row >= column.
 struct matrix_entry {
   int row;
   int column;

@@ -60,7 +60,7 @@ struct loads_in {
 
 template <class Number>
 struct equations {
-  sparse_rows<Number> stiffness;  ///< includes elastic supports, and the rows of fixed dofs
+  sparse_rows<Number> stiffness;  ///< includes elastic supports; rows of fixed dofs are not changed
   std::vector<char> fixed;        ///< [dofs]
   std::vector<support_in<Number>> supports;
   std::vector<pair_in<Number>> pairs;

@@ -26,8 +26,8 @@ double zero_between(const poly& p, double a, double b) {
   return a;
 }
 
-/// The sign changes of p between 0 and 1, ascending. Between neighbouring zeros of its derivative p changes
-/// its sign at most once.
+/// The places between 0 and 1, ascending, at which p changes its sign. Between neighbouring zeros of its
+/// derivative, p changes its sign at most once.
 std::vector<double> zeros_of(const poly& p) {
   if (p.size() < 2) return {};
   std::vector<double> borders = zeros_of(derivative(p));

@@ -27,7 +27,7 @@ struct element_line {
   /// The sum of the magnitudes of the loads, each as a force per length, and in a broken element also of
   /// shear and moment: rounding errors are relative to load_size.
   double load_size = 0.0;
-  double curvature = 0.0;  ///< imposed
+  double curvature = 0.0;  ///< the imposed curvature
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
@@ -44,7 +44,7 @@ class beam_lines {
   /// The pieces of element `e` between the places where a load begins, ends or acts at a point; the whole
   /// element if there are no such places. Shear or moment jumps where a load acts at a point.
   [[nodiscard]] std::vector<element_line> pieces(int e) const;
-  /// True if element `e` has several pieces, a point load at its left end or an imposed curvature.
+  /// True if element `e` has several pieces, a point force or moment at its left end, or imposed curvature.
   [[nodiscard]] bool is_broken(int e) const;
   /// Shear and moment at the ends of the elements.
   [[nodiscard]] const element_results& ends() const { return ends_; }

@@ -50,10 +50,10 @@ using rigid_row = std::array<double, most_rigid_motions>;
 /// The structure is a mechanism if the rank is less than the number of its rigid-body motions.
 class rigid_rank {
  public:
-  /// For a matrix with rounded `rows` [dofs], which must outlive this object. A row is independent if the
-  /// part of the row that is orthogonal to all held rows is larger than `independent` times the row.
+  /// From rounded `rows` [dofs], as for a matrix; `rows` must outlive this object. A row is independent if
+  /// the part of the row that is orthogonal to all held rows is larger than `independent` times the row.
   rigid_rank(std::span<const rigid_row> rows, double independent) : rows_(rows), independent_(independent) {}
-  /// For a beam or plate, with the exact rows of `truth`, which must outlive this object.
+  /// From the exact rows of `truth`, for a beam or plate; `truth` must outlive this object.
   explicit rigid_rank(const rigid_truth& truth) : truth_(&truth) {}
 
   /// Counts `dof` as held. For a matrix, if `other` >= 0: counts the difference of `dof` and `other` as held.
@@ -123,7 +123,7 @@ class rigid_work {
 
 /// A combination of rigid-body motions; the largest factor is 1 in magnitude.
 struct free_motion {
-  std::function<double(int dof)> at;  ///< the displacement of a dof; 0 if it does not move
+  std::function<double(int dof)> at;  ///< the displacement of `dof`; 0 if the dof does not move
   double work;                        ///< the work of the load on the motion, positive
 };
 

@@ -157,7 +157,7 @@ struct contact_pair {
   int node = 0;            ///< from 0
   int surface = 0;         ///< n: face_above (+1) or face_below (-1)
   double face = 0.0;       ///< c: the position of the face
-  double stiffness = 0.0;  ///< k of its spring, positive
+  double stiffness = 0.0;  ///< k: the stiffness of the spring, positive
   bool closed = false;     ///< in contact at the start
   int other = -1;          ///< the node with the face, from 0; -1: the face is fixed
 

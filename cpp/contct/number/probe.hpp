@@ -13,7 +13,7 @@ struct floating_point {
   bool flushes_results;    ///< subnormal results become zero (FTZ)
   bool flushes_operands;   ///< subnormal operands count as zero (DAZ)
   bool extra_precision;    ///< intermediate results are wider than their type (x87)
-  bool rearranges;         ///< compiler flags allow to reorder sums and to ignore NaN
+  bool rearranges;         ///< compiler flags allow reordered sums and ignored NaN
 
   [[nodiscard]] bool strict() const {
     return !contracts && rounds_to_nearest && !flushes_results && !flushes_operands && !extra_precision &&

@@ -44,7 +44,7 @@ std::string decimal_words(std::string digits, int exponent) {
 }
 
 #ifdef CONTCT_HAS_GMP
-/// Returns `got` unless it is null; then calls the new handler, or aborts if there is none.
+/// Returns `got`, unless it is null: then calls the new handler, or aborts if there is none.
 void* or_end(void* got) {
   if (got != nullptr) return got;
   if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
