@@ -8,17 +8,18 @@
 namespace contct {
 namespace {
 
-/// An error counts as zero up to this share of a related kind: the shears of a beam that only couples bend
-/// are 0 up to the rounding of 32 digits.
+/// An error up to this share of the size of a related kind is always allowed. For example, a beam that is
+/// bent only by couples has no shear: its computed shears are the rounding of 32 digits.
 constexpr double of_related = 0x1p-60;
 
-/// An error counts as zero up to this share of the force that moves one settling dof alone, if no load acts.
+/// If no load acts, an error up to this share of the force that moves one settling dof alone is always
+/// allowed.
 constexpr double of_settling = 0x1p-70;
 
 constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
 
-/// The size of each kind of number in a state. Forces, reactions and shears have a common size; that of
-/// moments includes force times extent, and that of gaps includes deflections.
+/// The size of each kind of number in a state. Forces, reactions and shears have a common size. The size of
+/// moments is at least this common size times `extent`; the size of gaps is at least that of deflections.
 by_quantity sizes_of(const error_bounds& b, double extent) {
   by_quantity sizes = b.size;
   double force = 0.0;
@@ -29,14 +30,15 @@ by_quantity sizes_of(const error_bounds& b, double extent) {
   return sizes;
 }
 
-/// Each size less its error: an uncertified number may be too large, and without loads all are errors.
+/// The sizes computed from the largest numbers less their error bounds: a number that is not certified may be
+/// too large, and without loads every number is only an error.
 by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));
   return sizes_of(b, extent);
 }
 
-/// An error up to its floor counts as zero: all numbers of the kind may be 0. Floors ignore error bounds.
+/// The error of each kind that is always allowed, because all numbers of the kind may be 0.
 by_quantity floors_of(const error_bounds& b, const by_quantity& sizes, double extent) {
   by_quantity floors;
   const double force = of_settling * b.settling[quantity::force].value_or(0.0);

@@ -1,4 +1,6 @@
-// The allowed errors of a certified state: a share of the size of their kind.
+// The errors that a certified state may have. For each kind of number (deflection, contact force, ..), the
+// allowed error is a share of the size of this kind, which is computed from the largest numbers of the state
+// (reference/certificate-proof.md, "Sizes").
 #pragma once
 
 #include <optional>
@@ -9,33 +11,36 @@
 
 namespace contct {
 
-/// The largest bound on an error in a certified state, as a share of the size of its kind.
+/// The allowed error of a number in a certified state, relative to the size of its kind.
 inline constexpr double certified_share = 1e-6;
 
-/// Computes allowed errors from the sizes of the numbers of a path (reference/certificate-proof.md, "Sizes").
+/// Computes the allowed errors of the states of a path.
 class allowed_errors {
  public:
-  /// The allowed error of each kind of number in the state of `b`; empty for kinds without a bound. `extent`:
-  /// the largest side of the structure. Must be called for the steps of a path in their order.
+  /// Returns the allowed error of each kind of number in the state with error bounds `b`; empty for a kind
+  /// without a bound. `extent`: the largest side of the structure. Must be called for the steps of a path in
+  /// order, because the sizes of an unloaded state are the largest on the path so far.
   [[nodiscard]] by_quantity of(const error_bounds& b, double extent);
 
  private:
   by_quantity largest_;  // the largest proved size of each kind so far
 };
 
-/// `error` as a share of `allowed`: 0 without an error, infinite if nothing is allowed or the error is NaN.
+/// Returns the error relative to the size of its kind: certified_share if `error` equals `allowed`, 0 without
+/// an error, infinite if no error is allowed or `error` is NaN.
 [[nodiscard]] double share_of(const std::optional<double>& error, const std::optional<double>& allowed);
 
-/// The largest `share_of` of any kind.
+/// The largest `share_of(error, allowed)` over all kinds.
 [[nodiscard]] double worst_share(const by_quantity& error, const by_quantity& allowed);
 
-/// "deflection", "contact force", ..: the name of one number of a kind.
+/// The name of one number of a kind: "deflection", "contact force", ..
 [[nodiscard]] std::string_view name_of_kind(quantity q);
 
-/// The unit of a kind, after a blank; empty if the problem names no unit.
+/// The unit of a kind with a blank before the unit; empty for slopes, and if the problem names no units.
 [[nodiscard]] std::string unit_of(const problem& p, quantity q);
 
-/// The error most above its allowed value, in words, with units if `of` is given; empty if there is none.
+/// Describes the error that exceeds its allowed value by the largest factor, with units if `of` is given;
+/// empty if no error exceeds its allowed value.
 [[nodiscard]] std::string worst_bound(const by_quantity& error, const by_quantity& allowed,
                                       const problem* of = nullptr);
 

@@ -28,11 +28,12 @@ certain_contacts::certain_contacts(const problem& p, const linear_structure& s, 
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt,
                  quickest_factor(s) == factored_by::cholmod) {}
 
-/// rho^2 with z = 0, which is enough where r is little more than what it may be off by; otherwise nothing.
+/// Returns rho^2 for z = 0 (see norm_of) if the residual r is hardly larger than the bound on its error, so
+/// that a better z would gain little; otherwise nothing.
 std::optional<double> certain_contacts::square_without_z(const long_residual& r) const {
   constexpr double enough = 1.5;
   double square = 0.0;
-  double least = 0.0;  // whatever r is
+  double least = 0.0;  // part of `square` due to the error bound of r alone
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
     if (system_.fixed[dof] != 0) continue;
     const double scaled = stiffness_.scale(dof) * (std::abs(r.force[dof].hi) + r.slack[dof]);
@@ -44,8 +45,8 @@ std::optional<double> certain_contacts::square_without_z(const long_residual& r)
   return (square / mu_ + underflow) * (1 + summation_slack);
 }
 
-/// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
-/// rho^2 = r'z + z'e + e' K_A^-1 e.
+/// Returns rho, an upper bound on the norm of the residual r in K_A^-1; nothing if the bound is not finite.
+/// With z near K_A^-1 r, and e = r - K_A z, the square of the norm is r'z + z'e + e' K_A^-1 e.
 std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   const std::size_t n = system_.dofs();
   long_vector z(n);
@@ -76,7 +77,7 @@ std::optional<double> certain_contacts::norm_of(const long_residual& r) {
     work += z[dof] * (r.force[dof] + left[dof]);
     double size = sizes[dof];
     const double root = 1.0 / stiffness_.scale(dof);
-    size += root * root * std::abs(z[dof].hi) * 2;  // springs of pairs in A
+    size += root * root * std::abs(z[dof].hi) * 2;  // for the springs of the pairs in A
     const double off = r.slack[dof] + 2 * long_rounding * size;
     slack += 2 * std::abs(z[dof].hi) * off;
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
@@ -143,7 +144,8 @@ bool certain_contacts::last_digits_decide() const {
   return !(std::ranges::max(rows) * (1 + summation_slack) < mu_);
 }
 
-/// Finds A and rho. Returns the reason in words if they are not proved, otherwise "".
+/// Sets A and rho in `b`. Returns "" if A and rho are proved, otherwise the reason in words. `balanced`:
+/// springs of further pairs, without force, hold the structure (find_balanced).
 std::string certain_contacts::search(std::span<const double_double> u, const long_residual& r, bool balanced,
                                      contact_set& b) {
   b.closed = pressed(u);
@@ -198,7 +200,8 @@ bool certain_contacts::find_balanced(int step, std::span<const double_double> u,
   return true;
 }
 
-/// True if the load does no work on the motions that A leaves free, and no pair that they move can press.
+/// True if supports and A do not stop all rigid-body motions, the load does no work on the others, and all
+/// pairs that the others move are certainly separated.
 bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);

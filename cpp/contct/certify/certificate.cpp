@@ -19,7 +19,8 @@ double share(double part, double whole) {
   return part > 0.0 ? part / whole : 0.0;
 }
 
-/// Does the sparse factor L fit into memory three times, and does L L' take a minute or less?
+/// True if three copies of the sparse factor L fit into memory, and computing L L' takes about a minute or
+/// less.
 bool can_be_proved_by_columns(const linear_structure& s) {
   if (!sparse_factor::available()) return false;
   constexpr double most_flops = 5e10;
@@ -81,8 +82,8 @@ certificate certifier::judge(const step_state& s) {
   c.rcond = s.rcond;
   c.independent = !s.from_reference;
   if (c.certified) measure_state(s, load, c);
-  const bool beyond_face = !c.unique && c.penetration > certified_share;  // not unique: displacements have no
-                                                                          // bound
+  // If the state is not unique, its displacements have no bound: pairs may be beyond their faces.
+  const bool beyond_face = !c.unique && c.penetration > certified_share;
   if (!c.certified || beyond_face) compare(s, load, c);
   if (!c.certified) find_pulling_pair(s, c);
   return c;
@@ -101,7 +102,8 @@ std::vector<double> certifier::load_at(int step) const {
   return load;
 }
 
-/// Tries to prove a state. If is_certified has just judged the state, returns that certificate.
+/// Tries to prove bounds on the errors of a state. If is_certified has just judged the same state, returns
+/// the certificate from there.
 certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
@@ -120,7 +122,8 @@ certificate certifier::proof_of(const step_state& s) {
   return c;
 }
 
-/// Finds the pair that pulls most, if its force is above a millionth of the largest contact force.
+/// Sets `c.pulling` to the pair with the largest tensile force, or to -1 if this force is at most a millionth
+/// of the largest contact force.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
   const std::vector<double> v = from_faces(s.step, s.displacement);
@@ -147,12 +150,12 @@ std::string certifier::status_words(std::size_t pair, const step_state& s) const
   return text + unit_of(problem_, quantity::gap);
 }
 
-/// The first measure above the tolerance, in words.
+/// Describes the first measure of `c` above certified_share; empty if there is none.
 std::string certifier::worst_of(const certificate& c) const {
   struct part {
     double share;
     const char* words;
-    double whole;  // a length; 0: the share is of scaled numbers without a unit
+    double whole;  // the length that `share` refers to; 0: `share` has no length
   };
   const part parts[] = {{c.displacement_error, "the deflections are off", largest_length()},
                         {c.shape_error, "the displacements are off", 0.0},
@@ -188,7 +191,7 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.shape_error = c.worst_share;
 }
 
-/// Compares the state with the reference solution, to find its error if the proof failed.
+/// Judges a state by its equilibrium, its contacts and its difference from the reference solution.
 void certifier::compare(const step_state& s, std::span<const double> load, certificate& c) {
   const reference_answer answer = reference_at(s.step);
   remember_sizes(answer.displacement);
@@ -336,15 +339,19 @@ bool certifier::is_certified(int step, full_load_state& s) {
   return c.certified;
 }
 
-/// Returns the path's own state if no other state is certified either, or if its proof takes too much memory.
+/// Returns the final state of a step: the first that is certified among the refined state `reached` and the
+/// state of the exact path or, if that path decides nothing, the reference solution. If neither is certified,
+/// or a proof takes too much memory, returns the refined state `reached` if the path reached one.
 found_end certifier::end_of(int step, const full_load_state* reached) {
   std::optional<full_load_state> refined;
   if (reached != nullptr) {
     refined = *reached;
     if (is_certified(step, *refined) || !prover_) return {std::move(refined), true};
   }
+  // A prover keeps the digits below double precision of one state: `refined` is refined again to restore its
+  // digits.
   const auto kept = [&] {
-    (void)is_certified(step, *refined);  // restores the digits below double precision
+    (void)is_certified(step, *refined);
     return found_end{std::move(refined), true};
   };
   if (found_end exactly = exactly_ ? exactly_->end_of(step) : found_end(); exactly.exists) {

@@ -1,10 +1,12 @@
-// Certifies the final state of each step: proves bounds on the errors of its numbers from its residual
-// (reference/certificate.md). If the end of a path is not proved, or the path failed, another state is tried:
-// the end of the exact path if the problem is small enough, otherwise the reference solution. If no state is
-// proved, a comparison with the reference solution finds the error.
+// Certifies the final state of each step: proves bounds on the errors of the state's numbers from its
+// residual (reference/certificate.md). If the state that the path reached is not certified, or the path
+// failed, another state is tried: that of the exact path if the problem is small enough, otherwise the
+// reference solution. If no state is certified by a proof, a comparison with the reference solution shows the
+// error.
 //
-// The reference solution shares no code with kernels, engines or the loop over increments. All use the same
-// assembled stiffness, Cholesky factor (matrix/cholesky) and count of rigid-body motions (model/rigid_modes).
+// The reference solution shares no code with kernels, engines or the loop over increments. Reference solution
+// and path use the same assembled stiffness, Cholesky factor (matrix/cholesky) and count of rigid-body
+// motions (model/rigid_modes).
 #pragma once
 
 #include <memory>
@@ -21,33 +23,37 @@
 
 namespace contct {
 
-/// The certificate of a step's final state. Lengths are relative to the largest deflection on the path so
-/// far, or to the largest slope converted to a deflection by sqrt(K_ii), whichever is larger: deflections
-/// alone may be only rounding.
+/// The certificate of a step's final state. displacement_error, penetration and tension are relative to the
+/// largest deflection on the path so far, or to the largest slope converted to a deflection by sqrt(K_ii),
+/// whichever is larger, because all deflections may be rounding. equilibrium is relative to the largest
+/// displacement on the path so far, times sqrt(K_ii).
 struct certificate {
-  bool certified = false;  ///< every error is proved to be at most certified_share
-  // The next two: proved errors of a certified state, otherwise differences from the reference solution.
+  /// Every error is at most certified_share: by a proof or, without one, by comparison with the reference.
+  bool certified = false;
+  // The next two: proved errors if a proof certified the state, otherwise differences from the reference
+  // solution. shape_error is then that of a displacement times sqrt(K_ii), relative to the largest so far.
   double displacement_error = 0.0;  ///< largest error of a deflection
-  double shape_error = 0.0;  ///< largest error of a number, relative to the size of its kind; uncertified: of
-                             ///< a displacement times sqrt(K_ii)
-  double equilibrium = 0.0;  ///< largest residual of a row of the equilibrium, divided by sqrt(K_ii)
-  double penetration = 0.0;  ///< largest depth of a separated pair beyond its face
-  double tension = 0.0;      ///< largest distance of a pair in contact from its face, if its spring pulls
-  double rcond = 0.0;        ///< reciprocal condition number of the equilibrated stiffness
-  /// False if the state is the reference solution itself: a comparison of the two would show no error.
+  double shape_error = 0.0;         ///< largest error of a number, relative to the size of its kind
+  double equilibrium = 0.0;         ///< largest residual of a dof, divided by sqrt(K_ii)
+  double penetration = 0.0;         ///< largest depth of a separated pair beyond its face
+  double tension = 0.0;  ///< largest distance of a pair in contact from its face, if its spring pulls
+  double rcond = 0.0;    ///< reciprocal condition number of the equilibrated stiffness
+  /// False if the state is the reference solution, so that a comparison with that solution shows no error.
   bool independent = true;
-  bool unique = true;        ///< false: displacements have no bound, since others balance the load too
+  /// False if other displacements balance the load too: displacements then have no error bound.
+  bool unique = true;
   bool proved = false;       ///< the bounds are proved: `error`, `allowed` and `worst_share` are set
   by_quantity error;         ///< bounds on the errors of each kind of number, absolute
   by_quantity allowed;       ///< the errors that a certified state may have, absolute
-  double worst_share = 0.0;  ///< the worst error as a share of the size of its kind
+  double worst_share = 0.0;  ///< the largest error relative to the size of its kind
   std::shared_ptr<const step_proof> proof;  ///< the data that prove the bounds; null unless proofs are kept
   std::string problem;                      ///< what is wrong, in words; empty if certified
   int pulling = -1;   ///< not certified: the pair in contact that pulls most, from 0; -1: none
   double pull = 0.0;  ///< the tensile force of that pair
 };
 
-/// The proved correct decimal digits of every number of a state: from 0, nothing proved, to 15.
+/// The number of decimal digits that are proved for every number of a state, relative to the size of the
+/// number's kind: 0 (nothing is proved) to 15.
 [[nodiscard]] int digits_of(const certificate& c);
 
 /// Observes a path and certifies the end of every step that is solved.
@@ -58,7 +64,8 @@ class certifier final : public observer {
 
   void step_ended(const step_state& s) override;
 
-  /// Returns a function that proves or replaces the final state of a step. This object must outlive it.
+  /// Returns a function that proves or replaces the final state of a step. This object must outlive the
+  /// function.
   [[nodiscard]] end_finder ends();
 
   /// Finds the equilibrium under the total load of every step without following the path, and reports it to
@@ -117,7 +124,7 @@ class certifier final : public observer {
   std::vector<double> scale_;   // sqrt(K_ii) [dofs]
   double largest_scale_ = 0.0;  // the largest scale_ of a free deflection
   double largest_deflection_ = 0.0;
-  double largest_displacement_ = 0.0;  // the largest displacement so far, times its scale_
+  double largest_displacement_ = 0.0;  // the largest product of displacement and scale_ so far
   std::vector<std::optional<certificate>> steps_;
 };
 

@@ -10,7 +10,7 @@
 namespace contct {
 namespace {
 
-/// Sets displacements to 0 if their products underflow.
+/// Sets displacements to 0 if they are so small that their products underflow.
 void flush_tiny(long_vector& u) {
   constexpr double none = 1e-140;
   for (double_double& x : u)
@@ -25,8 +25,8 @@ quantity kind_of(const support& s) {
   return s.dof == 0 ? quantity::reaction : quantity::moment;
 }
 
-/// Compares the reported number `told` with `x` from the state. The error of x is at most `slack`; the number
-/// in the equilibrium differs by at most `moved` more.
+/// Takes the error bound and the size of the reported number `told`. x: the same number computed from the
+/// state, with an error of at most `slack`; x changes by at most `moved` from the state to the equilibrium.
 void take(error_bounds& b, quantity q, double told, const double_double& x, double slack, double moved) {
   const double off = std::abs((double_double(told) - x).hi);
   b.error.take(q, (off + slack + moved) * (1 + summation_slack));
@@ -98,8 +98,8 @@ long_vector error_prover::long_displacement(int step, std::span<const double> di
   return u;
 }
 
-/// The residual that u would have if exactly the pairs of `closed` had forces, of either sign. It is linear
-/// in u.
+/// The residual of u with the springs of the pairs in `closed`, which may pull, and no others. This residual
+/// is linear in u.
 long_vector error_prover::residual_of_set(const long_residual& r, std::span<const double_double> u,
                                           const std::vector<int>& closed) const {
   long_vector force = r.force;
@@ -123,13 +123,14 @@ double error_prover::correction_for(const long_vector& force, std::vector<double
   return square;
 }
 
-/// Repeats u += K_A^-1 r until r is negligible relative to the loads, or no longer decreases. Then the pairs
-/// beyond their faces become the new A, and all is repeated until A no longer changes. A stays the same until
-/// its own equations are solved, because the depth of a stiff pair may be below the rounding of a correction
-/// of u. False if K_A is not certainly definite. The residual is stored in state_.
+/// Corrects the displacements in state_, and stores their residual there. Repeats u += K_A^-1 r until r is
+/// negligible relative to the loads, or no longer decreases. Then the pairs beyond their faces become the new
+/// A, and all is repeated until A no longer changes. A is changed only then, because the depth of a stiff
+/// pair may be less than the rounding of a correction of u. False if the first K_A is not certainly positive
+/// definite.
 bool error_prover::correct(const long_loads& l) {
   constexpr int most = 40;
-  constexpr double none = 0x1p-150;  // relative to the loads' work: displacements are right to 2^-75
+  constexpr double none = 0x1p-150;  // relative to the loads' work; then u is right to 2^-75
   long_vector u = std::move(state_.u);
   flush_tiny(u);
   std::vector<int> closed = contacts_.pressed(u);
@@ -143,7 +144,7 @@ bool error_prover::correct(const long_loads& l) {
     double square = correction_for(r.force, correction);
     double work = 0.0;
     for (std::size_t dof = 0; dof < u.size(); ++dof) work += l.force[dof].hi * u[dof].hi;
-    // Norms of different A cannot be compared.
+    // Each A has another norm of the residual, so only norms of the same A are compared.
     if (best.empty() || (now == closed && (square < least || square == 0.0))) {
       best = u;
       state_.left = r;
@@ -167,7 +168,7 @@ bool error_prover::correct(const long_loads& l) {
   return !state_.u.empty();
 }
 
-/// Corrects the status of each pair whose force has a sign that is certain in spite of rounding.
+/// Sets the status of each pair whose force exceeds rounding from the sign of this force.
 void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) const {
   const auto force_at = [&](std::size_t i) {
     return system_.pairs[i].stiffness.hi * system_.depth(i, state_.u).hi;
@@ -179,7 +180,7 @@ void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) con
     if (std::abs(force_at(i)) > 1e-12 * largest) isep[i] = force_at(i) > 0.0 ? in_contact : separated;
 }
 
-/// Corrects the status of each pair that is on one side of its face in all states within rho of u.
+/// Sets the status of each pair that is on one side of its face in all states within rho of u.
 void error_prover::settle_certain_statuses(double rho, std::span<int> isep) const {
   for (std::size_t i = 0; i < isep.size(); ++i) {
     const double deep = system_.depth(i, state_.u).hi;
@@ -188,7 +189,7 @@ void error_prover::settle_certain_statuses(double rho, std::span<int> isep) cons
   }
 }
 
-/// The numbers of a state. Reactions and element forces within the rounding of 32 digits are 0.
+/// The numbers of the state in state_. Reactions and element forces within the rounding of 32 digits are 0.
 end_numbers error_prover::numbers_of(std::span<const int> isep) const {
   const auto told = [](const double_double& x, double noise) { return std::abs(x.hi) > noise ? x.hi : 0.0; };
   end_numbers n;
@@ -227,13 +228,13 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
 
 /// Is K without pairs proved to be semidefinite, so that the energy is convex? May replace the factor.
 bool error_prover::is_semidefinite() {
-  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // element formulas ensure it
+  if (!std::holds_alternative<assembled>(problem_.geometry.kind)) return true;  // beams, plates: always
   if (!semidefinite_)
     semidefinite_ = contacts_.proves({}) || (exactly_ != nullptr && exactly_->is_semidefinite());
   return *semidefinite_;
 }
 
-/// Sets the sizes of nodal loads or, if none acts, of the forces that move one settling dof alone.
+/// Sets the sizes of nodal loads or, if no load acts, of the forces that move one settling dof alone.
 void error_prover::measure(const long_loads& l, error_bounds& b) const {
   const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
@@ -268,7 +269,8 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
   }
 }
 
-/// Checks the status of each pair. Bounds its gap, which is 0 in contact, if displacements have bounds.
+/// Finds the first pair with a certainly wrong status. Bounds the errors of gaps if displacements have
+/// bounds; the reported gap of a pair in contact is 0.
 void error_prover::bound_pairs(const reported_state& told, error_bounds& b) const {
   const std::vector<contact_pair> pairs = pairs_under(problem_, problem_.steps[told.step - 1]);
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
@@ -291,7 +293,8 @@ void error_prover::bound_pairs(const reported_state& told, error_bounds& b) cons
   }
 }
 
-/// If a dof is fixed twice, the first support gets the whole reaction.
+/// The forces of all supports, in the order of the file. If a dof is fixed twice, the first support gets the
+/// whole reaction.
 std::vector<error_prover::support_force> error_prover::support_forces() const {
   std::vector<char> taken(system_.dofs(), 0);
   std::vector<support_force> all;
@@ -310,8 +313,9 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
   return all;
 }
 
-/// Bounds for a state without loads: all forces are 0, and so are all displacements if the supports hold the
-/// structure. If not, it may be anywhere, unbent, with no pair beyond its face. False if it may be bent.
+/// Prepares the bounds for a state without loads: all forces are 0, and so are all displacements if the
+/// supports hold the structure. Otherwise the structure may be at any place, unbent, with no pair beyond its
+/// face. Returns false and sets `b.not_proved` if bending cannot be excluded.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
   state_ = {told.step,
@@ -342,7 +346,7 @@ void error_prover::keep(const reported_state& told, error_bounds& b) const {
                                                     of_stiffness});
 }
 
-/// Finds A and rho of the state, or sets the reason why they cannot be proved.
+/// Sets A and rho of the state in `b`; returns false and sets `b.not_proved` if A and rho cannot be proved.
 bool error_prover::find_contacts(const reported_state& told, const long_loads& l, contact_set& b) {
   bool found = true;
   if (!is_refined(told.step, told.displacement)) {

@@ -44,31 +44,33 @@ struct step_proof {
   std::vector<int> isep;             ///< in_contact or separated [pairs]
   end_numbers numbers;
 
-  long_vector state;                            ///< u in 32 digits [dofs]
-  std::vector<int> closed;                      ///< A: pairs from 0
+  long_vector state;                            ///< the displacements u in 32 digits [dofs]
+  std::vector<int> closed;                      ///< A: the pairs certainly in contact, from 0
   long_vector z;                                ///< approximates K_A^-1 r [dofs]; empty without loads
-  std::optional<stiffness_proof> of_stiffness;  ///< empty without loads if only contact holds
+  std::optional<stiffness_proof> of_stiffness;  ///< empty if no load acts and only contact holds
 };
 
 struct error_bounds : contact_set {
-  /// Bounds on the largest error of each kind of number; infinite if nothing is proved.
+  /// Bounds on the largest error of each kind of number; empty for a kind without numbers or without a bound.
   by_quantity error;
   by_quantity size;      ///< the largest number of each kind; nodal loads count as forces and moments
-  by_quantity settling;  ///< no load acts: the force or moment that moves one settling dof alone
-  /// No load acts, and zero displacement, with no pair beyond its face, is the equilibrium.
+  by_quantity settling;  ///< if no load acts: the force or moment that moves one settling dof alone
+  /// No load acts, and at zero displacement no pair is beyond its face: this is an equilibrium.
   bool unloaded = false;
   /// The first pair, from 0, whose status is certainly wrong.
   std::optional<std::size_t> wrong_status;
   std::shared_ptr<const step_proof> proof;  ///< null unless proofs are kept
 };
-/// Answers by rational numbers, if doubles are too coarse; empty or false for a problem that is too large.
+/// Answers in rational numbers, for use where doubles are too coarse; empty or false if the problem is too
+/// large.
 class exact_means {
  public:
   virtual ~exact_means() = default;
   /// The state at the end of a step, from 1, of the exact path.
   [[nodiscard]] virtual found_end end_of(int step) = 0;
-  /// K u - f + sum of n k max(0, d) at every dof [dofs] at the end of a step, each number rounded once: f is
-  /// the load, d the depth of a pair beyond its face. At fixed dofs u is the prescribed displacement.
+  /// K u - f + sum of n k max(0, d) at the end of a step [dofs], each number rounded once. f: the load; n, k,
+  /// d: surface, stiffness and depth beyond the face of each pair. At fixed dofs, the prescribed
+  /// displacements are used for u.
   [[nodiscard]] virtual std::optional<long_vector> residual_of(int step,
                                                                std::span<const double_double> u) = 0;
   /// Is K certainly positive semidefinite on the dofs that are not fixed?
@@ -78,17 +80,18 @@ class exact_means {
 /// Bounds the errors of a problem's states.
 class error_prover {
  public:
-  /// All arguments must outlive this object. `exactly` may be null. It gives residuals if K_A can be factored
-  /// only in 32 digits, because residuals in 32 digits are too coarse then. It also decides whether a matrix
-  /// that only pairs hold is semidefinite.
+  /// All arguments must outlive this object. `exactly` may be null. If K_A can be factored only in 32 digits,
+  /// residuals in 32 digits are too coarse, and `exactly` computes them. `exactly` also decides whether a
+  /// matrix that only pairs hold is semidefinite.
   error_prover(const problem& p, const linear_structure& s, exact_means* exactly = nullptr);
 
   [[nodiscard]] error_bounds bound(const reported_state& told);
   /// The bounds from exact residuals, which take longer; empty if there is no `exactly`.
   [[nodiscard]] std::optional<error_bounds> bound_closely(const reported_state& told);
 
-  /// Corrects a state by its residual as long as the residual becomes smaller, and returns its numbers. Empty
-  /// if the structure is not certainly held. Digits below double precision are kept for `bound`.
+  /// Corrects displacements and statuses by the residual as long as the residual becomes smaller, and returns
+  /// the numbers of the corrected state. Empty if the structure is not certainly held. For the last state,
+  /// digits below double precision are kept for `bound`.
   [[nodiscard]] std::optional<end_numbers> refine(int step, std::span<double> displacement,
                                                   std::span<int> isep);
   [[nodiscard]] double extent() const { return system_.extent; }
@@ -117,7 +120,8 @@ class error_prover {
   [[nodiscard]] bool has_exact_residual(const long_loads& l);
   [[nodiscard]] long_residual residual_of(std::span<const double_double> u, const long_loads& l);
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
-  /// `displacement` with prescribed settlements, and with its low digits if it was refined last.
+  /// `displacement` with the prescribed settlements; if it was refined last, with the digits below double
+  /// precision.
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const long_loads& l) const;
 
@@ -140,7 +144,7 @@ class error_prover {
   void keep(const reported_state& told, error_bounds& b) const;
 
   const problem& problem_;
-  long_system system_;  // its faces are those at the end of the step of `loads_`
+  long_system system_;  // the faces are at their places at the end of the step of `loads_`
   certain_contacts contacts_;
   exact_means* exactly_;
   std::optional<bool> semidefinite_;
@@ -150,9 +154,9 @@ class error_prover {
   bool keeps_proof_ = false;
 };
 
-/// Widens the bounds on w, moment and shear of a beam, which cover only the ends of elements, so that they
-/// also cover the extremes that ranges_of finds in between. The size of w then includes the middle of
-/// elements. Plates and matrices have their extremes at nodes and corners, so nothing changes.
+/// Widens the bounds on w, moment and shear of a beam, which hold at the ends of elements, to include the
+/// extremes that ranges_of finds inside the elements. The size of w then includes the middle of elements.
+/// Does nothing for plates and matrices, whose extremes are at nodes and corners.
 void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b);
 
 }  // namespace contct

@@ -1,4 +1,4 @@
-// Bounds the errors inside the elements of a beam, which can exceed those at their ends.
+// Bounds the errors inside the elements of a beam, which can exceed the errors at the ends of the elements.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,22 +18,23 @@ double sum_of_sizes(const poly& p) {
   return sum;
 }
 
-/// The largest rounding error of a line's polynomial p: its coefficients above the cubic ones have at most 20
-/// roundings each, two rounds of Horner's rule and the conversion to Bernstein's form 6 a degree, and each of
-/// 26 bisections one a degree. Of a polynomial without a cubic part the largest value is at most that of its
-/// coefficients, and the parts of Hermite's functions that fit it to the ends at most a quarter a degree
-/// more.
+/// A bound on the rounding of the values of p, a polynomial of an element_line. Each coefficient of degree
+/// above 3 has at most 20 roundings. Two evaluations by Horner's rule and the conversion to Bernstein's form
+/// have 6 for each degree, and 26 bisections have 26. The terms above degree 3 add up to at most the sum of
+/// their coefficients; the Hermite functions that fit them to the ends of the element add at most a quarter
+/// of this sum for each degree.
 double rounding_in(const poly& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
-/// The largest amount by which a polynomial in Bernstein's form exceeds `top`; amounts below `close` do not
-/// matter. `reached`: the amount that is certain, since its first and last coefficients are values.
+/// A bound on how far a polynomial, with Bernstein's coefficients p, exceeds `top` from t = 0 to 1. Bisects p
+/// until the bound is at most `close` above `reached`, the largest excess of a value so far: the first and
+/// the last coefficient are the values at t = 0 and 1.
 double above(const poly& p, double top, double close, int bisections, double& reached) {
   const double beyond = std::ranges::max(p) - top;
   reached = std::max({reached, p.front() - top, p.back() - top});
   if (beyond <= reached + close || bisections == 0) return std::max(beyond, 0.0);
-  poly left;  // P. de Casteljau
+  poly left;  // bisection by de Casteljau's algorithm
   poly right = p;
   for (std::size_t last = p.size(); last > 0; --last) {
     left.push_back(right.front());
@@ -43,9 +44,10 @@ double above(const poly& p, double top, double close, int bisections, double& re
                   above(right, top, close, bisections - 1, reached));
 }
 
-/// The distance of the polynomial from its printed extremes, and from the reported value at its right end.
+/// A bound on how far p goes beyond its printed extremes, plus its distance from the reported value at its
+/// right end, plus rounding.
 double off_extremes(const poly& p, const value_range& printed, double right_end) {
-  constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
+  constexpr int bisections = 26;  // each leaves a quarter of the error near a smooth maximum
   const double close = rounding_in(p);
   poly b = bernstein_of(p);
   double reached = 0.0;
@@ -66,11 +68,15 @@ double middle_of(const std::vector<element_line>& pieces, double h) {
   return polynomial_at(pieces.back().w, 1.0);
 }
 
-/// Up to rounding, the error of M is linear in t and that of V constant, so both are largest at the ends. The
-/// error of w is a cubic: Hermite's functions of w add up to 1, those of slopes to at most h / 4.
-/// This also holds if loads break an element into pieces, because the loads are those of the equilibrium.
-/// Left of a hinge, the error of w is the cubic with the left slope and the right curvature, which is 0 up to
-/// rounding. Its functions have the same bounds, and that of the curvature is at most h^2 / 27.
+/// Widens the bounds by how far each element goes beyond the printed extremes, and by the error of w inside
+/// the element. Up to rounding, the error of the moment is linear and that of the shear constant, so both are
+/// largest at the ends. The error of w is a cubic, the sum of Hermite's functions times the errors at the
+/// ends: the functions of w add up to 1, those of the slopes to at most h / 4. This also holds if loads break
+/// an element into pieces, because the loads are those of the equilibrium.
+///
+/// Left of a hinge, the slope at the hinge is not a dof: the curvature there, which is 0 up to rounding,
+/// replaces the right slope. The functions of w and of the left slope have the same bounds, that of the
+/// curvature is at most h^2 / 27.
 void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
   const beam_lines lines(b, l, state.displacement, state.numbers.element_values);
   const std::vector<value_range> printed = ranges_of(b, lines, state.displacement);
@@ -93,7 +99,7 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
       const auto off = [&](const poly& p, std::size_t name, double right_end) {
         return off_extremes(p, printed[name], &line == &last ? right_end : polynomial_at(p, 1.0));
       };
-      if (line.load_size != 0.0) {  // otherwise both extremes are at the ends
+      if (line.load_size != 0.0) {  // without a load, shear and moment are extreme at the ends
         inside.take(quantity::shear, of_load + off(line.shear, 2, lines.ends().at(e, 0)[1]));
         inside.take(quantity::moment, of_load * h + off(line.moment, 1, lines.ends().at(e, 1)[1]));
       }

@@ -23,7 +23,8 @@ double_double product(const long_band& l, int i, int j, int end) {
   return sum;
 }
 
-/// Replaces the first `rows` of x by those of L'^-1 x.
+/// Replaces the first `rows` entries of x by B'^-1 times these entries, where B is the leading block of L
+/// with `rows` rows and columns.
 void solve_upper(const long_band& l, std::span<double_double> x, int rows) {
   for (int i = rows; i-- > 0;) {
     x[i] = x[i] / l.at(i, i);
@@ -45,8 +46,8 @@ row_sums magnitudes(const sparse_columns& a, const sparse_columns& l) {
   return sums;
 }
 
-/// The first columns of all blocks, and the order. Columns of a block have the same rows below the diagonal
-/// of its last one; most columns of a factor are in large blocks.
+/// The first column of each block, and then the order of L. A block consists of adjacent columns that have
+/// the same rows below the diagonal of the block's last column. Most columns of a factor are in large blocks.
 std::vector<int> blocks_of(const sparse_columns& l) {
   std::vector<int> firsts;
   for (int column = 0; column < l.order(); ++column) {
@@ -86,7 +87,8 @@ void solve_with(const long_band& l, std::span<double_double> x) {
   solve_upper(l, x, l.order());
 }
 
-/// Let l be the row of L that failed: x is -L'^-1 l in the rows above it, and 1 in that row.
+/// Returns x with 1 in the row whose pivot is not positive, -B'^-1 l in the rows above, and 0 below. B is the
+/// factor of the rows above, and l the entries to the left of the pivot.
 std::vector<double_double> suspect_in(const long_band& failed) {
   std::vector<double_double> x(failed.order());
   int row = 0;
@@ -111,12 +113,12 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
   const int n = l.order();
   row_sums sums(n, 0.0);
   const std::vector<int> firsts = blocks_of(l);
-  std::vector<int> next(firsts.size(), 0);  // the next row of each block, from 0
-  std::vector<std::vector<int>> with(n);    // [row] the blocks whose next row it is
+  std::vector<int> next(firsts.size(), 0);  // [block] the next of its rows to be processed, from 0
+  std::vector<std::vector<int>> with(n);    // [row] the blocks that have this row next
   for (int block = 0; firsts[block] < n; ++block) with[firsts[block]].push_back(block);
   std::vector<double> difference(n, 0.0);  // one column of A - L L'
   std::vector<int> rows;                   // rows of `difference` that are not 0
-  std::vector<double> product;             // the column's part from one block
+  std::vector<double> product;             // the part of one block in a column of L L'
   const auto add = [&](int row, double value) {
     if (difference[row] == 0.0) rows.push_back(row);
     difference[row] += value;
@@ -131,7 +133,7 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
       const int* const own = &l.rows[l.starts[first]];
       const int height = l.starts[first + 1] - l.starts[first];
       product.assign(height - row, 0.0);
-      const int width = std::min(row + 1, firsts[block + 1] - first);  // columns with this row
+      const int width = std::min(row + 1, firsts[block + 1] - first);  // columns of the block with this row
       for (int k = 0; k < width; ++k) {
         const double* const values = &l.values[l.starts[first + k] + row - k];
         for (int i = 0; i < height - row; ++i) product[i] += values[0] * values[i];
@@ -145,7 +147,7 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
     rows.clear();
   }
   const row_sums sizes = magnitudes(a, l);
-  for (int row = 0; row < n; ++row)  // each product is added to two sums, of its block and its column
+  for (int row = 0; row < n; ++row)  // each product is added in `product` and in `difference`
     sums.add(row, row, (most_terms + 4) * half_ulp * sizes.of(row));
   return sums.largest() + 0x1p-900;  // for underflow
 }

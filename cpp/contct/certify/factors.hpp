@@ -1,4 +1,5 @@
-// Cholesky factors of narrow bands in 32 digits, for matrices that doubles cannot factor, and error bounds.
+// Cholesky factors L of narrow bands in 32 digits, for matrices A that doubles cannot factor, and bounds on
+// the error A - L L' of any factor.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +18,15 @@ using long_band = band_of_numbers<double_double>;
 /// Is a band small enough to be factored in 32 digits in acceptable time?
 [[nodiscard]] bool can_be_factored_long(int order, int subdiagonals);
 
-/// Replaces A by L with L L' = A up to rounding. False if a pivot is not positive; that pivot remains.
+/// Replaces A by L with L L' = A up to rounding. If a pivot is not positive, leaves this pivot on the
+/// diagonal, stops and returns false.
 [[nodiscard]] bool factor(long_band& a);
 
 /// Replaces x by (L L')^-1 x.
 void solve_with(const long_band& l, std::span<double_double> x);
 
-/// If `factor` returned false: a vector x with x' A x <= 0 up to rounding. Otherwise 0.
+/// `failed`: the result of `factor`. If `factor` returned false, returns a vector x with x' A x <= 0 up to
+/// rounding; otherwise zeros.
 [[nodiscard]] std::vector<double_double> suspect_in(const long_band& failed);
 
 /// The product of two entries; exact if Number is double_double and Entry is double.
@@ -51,10 +54,11 @@ class row_sums {
   std::vector<double> sums_;
 };
 
-/// An upper bound on the largest row sum of |A - L L'|, and so on its norm. The entries of A are at most 1,
-/// with errors of at most `rounding`. Sums are computed in A's kind of number. The magnitudes of a product of
-/// two rows add up to at most 1.1, because their squares add up to the diagonal's. Columns of L are
-/// subtracted one by one, because each is contiguous in memory.
+/// An upper bound on the largest row sum of |A - L L'|, and so on the norm of A - L L'. The entries of A are
+/// at most 1, with errors of at most `rounding`. Sums are computed in A's kind of number. The magnitudes of
+/// the terms of an entry of L L' add up to at most 1.1, because the squares of a row of L add up to an entry
+/// on the diagonal of A. The columns of L are subtracted one by one, because each column is contiguous in
+/// memory.
 template <class Number, class Entry>
 [[nodiscard]] double largest_row_of_error(band_of_numbers<Number> a, const band_of_numbers<Entry>& l,
                                           double rounding) {
@@ -75,7 +79,8 @@ template <class Number, class Entry>
   return sums.largest();
 }
 
-/// The same for a symmetric A and a lower triangle L by columns, in the same order, with rounding included.
+/// The same bound for sparse A and L with their rows in the same order. The rounding of the sums is included,
+/// but the entries of A count as exact.
 [[nodiscard]] double largest_row_of_error(const sparse_columns& a, const sparse_columns& l);
 
 /// A with its row and column i moved to `places[i]`.

@@ -7,7 +7,8 @@
 namespace contct {
 namespace {
 
-/// Shears and moments at the ends of a beam's elements. The error of a moment is linear in an element.
+/// Shears and moments at the ends of a beam's elements. The error of each is at most sqrt(K_jj) rho, where K
+/// is the stiffness of the element.
 std::vector<element_value> values_of(const beam_elements<double_double>& beam, const load& l,
                                      std::span<const double_double> u) {
   std::vector<element_value> all;
@@ -36,7 +37,7 @@ struct curvature_size {
   double bends = 0.0, twists = 0.0;
 };
 
-/// Each slope of an element counts with the slope of the plane that is subtracted.
+/// The size of each entry includes the slope of the plane that plate_elements::deformation subtracts.
 std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double>& plate, int e,
                                               std::span<const double_double> u) {
   const double a = plate.halves_of(e).a.hi;
@@ -56,8 +57,9 @@ std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double
   return sizes;
 }
 
-/// Moments at the corners of elements. w_xx and w_yy are bilinear, and w_xy has five terms, so a value at a
-/// corner is at most 4 or sqrt(17) times its root mean square over the element, which the energy bounds.
+/// Moments at the corners of elements. The energy bounds the root mean squares of the curvatures over an
+/// element. The corner values of w_xx and w_yy, which are bilinear, are at most 4 times their root mean
+/// square; those of w_xy, which has five terms, sqrt(17) times.
 std::vector<element_value> values_of(const plate_elements<double_double>& plate, const load& /*l*/,
                                      std::span<const double_double> u) {
   std::vector<element_value> all;
@@ -90,7 +92,6 @@ double least_cube(std::span<const double> x) {
   return least;
 }
 
-/// The smallest product in the element formulas.
 double least_product_of(const beam& b) {
   return std::min(least_cube(b.x), std::ranges::min(b.EI));
 }

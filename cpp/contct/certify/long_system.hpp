@@ -1,4 +1,5 @@
-// The equations of a problem in pairs of doubles, from the decimals in its file, with rounding bounds.
+// The equations of a problem in 32 digits (double_double), from the decimals in its file, with bounds on
+// their rounding.
 #pragma once
 
 #include <cmath>
@@ -14,9 +15,9 @@ namespace contct {
 
 using long_vector = std::vector<double_double>;
 
-/// Bound on rounding: the error of every entry of K is at most this share of sqrt(K_ii K_jj), that of every
-/// other number this share of itself. Element formulas take fewer than a hundred operations, each good to
-/// 2^-100 (double_double), on decimals good to 2^-94.
+/// Bound on rounding: the error of an entry K_ij is at most this share of sqrt(K_ii K_jj), that of any other
+/// number of the equations this share of the number. Element formulas take fewer than a hundred operations
+/// with relative errors of up to 2^-100 (double_double), on decimals with relative errors of up to 2^-94.
 inline constexpr double long_rounding = 0x1p-90;
 /// Bound on the rounding of sums of doubles, as a share of the sum of magnitudes.
 inline constexpr double summation_slack = 0x1p-30;
@@ -29,9 +30,9 @@ struct long_loads : loads_in<double_double> {
 };
 
 struct long_residual {
-  long_vector force;          ///< residual; 0 at fixed dofs [dofs]
+  long_vector force;          ///< the residual r; 0 at fixed dofs [dofs]
   std::vector<double> slack;  ///< bound on the error of `force` [dofs]
-  long_vector needed;         ///< K u - f + sum of n k max(0, d) with depths d [dofs]
+  long_vector needed;         ///< K u - f + sum of n k max(0, d); at fixed dofs the reaction [dofs]
 };
 
 /// A moment or shear at the end or corner of an element. Values are in the order of element_results.
@@ -41,7 +42,8 @@ struct element_value {
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
   bool moment = true;   ///< false: a shear
 
-  /// A bound on rounding: lengths, coordinates and moduli enter at most ten times, each good to 2^-94.
+  /// A bound on the rounding of `value`: lengths, coordinates and moduli enter at most ten times, each with a
+  /// relative error of up to 2^-94.
   [[nodiscard]] double noise() const { return 4 * long_rounding * size; }
 };
 
@@ -52,7 +54,7 @@ struct long_system : equations<double_double> {
   }
 
   std::vector<long_pair> unmoved;  ///< the pairs with their faces as in the file
-  std::vector<double> face_size;   ///< sum of the magnitudes of face and movement [pairs]
+  std::vector<double> face_size;   ///< sum of the magnitudes of the face's position and movement [pairs]
   /// Moves the faces of `pairs` by the movements in `l`.
   void move_faces(const long_loads& l);
 
@@ -74,6 +76,7 @@ struct long_system : equations<double_double> {
   [[nodiscard]] double_double depth(std::size_t pair, std::span<const double_double> u) const {
     return (pairs[pair].seen_in(u) - pairs[pair].face) * pairs[pair].surface;
   }
+  /// A bound on the rounding of the depth.
   [[nodiscard]] double doubt(std::size_t pair, std::span<const double_double> u) const;
   /// The sum of the magnitudes from which the depth is computed.
   [[nodiscard]] double size_of_depth(std::size_t pair, std::span<const double_double> u) const {
@@ -81,14 +84,16 @@ struct long_system : equations<double_double> {
     return std::abs(u[p.dof].hi) + (p.other < 0 ? 0.0 : std::abs(u[p.other].hi)) + face_size[pair];
   }
 
-  /// f - K u - sum of n k max(0, d) over all pairs, whatever their statuses; d: depth beyond the face.
+  /// The residual f - K u - sum of n k max(0, d) over all pairs, whatever their statuses. f: the load; n, k,
+  /// d: surface, stiffness and depth beyond the face of a pair.
   [[nodiscard]] long_residual residual(std::span<const double_double> u, const long_loads& l) const;
-  /// The residual for a given `needed` (see long_residual), of which each number was rounded once.
+  /// The residual for a given long_residual::needed, each number of which was rounded once.
   [[nodiscard]] long_residual residual_of_rounded(long_vector needed) const;
 
-  /// Are there numbers other than 0, or products in the element formulas, that are too small for 32 digits?
+  /// True if a number of the equations that is not 0, or a product in the element formulas, is too small to
+  /// have 32 digits.
   [[nodiscard]] bool is_below_range(const long_loads& l) const;
-  /// True if no load acts and no pair is beyond its face at zero displacement.
+  /// True if no load and no settlement acts, and no pair is beyond its face at zero displacement.
   [[nodiscard]] bool is_unloaded(const long_loads& l) const;
 
  private:

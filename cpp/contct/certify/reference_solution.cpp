@@ -52,7 +52,8 @@ class reference_solver::search {
     if (exists_ == false) return end(outcome::no_equilibrium, false);
     reference_answer answer = from_here();
     if (answer.how == outcome::found) return answer;
-    // Rounding may be too large if the start was far from the answer.
+    // Rounding may be too large if the last answer is far from the new one: starts from the undeformed
+    // structure.
     start_undeformed();
     settle();
     answer = from_here();
@@ -143,10 +144,12 @@ class reference_solver::search {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
     for (std::size_t i = 0; i < set_.size(); ++i)
-      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // cancels rounding
+      if (set_[i] != 0)
+        p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // a pair in contact does not move at all
   }
 
-  /// Adds springs without force at as many dofs as are needed to hold the structure as it is.
+  /// Adds springs without force at as many dofs as are needed to hold the structure at its present
+  /// displacements.
   void add_holding_springs(rigid_rank& rank) {
     for (int dof = 0; dof < structure_.dofs() && rank.rank() < structure_.rigid_motions; ++dof) {
       const int before = rank.rank();
@@ -168,7 +171,7 @@ class reference_solver::search {
     return in_factor_.has_value();
   }
 
-  /// r = load - K u - the springs of the pressed pairs.
+  /// Sets r to the load less K u and the forces of all springs; to 0 in rows of fixed dofs.
   void residual(const numbers& u, numbers& r) const {
     multiply_minus(stiffness_, u, r);
     for (std::size_t i = 0; i < r.size(); ++i) r[i] += load_[i];
@@ -184,14 +187,14 @@ class reference_solver::search {
       if (structure_.fixed[dof] != 0) r[structure_.row_of(dof)] = 0.0L;
   }
 
-  /// Solves for the point at which the springs of the pressed pairs are in equilibrium. Returns the size of
-  /// the last correction, or a negative number when refinement does not converge. A point at which other
-  /// pairs are pressed only gives a direction, so it is not refined to its last digit.
+  /// Replaces u by the equilibrium with the springs of the pressed pairs. Returns the largest change at a
+  /// pair in the last correction, or a negative number if refinement does not converge. If other pairs are
+  /// pressed at the new u, it only gives a direction, so it is not refined to its last digit.
   long double refined_solve(numbers& u) {
     numbers r(u.size());
     std::vector<double> step(u.size());
     long double before = std::numeric_limits<long double>::infinity();
-    long double size = 0.0L;  // the largest u so far, so that an answer of 0 is accepted
+    long double size = 0.0L;  // the largest scaled u so far, so that an answer of 0 is accepted
     for (std::size_t i = 0; i < u.size(); ++i) size = std::max(size, scale_[i] * std::abs(u[i]));
     for (int pass = 0; pass < most_refinements; ++pass) {
       residual(u, r);
@@ -223,7 +226,8 @@ class reference_solver::search {
     multiply_minus(stiffness_, p, minus_kp);
     return best_step(p, -dot(minus_kp, u_) - dot(load_, p), -dot(minus_kp, p));
   }
-  /// The same alpha. `slope`: slope of E at alpha = 0; `growth`: its increase with alpha; both without pairs.
+  /// The same alpha. `slope`: the slope of E at alpha = 0, without the part of the pairs; `growth`: the
+  /// derivative of this slope.
   [[nodiscard]] long double best_step(const numbers& p, long double slope, long double growth) const {
     struct bend {
       long double at, slope, growth;
@@ -253,7 +257,8 @@ class reference_solver::search {
     return growth > 0 ? -slope / growth : std::numeric_limits<long double>::infinity();
   }
 
-  /// Outcome if E falls without limit: no equilibrium, unless supports hold the structure or p overflows.
+  /// The outcome if E falls without limit along p: none_seen; not_found if an equilibrium exists, supports
+  /// hold the structure or p is not finite, so that only rounding makes E fall.
   [[nodiscard]] outcome why_endless(const numbers& p) const {
     if (exists_ == true || structure_.is_held(held_by(pair_set(set_.size())))) return outcome::not_found;
     const bool finite = std::all_of(p.begin(), p.end(), [](long double x) { return std::isfinite(x); });
@@ -305,11 +310,11 @@ class reference_solver::search {
   numbers load_;                         // [rows]
   std::vector<double> given_;            // the load as passed by the caller [dofs]
   rigid_work work_;                      // work of the load on each rigid-body motion
-  std::optional<bool> exists_;           // has the load an equilibrium? empty: only rounding decides
-  std::vector<holding_spring> holding_;  // springs without force in this iteration
-  long double largest_load_ = 0.0L;      // the largest sum of the magnitudes of forces so far
-  numbers u_;                            // the last answer [rows]
-  pair_set set_;                         // the pairs pressed in the last answer
+  std::optional<bool> exists_;           // has the load an equilibrium? empty: not decided exactly
+  std::vector<holding_spring> holding_;  // the added springs without force of the present iteration
+  long double largest_load_ = 0.0L;      // the largest sum of the magnitudes of a load's forces so far
+  numbers u_;                            // the present point; at the end the answer [rows]
+  pair_set set_;                         // [pairs] 1 if the pair is pressed at u_
   stiffness_factor factor_;
   std::optional<std::vector<spring_at>> in_factor_;  // the springs in the factor; empty if factoring failed
   std::vector<double> scale_;                        // sqrt(K_ii) [rows]

@@ -39,7 +39,7 @@ struct reference_answer {
 /// The search ends when the set of pressed pairs is the same before and after a step.
 ///
 /// If the pressed pairs do not hold the structure, the step is the rigid-body motion on which the load does
-/// work. If it does work on none, springs without force hold the structure.
+/// work. If the load does work on no rigid-body motion, springs without force hold the structure.
 ///
 /// Every solve is refined with residuals in long double, which gives 3 to 4 more digits than a band solver.
 class reference_solver {
@@ -55,8 +55,8 @@ class reference_solver {
   /// The next solution starts from the undeformed structure.
   void start_undeformed();
 
-  /// The reciprocal condition number, with the diagonal scaled to 1, of the matrix of the last answer: K with
-  /// the springs that hold it. 0 if this matrix has no factor.
+  /// The reciprocal condition number of K with the springs of the last answer, its diagonal scaled to 1. 0 if
+  /// the last factorisation failed.
   [[nodiscard]] double reciprocal_condition();
 
   [[nodiscard]] int factorisations() const;

@@ -164,7 +164,8 @@ long_vector scaled_stiffness::times(std::span<const double_double> x, std::span<
   return y;
 }
 
-/// By inverse iteration: never too small, and seldom three times too large after two.
+/// Estimates the least eigenvalue by two inverse iterations. The estimate is never too small, and seldom more
+/// than three times too large.
 double scaled_stiffness::least_estimate() const {
   const std::size_t n = system_.dofs();
   std::vector<double> x(n);
@@ -185,12 +186,12 @@ double scaled_stiffness::least_estimate() const {
   return std::min(estimate, 1.0);
 }
 
-/// Sums in 32 digits leave more of the shift.
+/// A narrow band is summed in 32 digits: the bound is smaller, so the proved eigenvalue is larger.
 template <class Number>
 std::optional<double> scaled_stiffness::error_of_band(double shift) {
   band_of_numbers<Number> l = band<Number>(shift);
   if (!contct::factor(l)) return std::nullopt;
-  // NOLINTBEGIN(bugprone-branch-clone): in 32 digits both are one
+  // NOLINTBEGIN(bugprone-branch-clone): if Number is double_double, both branches are the same
   const double error = is_narrow() ? largest_row_of_error(band<double_double>(shift), l, long_rounding)
                                    : largest_row_of_error(band<Number>(shift), l, long_rounding);
   // NOLINTEND(bugprone-branch-clone)
@@ -203,7 +204,8 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   for (int row = 0; row < a.order(); ++row) a.diagonal(row) -= shift;
   const auto l = sparse_->likewise(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
-  std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double, the diagonal twice
+  // `rounding`: each entry of a row, at most 1, was rounded to a double, the diagonal entry twice.
+  std::size_t most = 0;
   for (const auto& row : system_.stiffness) most = std::max(most, row.size());
   const double rounding = static_cast<double>(most + 1) * (0x1p-53 + long_rounding);
   return largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;

@@ -17,7 +17,8 @@
 
 namespace contct {
 
-/// The proof that S K_A S >= mu I: a factor L of S K_A S - shift I up to rounding.
+/// The proof that S K_A S >= mu I: a factor L of S K_A S - shift I up to rounding. mu is the shift less a
+/// bound on the error of L L'.
 struct stiffness_proof {
   std::vector<double> scale;  ///< S [dofs], powers of two
   std::vector<int> row_of;    ///< row of each dof in L [dofs], from 0
@@ -25,7 +26,8 @@ struct stiffness_proof {
   std::variant<band_matrix, long_band> factor;  ///< L, in 32 digits if doubles are not accurate enough
 };
 
-/// S K_A S, with powers of two in S: its diagonal is between 1/8 and 1. Rows of fixed dofs are unit rows.
+/// S K_A S, where S is diagonal and consists of powers of two, so that the diagonal of S K_A S is between 1/8
+/// and 1. Rows of fixed dofs are unit rows.
 class scaled_stiffness {
  public:
   /// `row_of`: the row of each dof in a band with `subdiagonals`. Without `subdiagonals`, CHOLMOD factors
@@ -34,13 +36,16 @@ class scaled_stiffness {
   scaled_stiffness(const long_system& t, std::vector<int> row_of, std::optional<int> subdiagonals,
                    bool by_columns = false);
 
-  /// Factors K with the springs of these pairs, from 0. False if a pivot is not positive.
+  /// Factors K with the springs of these pairs, from 0, in doubles or, if a pivot is not positive, in 32
+  /// digits. False if a pivot is not positive in 32 digits either, or the band is too large for 32 digits.
   [[nodiscard]] bool factor(std::span<const int> pairs);
 
-  /// Returns mu > 0 with S K_A S >= mu I; 0 if none is proved. Takes a factorisation or more and four solves.
+  /// Returns mu > 0 with S K_A S >= mu I; 0 if no mu is proved. Takes at least one factorisation and two
+  /// solves.
   [[nodiscard]] double least_eigenvalue();
 
-  /// If factoring in 32 digits failed too: displacements on which K_A may do negative work. Otherwise 0.
+  /// If factoring in 32 digits failed too: displacements u with u' K_A u <= 0 up to rounding. Otherwise
+  /// zeros.
   [[nodiscard]] std::vector<double> suspect() const;
 
   /// Is the last factor in 32 digits?
@@ -52,7 +57,8 @@ class scaled_stiffness {
   /// Returns K_A x. `sizes`: see long_system::add_product.
   [[nodiscard]] long_vector times(std::span<const double_double> x, std::span<double> sizes = {}) const;
 
-  /// Makes least_eigenvalue keep its proof, which takes one more band; there is none for sparse columns.
+  /// Makes least_eigenvalue keep its proof, which takes the memory of one more band. Proofs are not kept for
+  /// sparse columns.
   void keep_proof() {
     keeps_proof_ = true;
     by_columns_ = !subdiagonals_;
@@ -63,11 +69,12 @@ class scaled_stiffness {
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
 
  private:
-  /// The products of a narrow band are summed in 32 digits.
+  /// True for a narrow band, for which L L' is summed in 32 digits.
   [[nodiscard]] bool is_narrow() const { return subdiagonals_ && *subdiagonals_ <= 16; }
-  /// S K_A S - shift I, in rows of the band, or by columns.
+  /// S K_A S - shift I as a band.
   template <class Number>
   [[nodiscard]] band_of_numbers<Number> band(double shift) const;
+  /// S K_A S by columns.
   [[nodiscard]] sparse_columns columns() const;
   template <class Put>
   void each_entry(double shift, const Put& put) const;
@@ -76,7 +83,7 @@ class scaled_stiffness {
   bool factor_in_32_digits();
   [[nodiscard]] double proved_below_estimate();
   [[nodiscard]] double least_estimate() const;
-  /// A bound on the norm of L L' - (S K_A S - shift I); empty if there is no factor.
+  /// A bound on the norm of L L' - (S K_A S - shift I); empty if the factorisation failed.
   template <class Number>
   [[nodiscard]] std::optional<double> error_of_band(double shift);
   [[nodiscard]] std::optional<double> error_of_columns(double shift) const;
@@ -90,7 +97,7 @@ class scaled_stiffness {
   std::map<std::pair<int, int>, double_double> beside_;
   std::vector<double> scale_;  // S [dofs]
   long_band narrow_;           // S K_A S as a narrow band
-  sparse_columns columns_;     // by columns, rounded
+  sparse_columns columns_;     // S K_A S by columns, rounded to doubles
   band_matrix factor_;
   std::unique_ptr<sparse_factor> sparse_;  // used instead of factor_
   std::optional<long_band> long_;          // used instead of factor_ and sparse_
