@@ -1,5 +1,6 @@
-// Follows the equilibria piece by piece. The complementarity problem of the pairs at their faces decides the
-// direction of a piece; it ends when the first pair reaches its face or leaves it.
+// Follows the exact path under the corrected rule, on which u is piecewise linear in the load. A
+// complementarity problem decides which of the pairs at their faces are in contact on the next piece. A piece
+// ends when a pair reaches or leaves its face.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -9,11 +10,13 @@
 namespace contct {
 namespace {
 
-/// The response of the structure to the step's load on a ground of stiffness epsilon M, as epsilon tends to
-/// 0:
-///     terms[0] / epsilon + terms[1] + epsilon terms[2] + ..
-/// With rigid-body motions z of K for which z_i'M z_j = 0, terms[0] = sum of z z'R / z'Mz, and each later
-/// term solves K y = the residual of the previous order, with z'M y = 0.
+/// The response of the structure, on an elastic ground of stiffness epsilon M, to the load increment R of the
+/// step, for epsilon tending to 0:
+///
+///     y_0 / epsilon + y_1 + epsilon y_2 + ..
+///     y_0 = sum of z z'R / z'Mz,   K y_1 = R - M y_0,   K y_2 = -M y_1,   ..,   z'M y_1 = z'M y_2 = .. = 0
+///
+/// K includes the springs of the pairs in contact; z: the rigid-body motions of K, with z_i'M z_j = 0.
 class soft_ground {
  public:
   explicit soft_ground(const position& at) : at_(at) {
@@ -96,10 +99,11 @@ class corrected_path {
     return path_status::iteration_limit;
   }
 
-  /// Decides which pairs at their faces are in contact on the next piece: the response must move every
-  /// separated pair away from its face, and every pair in contact into its face. All wrong statuses are
-  /// changed at once as long as their number falls (Judice and Pires 1994). Otherwise only the one of least
-  /// index is changed, which visits no set of statuses twice (Murty 1974).
+  /// Decides which pairs at their faces are in contact on the next piece: the response must not move a
+  /// separated pair into its face, nor a pair in contact off its face. All wrong statuses are changed at
+  /// once; if their number does not decrease for a while (Judice and Pires 1994), only the wrong status of
+  /// least index is changed, which visits no set of statuses twice (Murty 1974). Throws std::runtime_error if
+  /// the statuses cannot be decided.
   void settle_statuses() {
     std::vector<std::size_t> at_face;
     for (std::size_t i = 0; i < at_.closed.size(); ++i)
@@ -119,7 +123,7 @@ class corrected_path {
         seen.clear();
       } else if (patience > 0) {
         --patience;
-      } else if (!seen.insert(at_.closed).second) {  // more terms are needed to decide all pairs
+      } else if (!seen.insert(at_.closed).second) {  // statuses repeat: more terms are needed
         seen.clear();
         terms += 2;
         if (terms > most_terms)
@@ -135,15 +139,16 @@ class corrected_path {
     response_ = soft_ground(at_).response(terms);
   }
 
-  /// 1: the response moves the pair towards its face; -1: away; 0: not. The first term that moves it decides.
+  /// 1 if the response moves the pair towards its face, -1 if away from its face, 0 if neither. The first
+  /// term that moves the pair decides.
   [[nodiscard]] int moves(std::size_t pair) const {
     for (const rational_vector& term : response_)
       if (const rational towards = at_.approach(pair, term); towards != 0) return towards > 0 ? 1 : -1;
     return 0;
   }
 
-  /// The distance along `v` to the first event: a separated pair reaches its face, or a pair in contact,
-  /// which no rigid-body motion moves, leaves it. Empty if there is no event.
+  /// The multiple of `v` at which the first event occurs: a separated pair reaches its face, or a pair in
+  /// contact leaves its face. Empty if there is no event.
   [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
     std::optional<rational> way;
     for (std::size_t i = 0; i < at_.closed.size(); ++i) {
@@ -155,7 +160,8 @@ class corrected_path {
     return way;
   }
 
-  /// Moves along the rigid-body motion that the load drives, up to the first face. False if no face stops it.
+  /// Moves along the rigid-body motion that the load drives, up to the first face. If no face stops the
+  /// motion, keeps the motion as proof of the mechanism and returns false.
   bool snap() {
     fill_in();
     const rational_vector& motion = response_[0];
@@ -188,8 +194,9 @@ class corrected_path {
     return goes_on;
   }
 
-  /// Advances the share of the step by `way`. If the springs hold the structure, u is computed from the start
-  /// of the step, so that numbers do not become longer along the path; until fill_in(), only at pairs.
+  /// Advances the share of the step by `way`, and u with it. If the springs hold the structure, u is computed
+  /// from the load at the start of the step, so that numbers do not become longer along the path; until
+  /// fill_in(), only the u at pairs are computed.
   void move_on(const rational& way) {
     at_.fraction += way;
     if (!at_.solver().free_motions().empty()) {
@@ -217,7 +224,7 @@ class corrected_path {
   exact_path path_;
   std::vector<exact_increment> increments_;
   std::vector<rational_vector> response_;
-  rational_vector line_start_, line_rate_;  // u at the start of the step, and its rate on this piece
+  rational_vector line_start_, line_rate_;  // on this piece, u = line_start_ + fraction * line_rate_
 };
 
 }  // namespace

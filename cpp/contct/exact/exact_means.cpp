@@ -40,7 +40,7 @@ full_load_state state_of(const exact_step_end& end) {
   return s;
 }
 
-/// The work of K on `motion`; empty if it is not negative.
+/// The motion and the work of K on it, if this work is negative.
 std::optional<negative_work> work_on(const std::vector<double>& motion, const exact_problem& p) {
   negative_work w;
   for (const double x : motion) w.motion.push_back(binary_value(x));
@@ -49,7 +49,7 @@ std::optional<negative_work> work_on(const std::vector<double>& motion, const ex
   return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
 }
 
-/// Empty if the problem exceeds the limits for paths in doubles.
+/// Empty if the problem exceeds the limits in exact_means.hpp.
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
   try {
@@ -104,8 +104,8 @@ class problem_beside final : public exact_means {
     return *problem_;
   }
 
-  /// The first step of the chain that contains `step`, and the step after its last. Each step of a chain
-  /// starts from the state before, except the first.
+  /// The first step of the chain that contains `step`, and the step after the last step of this chain. Each
+  /// step of a chain, except the first, starts from the end of the step before.
   [[nodiscard]] std::pair<std::size_t, std::size_t> chain_of(std::size_t step) const {
     std::size_t first = step;
     while (first > 0 && !what_.steps[first].from_zero) --first;

@@ -1,4 +1,5 @@
-// Rational numbers for paths in doubles, and the test whether an external matrix is semidefinite.
+// Exact states and residuals for the certificates of paths in doubles, and the test whether the matrix of a
+// file is positive semidefinite.
 #pragma once
 
 #include <memory>
@@ -9,12 +10,13 @@
 
 namespace contct {
 
-/// Limits on rational numbers for a path in doubles, beyond which they would take too long.
+/// The largest problems and numbers for which rational numbers are used beside a path in doubles. Beyond,
+/// rational numbers would take too long.
 inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
 
-/// A displacement on which a matrix does negative work, which no stiffness matrix of a structure does.
+/// Displacements on which K does negative work. The stiffness matrix of a structure never does negative work.
 struct negative_work {
   rational_vector motion;  ///< 0 at fixed dofs [dofs]
   rational work;           ///< motion' K motion
@@ -28,11 +30,13 @@ struct definiteness {
 
 /// Decides whether K is semidefinite. Finds one dof for each rigid-body motion of K modulo a prime, and
 /// confirms the motions exactly. K is semidefinite if it is definite on the other dofs, which a bound on its
-/// least eigenvalue proves. If the factorisation fails, it gives a displacement, and the work of K on it is
-/// an exact sum. Throws the std::runtime_error of lifted_solver::factor.
+/// least eigenvalue proves. If the factorisation for this bound fails, it gives displacements on which K may
+/// do negative work, and this work is computed exactly. Throws the std::runtime_error of
+/// lifted_solver::factor.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
-/// Rational numbers for a path in doubles; no answers for large problems. `p` must outlive the result.
+/// Exact answers beside a path in doubles; empty or false for problems beyond the limits above. `p` must
+/// outlive the result.
 [[nodiscard]] std::unique_ptr<exact_means> exact_means_of(const problem& p);
 
 }  // namespace contct

@@ -75,7 +75,8 @@ void digit_counter::step_ended(const step_state& s) {
   }
 }
 
-/// The events that the exact path decides, without pairs of events that cancel at one place.
+/// `events` without those that the exact path does not decide, and without opposite events of the same
+/// contact pair whose places differ by less than `tie`.
 digit_counter::event_list digit_counter::decided(const event_list& events, double tie) const {
   event_list kept;
   for (const placed_event& e : events) {
@@ -91,8 +92,9 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
   return kept;
 }
 
-/// True if the exact path does not decide the event: it is at the end of a step, where its pair is exactly at
-/// its face without force, and may belong to that step, to the next one or to none; or it is at a mechanism.
+/// True if the exact path does not decide the event: the event is at the end of a step, where the contact
+/// pair is exactly at its face without force, so that the event may belong to this step, to the next or to
+/// none; or the exact path has ended there, because nothing holds the structure.
 bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const {
   const auto at = std::min(exactly_.steps.size() - 1, static_cast<std::size_t>(e.place));
   const path_status status = exactly_.steps[at].status;
@@ -122,7 +124,7 @@ std::string digit_counter::words(const placed_event& e) {
          " in step " + std::to_string(static_cast<int>(step) + 1) + " at share " + share;
 }
 
-/// Compares the events in their order; events within a tie are sorted by pairs first.
+/// Compares the events of both paths in order; events within `tie` of each other are first sorted by pair.
 void digit_counter::compare_events(kernel_digits& r, double tie) const {
   event_list exactly = decided(exact_events(), tie);
   event_list seen = decided(events_, tie);

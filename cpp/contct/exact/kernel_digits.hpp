@@ -13,10 +13,11 @@ struct kernel_digits {
   std::string name;
   bool same_events = true;
   std::string first_difference;  ///< difference of events or ends, in words; empty if there is none
-  /// Correct digits, from 0 to 16, of the worst displacement, share of an event and force. Displacements and
-  /// forces are those at the ends of steps that both paths reached; shares are those of equal events. Errors
-  /// are relative to the largest number of their kind on the path, that of slopes at least the largest
-  /// deflection divided by the length of the structure.
+  /// Correct digits, from 0 to 16, of the displacement, the share of an event and the contact force with the
+  /// largest error. Displacements and forces are compared at the ends of steps that both paths reached,
+  /// shares for equal events. Errors of displacements and forces are relative to the largest number of the
+  /// kind on the exact path; for slopes, to at least the largest deflection divided by the length of the
+  /// structure.
   double digits = 16.0, event_digits = 16.0, force_digits = 16.0;
   /// The number of ends of steps that were compared; if 0, digits and force_digits have no meaning.
   std::size_t steps = 0;
@@ -30,7 +31,8 @@ class digit_counter final : public observer {
   void incremented(const increment& i) override;
   void step_ended(const step_state& s) override;
 
-  /// `tie`: events whose shares differ by less than `tie` may come in any order.
+  /// The comparison so far. `ended`: the status of the kernel's path. `tie`: events whose shares differ by
+  /// less than `tie` may come in any order.
   [[nodiscard]] kernel_digits result(const std::string& name, path_status ended, double tie) const;
 
  private:

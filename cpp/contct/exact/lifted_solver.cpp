@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-/// The largest primes below 2^61. A matrix may be singular modulo one of them by chance.
+/// The largest primes below 2^61. If a matrix is by chance singular modulo one prime, the next one is used.
 constexpr std::uint64_t two_to_61 = std::uint64_t{1} << 61U;
 constexpr std::array<std::uint64_t, 6> primes = {two_to_61 - 1,   two_to_61 - 31,  two_to_61 - 45,
                                                  two_to_61 - 229, two_to_61 - 259, two_to_61 - 283};
@@ -30,8 +30,8 @@ void subtract_product(integer& r, const integer& a, std::uint64_t x) {
   r -= a * x;
 }
 
-/// Finds numerator/denominator = y modulo m, both at most `bound`; false if there is none. Uses the algorithm
-/// of Euclid, stopped halfway (Wang 1981).
+/// Finds the denominator of a fraction that equals y modulo m, with numerator and denominator at most
+/// `bound`; false if there is no such fraction. Uses the algorithm of Euclid, stopped halfway (Wang 1981).
 bool fraction_of(const integer& y, const integer& m, const integer& bound, integer& denominator) {
   integer r0 = m;
   integer r1 = y;
@@ -69,7 +69,7 @@ bool lifted_solver::field::take(const rational& x, std::uint64_t& residue) const
   return true;
 }
 
-/// Computes the digits of one solution, times an integer, to the base of the prime.
+/// Solves (K + springs) x = b: finds the digits of common_ x to the base of the prime, and from them x.
 class lifted_solver::lifting {
  public:
   lifting(const lifted_solver& of, const rational_vector& b) : of_(of), rest_(b.size()), sum_(b.size()) {
@@ -108,7 +108,8 @@ class lifted_solver::lifting {
     digits_.push_back(std::move(x));
   }
 
-  /// The number with the digits [from, to) of `dof`, by halves: few long products are faster than many short.
+  /// The number with the digits [from, to) of `dof`. Adds it up by halves: a few products of long numbers are
+  /// faster than many of short ones.
   integer number(std::size_t dof, std::size_t from, std::size_t to) {
     constexpr std::size_t few = 16;
     integer n = 0;
@@ -143,7 +144,8 @@ class lifted_solver::lifting {
     return r;
   }
 
-  /// Finds x = n / d with these digits and one denominator for all numbers; false if more digits are needed.
+  /// Finds the solution x with the present digits and one denominator for all numbers; false if more digits
+  /// are needed.
   bool reconstruct(rational_vector& x) const {
     const integer bound = integer(1) << static_cast<unsigned>(msb(modulus_) / 2 - 1);
     integer denominator = 1;
@@ -221,7 +223,7 @@ rational lifted_solver::entry(std::size_t row, int column, const rational& k) co
   return between == beside_.end() ? k : rational(k + between->second);
 }
 
-/// False if this prime is unsuitable for the matrix.
+/// Factors K + springs = L D L' modulo `prime`. False if the prime is unsuitable for the matrix.
 bool lifted_solver::factor_modulo(std::uint64_t prime) {
   const std::size_t n = k_.size();
   const std::size_t width = band_ + 1;
@@ -278,7 +280,7 @@ lifted_solver::whole_row lifted_solver::whole(std::size_t dof) const {
   return row;
 }
 
-/// Solves with L, D and L' in the order of the band.
+/// Solves L D L' y = x modulo the prime, in place.
 void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   const std::size_t n = x.size();
   const std::size_t width = band_ + 1;
@@ -294,7 +296,8 @@ void lifted_solver::solve_modulo(std::vector<std::uint64_t>& x) const {
   for (std::size_t j = 0; j < n; ++j) x[dof_at_[j]] = y[j];
 }
 
-/// Finds one motion for each dof without a pivot, which moves it by 1. False if K + springs resists one.
+/// Finds one motion for each free dof without a pivot, which moves this dof by 1. False if K + springs
+/// resists one of these motions.
 bool lifted_solver::find_free_motions() {
   free_motions_.clear();
   for (std::size_t j = 0; j < free_.size(); ++j) {

@@ -15,7 +15,8 @@ namespace contct {
 
 using rational_rows = sparse_rows<rational>;
 
-/// A stiffness added at a dof, or a spring between two dofs, where the matrix needs an entry, possibly 0.
+/// A stiffness added at `dof`. If `other` >= 0, a spring between the two dofs, for which the matrix must have
+/// an entry (which may be 0).
 struct added_spring {
   int dof;
   rational stiffness;

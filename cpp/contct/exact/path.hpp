@@ -14,7 +14,7 @@
 
 namespace contct {
 
-/// The most dofs of an exact problem, whose numbers also become longer with the number of dofs.
+/// The largest number of dofs of an exact problem. The length of its numbers grows with the number of dofs.
 inline constexpr int most_exact_dofs = 50'000;
 
 using exact_pair = pair_in<rational>;
@@ -24,18 +24,18 @@ using exact_step = loads_in<rational>;
 struct exact_problem : equations<rational> {
   std::vector<int> place;  ///< row of each dof in a narrow band [dofs]
   std::vector<exact_step> steps;
-  /// M, a diagonal matrix that measures rigid-body motions and is positive on all of them: motions that the
-  /// load does not drive keep their amount, and the load drives the others along the steepest descent in M. M
-  /// acts on w at the ends and hinges of beams and the corners of plates, as in doubles.
+  /// M, the diagonal stiffness of an elastic ground, positive on all rigid-body motions that the supports
+  /// leave; see follow_corrected_path. M acts on w at the ends and hinges of beams and at the corners of
+  /// plates, and on all dofs of a matrix.
   std::vector<added_spring> ground;
 
-  /// The most bits of a number on its path.
+  /// The most bits of a numerator or denominator on the path; beyond, too_long is thrown.
   std::size_t longest = lifted_solver::most_bits;
 };
 
-/// Converts a problem exactly. Every number is the shortest decimal of its double. Computed exactly:
-/// coordinates of equal parts, the stiffness (modulus times tributary length or area) and faces of a bed, and
-/// the D of a plate from E, nu and thickness.
+/// Converts a problem exactly. Every number is the shortest decimal of its double. Coordinates of equal
+/// parts, the stiffness (modulus times tributary length or area) and faces of a bed, and the D of a plate
+/// from E, nu and thickness are computed exactly.
 [[nodiscard]] exact_problem exact_problem_of(const problem& p);
 
 [[nodiscard]] int subdiagonals(const exact_problem& p);
@@ -50,7 +50,7 @@ struct exact_increment {
 /// The final state of a step, or of the path.
 struct exact_step_end {
   std::vector<exact_increment> increments;
-  rational fraction;             ///< share of the step
+  rational fraction;             ///< share of the step's load that was reached
   rational_vector displacement;  ///< [dofs]
   std::vector<char> closed;      ///< [pairs]
   rational_vector gap, force;    ///< see gap_of and force_of [pairs]
@@ -58,8 +58,8 @@ struct exact_step_end {
   path_status status = path_status::solved;
 };
 
-/// The proof that the full load of a step has no equilibrium: K and the pairs in contact do not resist this
-/// motion, no other pair stops it, and the load does work on it.
+/// The proof that the full load of a step has no equilibrium: a motion that K and the pairs in contact do not
+/// resist, that no other pair stops, and on which the load does work.
 struct mechanism_proof {
   rational_vector motion;  ///< its largest number is 1 or -1 [dofs]
   rational work;           ///< work of the step's full load on the motion; positive
@@ -88,11 +88,13 @@ using exact_progress = std::function<void(int step, int increment, const rationa
 
 /// Follows the equilibria u(t) under the loads, event by event (reference/corrected-rule.md). Events exactly
 /// at the full load of a step belong to the next step. If equilibria are not unique, the path is the limit of
-/// those on an elastic ground whose stiffness tends to 0. Throws too_long.
+/// the equilibria on an elastic ground of stiffness epsilon M as epsilon tends to 0. Throws too_long, and
+/// std::runtime_error if K is indefinite or the status of a pair cannot be decided.
 [[nodiscard]] exact_path follow_corrected_path(const exact_problem& p, const exact_progress& tell = {});
 
 /// Follows the 1989 path: the statements of the listing in exact arithmetic, with its constants as printed,
-/// in the 1989 driver, where springs add up their forces increment by increment. Throws too_long.
+/// in the 1989 driver, where springs add up their forces increment by increment. Throws too_long, and
+/// std::runtime_error if K is indefinite.
 [[nodiscard]] exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell = {});
 
 struct listing_pair {

@@ -7,7 +7,7 @@
 namespace contct {
 namespace {
 
-// The constants as printed: 1.E-20, 1.E-10 and .390625E-02 = 1/256.
+// DELTA, EPSGAP and EPSMUL as printed: 1.E-20, 1.E-10 and .390625E-02 = 1/256.
 const rational& delta() {
   static const rational value(integer(1), boost::multiprecision::pow(integer(10), 20U));
   return value;
@@ -21,7 +21,7 @@ const rational& epsmul() {
   return value;
 }
 
-/// DO 10: the s of one pair.
+/// The scale factor s of one pair (DO 10).
 rational scale_factor(const listing_pair& p) {
   const rational gap = p.c - p.d;
   if (p.d_star == 0) return 1;
@@ -47,7 +47,7 @@ class path_1989 {
   rational s_min_ = 1;                       // SMIN of the last call; 1: the call ended a step
 };
 
-/// Calls CONTCT and toggles its pairs. Returns SMIN.
+/// Calls CONTCT and toggles the pairs in its answer. Returns SMIN.
 rational path_1989::ask(const rational_vector& d_star) {
   std::vector<listing_pair> pairs;
   for (std::size_t i = 0; i < at_.closed.size(); ++i) {

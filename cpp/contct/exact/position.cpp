@@ -87,7 +87,8 @@ std::vector<event> position::events_since(const std::vector<char>& before) const
   return events;
 }
 
-/// K u minus the load and the forces of pairs. At a dof fixed twice, the first support has the reaction.
+/// At a fixed dof: K u minus the load and the forces of pairs. If a dof is fixed twice, the first support
+/// gets the whole reaction.
 rational_vector position::reactions(const rational_vector& displacement,
                                     const rational_vector& forces) const {
   const exact_step& after = problem.steps[step];

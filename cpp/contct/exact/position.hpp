@@ -1,4 +1,5 @@
-// The state of an exact path, and the equations of both rules in that state.
+// The present state of an exact path, under the corrected or the 1989 rule, and the solution of the equations
+// of equilibrium in this state.
 #pragma once
 
 #include <vector>
@@ -18,13 +19,15 @@ class position {
   void factor();
   [[nodiscard]] const lifted_solver& solver() const { return solver_; }
 
-  /// R of the step at free dofs: the increment of loads, with those of settlements and moved faces.
+  /// R, the load increment of the step at free dofs, including the loads caused by settlements and moved
+  /// faces.
   [[nodiscard]] const rational_vector& increment() const { return increment_; }
-  /// Solves (K + springs) u = b for a `b` at free dofs, with fixed dofs at `settled`.
+  /// Solves (K + springs) u = b at free dofs, and sets u to `settled` at fixed dofs. `b` includes the forces
+  /// that `settled` causes at free dofs.
   [[nodiscard]] rational_vector moved(const rational_vector& b, const rational_vector& settled) const;
-  /// The response to the whole load of the step.
+  /// The response to the whole load increment of the step.
   [[nodiscard]] rational_vector response() const { return moved(increment_, settlement_); }
-  /// The movement of fixed dofs in the step, less that of their faces.
+  /// The movement of fixed dofs in the step less the movement of the faces there; 0 at free dofs.
   [[nodiscard]] const rational_vector& settlement() const { return settlement_; }
   /// The equilibrium with the springs of pairs in contact, under the load at the start of the step.
   [[nodiscard]] rational_vector at_start_of_step() const;
@@ -48,7 +51,7 @@ class position {
 
   const exact_problem& problem;
   std::size_t step = 0;      ///< from 0
-  rational fraction;         ///< share of the step
+  rational fraction;         ///< share of the step's load applied so far
   rational_vector u;         ///< displacements less the moves of faces: see count_from_faces [dofs]
   std::vector<char> closed;  ///< [pairs]
 
