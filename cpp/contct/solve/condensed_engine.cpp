@@ -1,4 +1,5 @@
-// The engine for beams: the stiffness is condensed onto the nodes with pairs and swept from both ends.
+// The engine "condensed" for beams: condenses the stiffness onto the nodes with pairs, and factors the
+// condensed stiffness from both ends.
 #include <algorithm>
 #include <cmath>
 
@@ -9,11 +10,11 @@ namespace contct {
 namespace {
 
 constexpr double below_rounding = 1e-18;
-// If k c_p of a removed spring exceeds this, the response is checked at once: the update multiplies the
-// rounding of x_p by k c_p.
+// After the removal of a spring k at pair p with a larger k c_p (see update_response), the response is
+// checked at once, because the update multiplies the rounding of x_p by k c_p.
 constexpr double stiff = 100.0;
 
-/// A vector over the two dofs of a node. node_matrix: a matrix over them, by columns.
+/// A vector with an entry for each of the two dofs of a node; node_matrix has such a vector for each column.
 struct node_vector {
   double w = 0.0, theta = 0.0;
   bool operator==(const node_vector&) const = default;
@@ -85,11 +86,11 @@ node_matrix block(const band_matrix& k, int row_node, int column_node) {
 ///
 ///     L_i = D_i - E_{i-1}^T L_{i-1}^-1 E_{i-1}   from the left,   R_i from the right in the same way
 ///
-/// The column of the inverse at pair p is (L_p + R_p - D_p)^-1 at p. The matrices -L_i^-1 E_i continue it to
-/// the left, their mirror images to the right, until it is below rounding. An event at p changes L on the
-/// right of p and R on the left of p; a sweep stops where it gives the same bits as before. On a beam with
-/// many supports, columns and sweeps end within some tens of supports: the cost of an event does not depend
-/// on the length of the beam.
+/// The block of K^-1 at node p is (L_p + R_p - D_p)^-1. The matrices -L_i^-1 E_i continue a column of the
+/// block to the left of p, and -R_i^-1 E_{i-1}^T to the right, until the column is below rounding. An event
+/// at p changes the L_i from p to the right and the R_i from p to the left; a sweep ends where it gives the
+/// same bits as before. On a beam with many supports, columns and sweeps end within some tens of supports:
+/// the cost of an event does not depend on the length of the beam.
 class condensed_engine final : public spring_engine {
  public:
   explicit condensed_engine(const linear_structure& s) : spring_engine(s) {
@@ -112,8 +113,8 @@ class condensed_engine final : public spring_engine {
 
   void respond(const residual_load& residual, std::span<double> d_star) override {
     if (!is_condensed_) condense();
-    // Before the first response, the springs that are applied so far may not hold the structure, so the
-    // sweeps wait until all are applied.
+    // Before the first response, a part of the springs may not hold the structure, so no sweep begins until
+    // all springs are applied.
     bool has_response = response_to_ == residual.version;
     (void)apply_switched([&](int pair) {
       add_springs(place_[pair]);
@@ -132,7 +133,8 @@ class condensed_engine final : public spring_engine {
   }
 
  private:
-  /// Eliminates the nodes between two kept nodes; -1 and the number of nodes stand for the beam's ends.
+  /// Eliminates the nodes between two kept nodes; node -1 and node number `k.order() / 2` stand for the ends
+  /// of the beam. `left`: the place of `left_node` in kept_.
   void eliminate_between(int left_node, int right_node, std::size_t left) {
     const band_matrix& k = structure_.stiffness.band();
     const bool has_left = left_node >= 0;
@@ -160,7 +162,8 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  /// Called at the first response, because a path without responses needs no factor. Throws no_factor.
+  /// Eliminates the nodes without pairs, and applies the wanted springs. Called at the first response,
+  /// because a path without responses needs no factor. Throws no_factor.
   void condense() {
     const std::size_t n = kept_.size();
     e_.assign(n, {});
@@ -184,8 +187,8 @@ class condensed_engine final : public spring_engine {
     is_condensed_ = true;
   }
 
-  /// Adds up the springs of the pairs in contact from 0: if a stiff spring were subtracted, the digits that
-  /// it had cancelled would stay lost.
+  /// Sets D_ww of a kept node to its value without springs plus the applied springs. If a stiff spring were
+  /// subtracted instead, the digits that it had cancelled would stay lost.
   void add_springs(std::size_t at) {
     d_[at].w.w = without_springs_[at];
     for (const int pair : pairs_at_[at])
@@ -208,13 +211,13 @@ class condensed_engine final : public spring_engine {
     return before != right_[i];
   }
 
-  /// Sweeps from `at` on, after D_at has changed, until nothing changes any more. Each sweep is a chain of
-  /// divisions that wait for each other, but the two sweeps are independent: interleaved, they take little
-  /// longer than one.
+  /// Updates L to the right and R to the left of `at`, after D_at has changed, until L and R do not change
+  /// any more. Each sweep is a chain of divisions that wait for each other, but the two sweeps are
+  /// independent: interleaved, two sweeps take little longer than one.
   void sweep_from(std::size_t at) {
     step_right(at);
     step_left(at);
-    std::size_t right = at + 1;  // index of the next step to the right; to the left it is left - 1
+    std::size_t right = at + 1;  // the next step to the right; left - 1: to the left
     std::size_t left = at;
     const std::size_t n = d_.size();
     bool goes_right = right < n;
@@ -227,8 +230,8 @@ class condensed_engine final : public spring_engine {
     while (goes_left) goes_left = step_left(left - 1) && --left > 0;
   }
 
-  /// x -= factor c, where c is the column of the inverse at place `at`, and `peak` its entry there. Goes from
-  /// `at` to both sides at once, like the sweeps, until c is below rounding.
+  /// x -= factor c, where c is the column of K^-1 for w of kept node `at`, and `peak` its entries at this
+  /// node. Goes from `at` to both sides at once, like the sweeps, until c is below rounding.
   void subtract_column(std::size_t at, const node_vector& peak, double factor) {
     const auto subtract = [this, factor](std::size_t i, const node_vector& c) {
       x_[i] = {x_[i].w - factor * c.w, x_[i].theta - factor * c.theta};
@@ -258,8 +261,9 @@ class condensed_engine final : public spring_engine {
     while (more_right) more_right = goes_right();
   }
 
-  /// Updates the response for one added or removed spring: x' = x - sigma k x_p c, where c is a column of the
-  /// inverse of the new K', K' c = e. False if rounding makes this column impossible.
+  /// Updates the response for a spring k at node p, added (sigma = 1) or removed (sigma = -1). With the new
+  /// K', and c from K' c = e_p: x' = x - sigma k x_p c. False if rounding makes K' at p not positive
+  /// definite.
   [[nodiscard]] bool update_response(int pair) {
     const std::size_t at = place_[pair];
     ++counts_.updates;
@@ -279,7 +283,7 @@ class condensed_engine final : public spring_engine {
     for (std::size_t i = d_.size(); i-- > 0;) step_left(i);
   }
 
-  /// Solves the whole beam once. The condensed load is then the condensed K times the solution.
+  /// Solves the whole beam with a new factor. Sets the condensed load to the condensed K times the solution.
   void respond_anew(const residual_load& residual) {
     response_to_ = 0;
     sweep_anew();
@@ -299,7 +303,7 @@ class condensed_engine final : public spring_engine {
     drift_.start_interval();
   }
 
-  /// column_ = load - K x.
+  /// Sets column_ to load - K x.
   void residual_of_response() {
     for (std::size_t i = 0; i < kept_.size(); ++i) {
       node_vector sum = d_[i] * x_[i];
@@ -309,12 +313,13 @@ class condensed_engine final : public spring_engine {
     }
   }
 
-  /// Adds K^-1 (load - K x) to x. This correction is the drift; false if it is more than is allowed.
+  /// Adds K^-1 (load - K x) to x. This correction is the drift; returns false if the drift is more than
+  /// allowed.
   [[nodiscard]] bool refine_response() {
     ++counts_.checks;
     ++counts_.solves;
     residual_of_response();
-    for (std::size_t i = 1; i < kept_.size(); ++i)  // forwards: r_i - E^T L^-1 r
+    for (std::size_t i = 1; i < kept_.size(); ++i)  // r_i - E^T L^-1 r
       column_[i] = column_[i] + transposed(go_left_[i - 1]) * column_[i - 1];
     drift found;
     for (std::size_t i = kept_.size(); i-- > 0;) {

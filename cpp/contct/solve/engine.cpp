@@ -12,7 +12,7 @@ namespace {
 mpi_job* job_of_this_process = nullptr;  // MPI allows one job per process
 
 /// As in 1989: every response copies the band, adds the springs of the pairs in contact and factors the sum
-/// (dpbtrf). Memory: two bands, the structure's and the factor.
+/// (dpbtrf). Memory: the band and its factor.
 class refactor_engine final : public spring_engine {
  public:
   explicit refactor_engine(const linear_structure& s) : spring_engine(s), w_star_(s.dofs()) {}
@@ -31,7 +31,7 @@ class refactor_engine final : public spring_engine {
   }
 
  private:
-  /// Factors K with the wanted springs; counts the solve that follows, too.
+  /// Factors K with the wanted springs. Counts the factorisation and the solve that follows.
   void factor() {
     stiffness_.factor(apply_all());
     ++counts_.factors;

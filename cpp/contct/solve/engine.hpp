@@ -1,4 +1,4 @@
-// The linear algebra of a path: springs switched in and out, responses, and displacements.
+// The linear algebra of a path: adds and removes springs, and solves for responses and displacements.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ namespace contct {
 struct residual_load {
   std::span<const double> increment;  ///< [dofs] the step's total load minus that of the step before
   double share;                       ///< from 1 at the start of the step to 0 at its end
-  std::uint64_t version = 0;          ///< differs between increments; never 0 on a path
-  /// [pairs] the kernel's last scale factors, or empty. Only a hint: the pairs with the least are likely to
-  /// be switched next.
+  std::uint64_t version = 0;          ///< differs if `increment` differs; never 0 on a path
+  /// [pairs] the kernel's last scale factors, or empty. Only a hint: the springs of the pairs with the
+  /// smallest factors are likely to be switched next.
   std::span<const double> last_s = {};
 };
 

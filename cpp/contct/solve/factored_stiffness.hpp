@@ -12,7 +12,7 @@
 
 namespace contct {
 
-/// The springs of the pairs that are `closed` [pairs], by rows, except those at fixed dofs.
+/// The springs, by rows, of the pairs that are `closed` [pairs], except pairs at fixed dofs.
 [[nodiscard]] inline std::vector<spring_at> springs_of(const linear_structure& s,
                                                        std::span<const char> closed) {
   std::vector<spring_at> list;
@@ -50,7 +50,7 @@ inline void add_at_pair(const linear_structure& s, std::size_t i, double force, 
   if (const int other = s.other_of_pair(i); other >= 0) load[other] -= force;
 }
 
-/// `load` [dofs] plus the forces of the pairs, except those at fixed dofs, which supports carry.
+/// `load` [dofs] plus the forces of the pairs, except forces at fixed dofs, which supports carry.
 [[nodiscard]] inline std::vector<double> with_pair_forces(const linear_structure& s,
                                                           std::span<const double> load,
                                                           std::span<const double> pair_forces) {
@@ -64,8 +64,8 @@ inline void add_at_pair(const linear_structure& s, std::size_t i, double force, 
 [[nodiscard]] std::vector<double> residual(const stiffness_matrix& k, std::span<const spring_at> springs,
                                            std::span<const double> b, std::span<const double> x);
 
-/// Solves (K + springs) u = load [dofs], and refines u by its residual while this helps. `k`: K of `s`, in
-/// any storage. `solve`: solves with a factor of K + springs, by rows.
+/// Solves (K + springs) u = load [dofs], and refines u by its residual as long as corrections halve. `k`: K
+/// of `s`, in any storage. `solve`: solves with a factor of K + springs, by rows.
 void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::span<const spring_at> springs,
                    const in_place_solver& solve, std::span<const double> load, std::span<double> u);
 
@@ -75,12 +75,12 @@ void solve_refined(const linear_structure& s, const stiffness_matrix& k, std::sp
       "in double precision");
 }
 
-/// `storage`: LAPACK factors a band, CHOLMOD factors columns. `cholmod`: CHOLMOD factors both, in its own
-/// order. `ranks`: the MPI job that this process has joined factors K.
+/// Who factors K. `storage`: LAPACK factors a band, CHOLMOD factors columns. `cholmod`: CHOLMOD factors bands
+/// too, and orders the rows. `ranks`: the MPI job that this process has joined.
 enum class factored_by { storage, cholmod, ranks };
 
-/// True if a pair acts between two dofs. If K is a band, only the band has entries for the spring of such a
-/// pair.
+/// True if a pair acts between two dofs. If K is a band, its copy by columns has no entries for the springs
+/// of these pairs.
 [[nodiscard]] inline bool has_pairs_of_two(const linear_structure& s) {
   return std::any_of(s.pairs.begin(), s.pairs.end(), [](const contact_pair& p) { return p.other >= 0; });
 }
@@ -118,18 +118,19 @@ class factored_stiffness {
     to_dofs(structure_, b, x);
   }
 
-  /// [requested pairs][pairs] columns of the inverse, solved together: K x = e, where e is 1 at the dof of
-  /// the requested pair and -1 at the dof of its face. Zeros if the dof is fixed.
+  /// [requested pairs][pairs] the columns of K^-1 for the requested pairs, at all pairs. Solves K x = e for
+  /// all requested pairs together, where e is 1 at the dof of the pair and -1 at the dof of its face. Zeros
+  /// if the dof of the pair is fixed.
   [[nodiscard]] std::vector<std::vector<double>> columns_at_pairs(std::span<const int> pairs);
 
-  /// Solves K u = load, and refines u by its residual in long double while this helps. This gains up to 3
-  /// digits over LAPACK alone.
+  /// Solves K u = load, and refines u by its residual in long double, which gains up to 3 digits.
   void solve_refined(std::span<const double> load, std::span<double> u) {
     contct::solve_refined(
         structure_, products_, springs_, [this](std::span<double> b) { factor_.solve(b); }, load, u);
   }
 
-  /// Reciprocal condition of K with these springs, its diagonal scaled to 1. Overwrites the factor.
+  /// Reciprocal condition of K with the springs of the pairs that are `closed`, its diagonal scaled to 1.
+  /// Overwrites the factor.
   [[nodiscard]] double reciprocal_condition(std::span<const char> closed) {
     return factor_.reciprocal_condition(springs_of(structure_, closed));
   }

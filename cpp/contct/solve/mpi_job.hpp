@@ -22,23 +22,25 @@ class mpi_job {
   /// On ranks other than 0: executes the commands of rank 0 until rank 0 leaves.
   virtual void serve() = 0;
 
-  /// On rank 0: finds the order in which all ranks factor `a` together. The result must be destroyed before
-  /// `leave`. Its functions throw std::bad_alloc, or std::runtime_error if MUMPS fails for another reason.
+  /// On rank 0: makes a factor of `a` that all ranks share, and finds its order of rows. The factor must be
+  /// destroyed before `leave`. Its functions throw std::bad_alloc, or std::runtime_error if MUMPS fails for
+  /// another reason.
   [[nodiscard]] virtual std::unique_ptr<sparse_factor> share(const sparse_columns& a) = 0;
 
   /// On rank 0: ends the other ranks and MPI. No function may be called afterwards.
   virtual void leave() noexcept = 0;
 };
 
-/// The function that the module exports with C linkage. It joins MPI, once in a process. Null if `version` of
-/// the program differs from that of the module, because both share C++ classes.
+/// The function that the module exports with C linkage. Joins MPI, once in a process, and returns the job.
+/// Returns null if the `version` of the program differs from that of the module, because program and module
+/// share C++ classes.
 using join_function = mpi_job*(const char* version);
 inline constexpr const char* join_symbol = "contct_petsc_join";
 
 /// The job that this process has joined; null if it has joined none.
 [[nodiscard]] mpi_job* joined_job();
 
-/// `job` must exist until the process ends or null is set.
+/// Sets the result of joined_job. `job` must exist until the process ends or null is set.
 void set_joined_job(mpi_job* job);
 
 }  // namespace contct

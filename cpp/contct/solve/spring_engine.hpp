@@ -25,8 +25,8 @@ struct drift {
 /// and doubles if it is negligible.
 class drift_monitor {
  public:
-  /// `first_check`: the number of responses until the first check. It is also the first interval; the longest
-  /// is 16 times as long.
+  /// `first_check`: the number of responses until the first check, and the first interval. The longest
+  /// interval is 16 times as long.
   explicit drift_monitor(int first_check)
       : longest_(16 * first_check), until_check_(first_check), check_every_(first_check) {}
 
@@ -52,7 +52,8 @@ class drift_monitor {
   int check_every_;
 };
 
-/// switch_spring only records a wanted spring; the next response applies it.
+/// An engine whose switch_spring only records that a spring is wanted or not; the next response applies the
+/// change.
 class spring_engine : public stiffness_engine {
  public:
   void switch_spring(int pair, bool closed) final {
@@ -89,7 +90,7 @@ class spring_engine : public stiffness_engine {
     return true;
   }
 
-  /// Solves for every dof with the factor, which contains the wanted springs.
+  /// Solves for u [dofs] with the factor, which must contain the wanted springs.
   void solve_for_all(std::span<const double> load, std::span<const double> pair_forces, std::span<double> u) {
     stiffness_.solve_refined(with_pair_forces(structure_, load, pair_forces), u);
   }
@@ -104,7 +105,7 @@ class spring_engine : public stiffness_engine {
   std::vector<int> switched_;  // pairs whose wanted and applied springs may differ
 };
 
-/// Two engines with their own source files; make_engine calls these functions.
+/// The engines "updated" (and "petsc") and "condensed"; make_engine calls these functions.
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_updated_engine(const linear_structure& s,
                                                                     factored_by how);
 [[nodiscard]] std::unique_ptr<stiffness_engine> make_condensed_engine(const linear_structure& s);

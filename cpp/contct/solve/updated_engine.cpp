@@ -10,26 +10,28 @@
 namespace contct {
 namespace {
 
-// The least 1 - k c for removing a stiff spring; if it is less, too many of its digits have cancelled.
+// The least 1 - k c_p for removing a spring k by an update; below, too many digits of 1 - k c_p have
+// cancelled.
 constexpr double least_denominator = 1e-2;
 
 // The number of columns solved for together, so that the factor is read from memory once.
 constexpr std::size_t block_width = 8;
 
 /// The number of toggles after which a new factor is cheaper: c toggles take c^2 / 2 additions of columns
-/// [pairs], which then cost as much as one factor.
+/// [pairs], and these additions then cost as much as a factorisation.
 std::size_t columns_worth_keeping(double flops_of_factor, std::size_t pairs) {
   const double worth = std::sqrt(2 * flops_of_factor / static_cast<double>(std::max<std::size_t>(pairs, 1)));
   return static_cast<std::size_t>(std::clamp(worth, 8.0, 1000.0));
 }
 
-/// K0 is factored. K is K0 plus the springs added since, minus the springs removed since. With c_j = K_j^-1
-/// e_j, the column of toggle j when it occurred, and g_j = sigma k / (1 + sigma k (c_j)_p),
+/// Computes columns of K^-1. K0 is factored; K is K0 plus the springs added since, minus the springs removed
+/// since. Toggle j adds (sigma = 1) or removes (sigma = -1) the spring k of pair p. With c_j = K_j^-1 e_p,
+/// the column of p before this toggle, and g_j = sigma k / (1 + sigma k (c_j)_p),
 ///
 ///     K^-1 = K0^-1 - sum g_j c_j c_j^T                                  (Sherman and Morrison)
 ///
-/// with all vectors restricted to the pairs. Columns of K0^-1 do not depend on the toggles, so those of pairs
-/// that are likely to toggle next are solved for together.
+/// with all vectors restricted to the pairs. Columns of K0^-1 do not depend on the toggles, so the columns of
+/// pairs that are likely to toggle next are solved for together.
 class inverse_columns {
  public:
   /// `k0` must outlive this object.
@@ -44,13 +46,13 @@ class inverse_columns {
   [[nodiscard]] const std::vector<toggle>& toggles() const { return toggles_; }
   [[nodiscard]] int passes() const { return passes_; }  ///< block solves with the factor so far
 
-  /// Drops everything that depends on the factor, which is a new one.
+  /// Drops all toggles and columns, because K0 has a new factor.
   void start_anew() {
     toggles_.clear();
     ahead_.clear();
   }
 
-  /// [pairs] K^-1 e for the dof of `pair`. `last_s`: see residual_load.
+  /// [pairs] the column K^-1 e of `pair`. `last_s`: see residual_load.
   [[nodiscard]] std::vector<double> column(int pair, std::span<const double> last_s) {
     auto found = ahead_.find(pair);
     if (found != ahead_.end()) {
@@ -84,8 +86,8 @@ class inverse_columns {
     for (std::size_t i = 0; i < at_pairs.size(); ++i) at_pairs[i] -= factor * c[i];
   }
 
-  /// `pair`, and the pairs with the least scale factors whose columns are not solved for yet, as many as fill
-  /// a block. Only `pair` if fewer than half of the columns solved ahead have been used.
+  /// Returns `pair` and, to fill a block, the pairs with the smallest scale factors below 1 whose columns are
+  /// not known yet. Only `pair` if fewer than half of the columns solved ahead have been used.
   [[nodiscard]] std::vector<int> likely_next(int pair, std::span<const double> last_s) const {
     std::vector<int> chosen = {pair};
     constexpr std::size_t enough_to_judge = 4 * block_width;
@@ -198,7 +200,8 @@ class updated_engine final : public spring_engine {
     return true;
   }
 
-  /// Solves K_0 y = f - sum of sigma k x_p e_p, where y is x except for drift, and checks the difference.
+  /// Checks the drift of x: solves K0 y = f - sum of sigma k x_p e_p, where y - x is the drift. False if the
+  /// drift is more than allowed.
   [[nodiscard]] bool still_solves(std::span<const double> increment) {
     ++counts_.checks;
     std::copy(increment.begin(), increment.end(), work_.begin());

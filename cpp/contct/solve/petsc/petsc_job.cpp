@@ -196,8 +196,8 @@ class petsc_job final : public mpi_job {
     return outcome::factored;
   }
 
-  /// Does this rank's part of work of all ranks. If one rank fails alone, ends the job: the others would wait
-  /// for it for ever.
+  /// Does this rank's part of the work of all ranks. If `work` throws, prints the reason and ends the job,
+  /// because the other ranks would wait for this rank for ever.
   template <class Work>
   void together(Work work) {
     std::string why = "out of memory";
@@ -219,7 +219,7 @@ class petsc_job final : public mpi_job {
     MPI_Wait(&sent, MPI_STATUS_IGNORE);
   }
 
-  /// Waits for a command of rank 0, which may take long; the longer it takes, the less often this polls.
+  /// Waits for a command of rank 0. The longer the wait, the less often it polls.
   static command next() {
     command c{verb::leave};
     MPI_Request coming = MPI_REQUEST_NULL;
@@ -239,7 +239,7 @@ class petsc_job final : public mpi_job {
   void end() {
     factors_.clear();
     (void)PetscFinalize();
-    MPI_Barrier(MPI_COMM_WORLD);  // mpirun ends the job when a rank ends with a status other than 0
+    MPI_Barrier(MPI_COMM_WORLD);  // a rank that ends first with a status other than 0 ends the job
     MPI_Finalize();
   }
 
