@@ -14,7 +14,6 @@ namespace contct {
 /// The allowed error of a number in a certified state, relative to the size of its kind.
 inline constexpr double certified_share = 1e-6;
 
-/// Computes the allowed errors of the states of a path.
 class allowed_errors {
  public:
   /// Returns the allowed error of each kind of number in the state with error bounds `b`; empty for a kind

@@ -200,8 +200,8 @@ bool certain_contacts::find_balanced(int step, std::span<const double_double> u,
   return true;
 }
 
-/// True if supports and A do not stop all rigid-body motions, the load does no work on the others, and all
-/// pairs that the others move are certainly separated.
+/// True if there are rigid-body motions that neither the supports nor A stop, the load does no work on them,
+/// and all pairs that they move are certainly separated.
 bool certain_contacts::stands_free(int step, std::span<const double_double> u, const contact_set& b) const {
   const rigid_rank held = held_by(b.closed);
   const rigid_work work = structure_.truth->work_of(problem_.steps[step - 1]);

@@ -22,7 +22,6 @@ struct contact_set {
   std::vector<int> closed;  ///< A: the pairs certainly in contact, from 0
 };
 
-/// Finds A, and proves that K_A is positive definite.
 class certain_contacts {
  public:
   /// All arguments must outlive this object.

@@ -103,7 +103,7 @@ std::vector<double> certifier::load_at(int step) const {
 }
 
 /// Tries to prove bounds on the errors of a state. If is_certified has just judged the same state, returns
-/// the certificate from there.
+/// the certificate that it found.
 certificate certifier::proof_of(const step_state& s) {
   if (last_ && last_->step == s.step && std::ranges::equal(last_->displacement, s.displacement)) {
     allowed_ = last_->allowed;
@@ -122,8 +122,7 @@ certificate certifier::proof_of(const step_state& s) {
   return c;
 }
 
-/// Sets `c.pulling` to the pair with the largest tensile force, or to -1 if this force is at most a millionth
-/// of the largest contact force.
+/// Sets `c.pulling` to the pair with the largest tensile force, or to -1 if this force is negligible.
 void certifier::find_pulling_pair(const step_state& s, certificate& c) const {
   double largest = 0.0;
   const std::vector<double> v = from_faces(s.step, s.displacement);
@@ -341,7 +340,8 @@ bool certifier::is_certified(int step, full_load_state& s) {
 
 /// Returns the final state of a step: the first that is certified among the refined state `reached` and the
 /// state of the exact path or, if that path decides nothing, the reference solution. If neither is certified,
-/// or a proof takes too much memory, returns the refined state `reached` if the path reached one.
+/// or a proof takes too much memory, returns the refined state `reached`, or the other state if `reached` is
+/// null.
 found_end certifier::end_of(int step, const full_load_state* reached) {
   std::optional<full_load_state> refined;
   if (reached != nullptr) {

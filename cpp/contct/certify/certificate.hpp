@@ -30,8 +30,8 @@ namespace contct {
 struct certificate {
   /// Every error is at most certified_share: by a proof or, without one, by comparison with the reference.
   bool certified = false;
-  // The next two: proved errors if a proof certified the state, otherwise differences from the reference
-  // solution. shape_error is then that of a displacement times sqrt(K_ii), relative to the largest so far.
+  // The next two: proved errors if a proof certified the state. Otherwise differences from the reference
+  // solution; for shape_error, of displacements times sqrt(K_ii), relative to the largest on the path so far.
   double displacement_error = 0.0;  ///< largest error of a deflection
   double shape_error = 0.0;         ///< largest error of a number, relative to the size of its kind
   double equilibrium = 0.0;         ///< largest residual of a dof, divided by sqrt(K_ii)

@@ -168,7 +168,7 @@ bool error_prover::correct(const long_loads& l) {
   return !state_.u.empty();
 }
 
-/// Sets the status of each pair whose force exceeds rounding from the sign of this force.
+/// Sets the status of each pair from the sign of its force, if the force exceeds rounding.
 void error_prover::settle_statuses(const long_loads& l, std::span<int> isep) const {
   const auto force_at = [&](std::size_t i) {
     return system_.pairs[i].stiffness.hi * system_.depth(i, state_.u).hi;

@@ -77,7 +77,6 @@ class exact_means {
   [[nodiscard]] virtual bool is_semidefinite() = 0;
 };
 
-/// Bounds the errors of a problem's states.
 class error_prover {
  public:
   /// All arguments must outlive this object. `exactly` may be null. If K_A can be factored only in 32 digits,
@@ -120,8 +119,8 @@ class error_prover {
   [[nodiscard]] bool has_exact_residual(const long_loads& l);
   [[nodiscard]] long_residual residual_of(std::span<const double_double> u, const long_loads& l);
   [[nodiscard]] bool is_refined(int step, std::span<const double> displacement) const;
-  /// `displacement` with the prescribed settlements; if it was refined last, with the digits below double
-  /// precision.
+  /// The displacements in 32 digits: those of state_ if `displacement` was refined last, otherwise
+  /// `displacement` with the prescribed settlements.
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const long_loads& l) const;
 

@@ -18,11 +18,11 @@ double sum_of_sizes(const poly& p) {
   return sum;
 }
 
-/// A bound on the rounding of the values of p, a polynomial of an element_line. Each coefficient of degree
-/// above 3 has at most 20 roundings. Two evaluations by Horner's rule and the conversion to Bernstein's form
-/// have 6 for each degree, and 26 bisections have 26. The terms above degree 3 add up to at most the sum of
-/// their coefficients; the Hermite functions that fit them to the ends of the element add at most a quarter
-/// of this sum for each degree.
+/// A bound on the rounding of the values of p, a polynomial of an element_line. Each coefficient above degree
+/// 3 has at most 20 roundings. For each degree, two evaluations by Horner's rule and the conversion to
+/// Bernstein's form have 6 roundings, and 26 bisections have 26. The terms above degree 3 add up to at most
+/// the sum of their coefficients; the Hermite functions that fit them to the ends of the element add at most
+/// a quarter of this sum for each degree.
 double rounding_in(const poly& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }

@@ -113,8 +113,8 @@ double largest_row_of_error(const sparse_columns& a, const sparse_columns& l) {
   const int n = l.order();
   row_sums sums(n, 0.0);
   const std::vector<int> firsts = blocks_of(l);
-  std::vector<int> next(firsts.size(), 0);  // [block] the next of its rows to be processed, from 0
-  std::vector<std::vector<int>> with(n);    // [row] the blocks that have this row next
+  std::vector<int> next(firsts.size(), 0);  // [block] the number of its rows that are done
+  std::vector<std::vector<int>> with(n);    // [row] the blocks whose next row is this row
   for (int block = 0; firsts[block] < n; ++block) with[firsts[block]].push_back(block);
   std::vector<double> difference(n, 0.0);  // one column of A - L L'
   std::vector<int> rows;                   // rows of `difference` that are not 0

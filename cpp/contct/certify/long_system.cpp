@@ -175,7 +175,7 @@ long_residual long_system::residual(std::span<const double_double> u, const long
       r.slack[p.dof] += p.stiffness.hi * size;
       if (p.other >= 0) r.slack[p.other] += p.stiffness.hi * size;
     }
-    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // true for NaN
+    if (!(deep.hi <= 0.0)) p.add_to(r.needed, p.stiffness * deep * p.surface);  // also if `deep` is NaN
   }
   put_forces(r);
   return r;

@@ -24,7 +24,6 @@ inline constexpr double summation_slack = 0x1p-30;
 
 using long_pair = pair_in<double_double>;
 
-/// The loads at the end of a step.
 struct long_loads : loads_in<double_double> {
   int step = 0;  ///< the step at whose end the loads act, from 1; 0: not at the end of a step
 };
@@ -60,7 +59,7 @@ struct long_system : equations<double_double> {
 
   std::vector<double> root;    ///< sqrt(K_ii), rounded up [dofs]
   std::vector<char> deflects;  ///< 1: a deflection, 0: a slope [dofs]
-  double extent = 0.0;         ///< the largest side of the structure; 0 if it has none
+  double extent = 0.0;         ///< see extent_of
   /// The smallest product in the element formulas: the cube of a length, or a stiffness.
   double least_product = 1.0;
   /// The loads at the end of a step, from 1.
@@ -100,7 +99,7 @@ struct long_system : equations<double_double> {
   void put_forces(long_residual& r) const;
 };
 
-/// The largest side of a structure; 0 if it has none.
+/// The largest side of a structure; 0 for a matrix.
 [[nodiscard]] double extent_of(const model& m);
 
 /// `p` must outlive the result.

@@ -29,11 +29,11 @@ struct reference_answer {
 /// which is convex and has a continuous slope: the equilibrium does not depend on the path.
 ///
 /// A primal-dual active set: the set of pressed pairs makes E a quadratic, whose minimiser is the next point.
-/// The pairs pressed at that point are the next set. With full steps this can cycle, so each step ends at the
-/// point along it where E is least. E is piecewise quadratic along a step, so this point is exact.
+/// The pairs pressed at that point are the next set. With full steps the sets can cycle, so each step ends at
+/// the point along the step where E is least. E is piecewise quadratic along a step, so this point is exact.
 ///
-/// Why it ends: every step but the last is a Newton step with the positive definite matrix of one of finitely
-/// many sets. So E falls, and the points converge to the minimiser u*. Near u* only sets occur whose
+/// Why the search ends: every step but the last is a Newton step with the positive definite matrix of one of
+/// finitely many sets. So E falls, and the points converge to the minimiser u*. Near u* only sets occur whose
 /// quadratic has u* as its own minimiser, because a pair that is pressed nearby but not at u* is exactly at
 /// its face at u*, and its spring has neither force nor energy. From such a point one full step leads to u*.
 /// The search ends when the set of pressed pairs is the same before and after a step.

@@ -196,7 +196,7 @@ class corrected_path {
 
   /// Advances the share of the step by `way`, and u with it. If the springs hold the structure, u is computed
   /// from the load at the start of the step, so that numbers do not become longer along the path; until
-  /// fill_in(), only the u at pairs are computed.
+  /// fill_in(), u is computed only at pairs.
   void move_on(const rational& way) {
     at_.fraction += way;
     if (!at_.solver().free_motions().empty()) {

@@ -10,8 +10,8 @@
 
 namespace contct {
 
-/// The largest problems and numbers for which rational numbers are used beside a path in doubles. Beyond,
-/// rational numbers would take too long.
+/// The largest problems and numbers for which the certificate of a path in doubles uses rational numbers.
+/// Beyond these limits, rational numbers would take too long.
 inline constexpr int most_dofs_beside_doubles = 1000;
 inline constexpr int most_subdiagonals_beside_doubles = 64;
 inline constexpr std::size_t most_bits_beside_doubles = std::size_t{1} << 14U;
@@ -24,8 +24,8 @@ struct negative_work {
 
 /// The answer to whether K is semidefinite; neither member is set if 32 digits do not decide.
 struct definiteness {
-  bool semidefinite = false;  ///< proved on the dofs that are not fixed
-  std::optional<negative_work> shown = {};
+  bool semidefinite = false;                ///< proved on the dofs that are not fixed
+  std::optional<negative_work> shown = {};  ///< the proof that K is not semidefinite
 };
 
 /// Decides whether K is semidefinite. Finds one dof for each rigid-body motion of K modulo a prime, and
@@ -35,7 +35,7 @@ struct definiteness {
 /// lifted_solver::factor.
 [[nodiscard]] definiteness definiteness_of(const problem& p, const exact_problem& exactly);
 
-/// Exact answers beside a path in doubles; empty or false for problems beyond the limits above. `p` must
+/// Exact answers for the certificate of a path in doubles; empty or false beyond the limits above. `p` must
 /// outlive the result.
 [[nodiscard]] std::unique_ptr<exact_means> exact_means_of(const problem& p);
 

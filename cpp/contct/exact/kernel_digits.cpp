@@ -94,7 +94,7 @@ digit_counter::event_list digit_counter::decided(const event_list& events, doubl
 
 /// True if the exact path does not decide the event: the event is at the end of a step, where the contact
 /// pair is exactly at its face without force, so that the event may belong to this step, to the next or to
-/// none; or the exact path has ended there, because nothing holds the structure.
+/// none; or the exact path ends at or before the event because nothing holds the structure.
 bool digit_counter::is_ambiguous_event(const placed_event& e, double tie) const {
   const auto at = std::min(exactly_.steps.size() - 1, static_cast<std::size_t>(e.place));
   const path_status status = exactly_.steps[at].status;

@@ -94,7 +94,8 @@ class lifted_solver::lifting {
   }
 
  private:
-  /// Computes the next digits x, with A x = rest modulo p, and replaces the rest by (rest - A x) / p.
+  /// Computes the next digits x, with A x = rest modulo p, and replaces the rest by (rest - A x) / p. A: the
+  /// rows in whole_.
   void next_digits() {
     const field& f = of_.field_;
     std::vector<std::uint64_t> x(rest_.size(), 0);

@@ -26,10 +26,11 @@ struct added_spring {
 /// Factors K + springs, which must be positive semidefinite, on the free dofs, and solves with the factor.
 class lifted_solver {
  public:
-  /// The most bits of a numerator or denominator.
+  /// The default of `longest`.
   static constexpr std::size_t most_bits = std::size_t{1} << 19;
 
-  /// `place`: the row of each dof in a narrow band. All arguments must outlive this object.
+  /// `place`: the row of each dof in a narrow band. `longest`: the most bits of a numerator or denominator.
+  /// All arguments must outlive this object.
   lifted_solver(const rational_rows& k, std::span<const char> fixed, std::span<const int> place,
                 std::size_t longest = most_bits);
 

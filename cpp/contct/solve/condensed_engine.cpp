@@ -10,11 +10,11 @@ namespace contct {
 namespace {
 
 constexpr double below_rounding = 1e-18;
-// After the removal of a spring k at pair p with a larger k c_p (see update_response), the response is
-// checked at once, because the update multiplies the rounding of x_p by k c_p.
+// If a spring k with k c_p above this is removed (see update_response), the response is checked at once,
+// because the update multiplies the rounding of x_p by k c_p.
 constexpr double stiff = 100.0;
 
-/// A vector with an entry for each of the two dofs of a node; node_matrix has such a vector for each column.
+/// The entries of a vector for the two dofs of a node. node_matrix: the entries of a matrix, by columns.
 struct node_vector {
   double w = 0.0, theta = 0.0;
   bool operator==(const node_vector&) const = default;
@@ -133,8 +133,8 @@ class condensed_engine final : public spring_engine {
   }
 
  private:
-  /// Eliminates the nodes between two kept nodes; node -1 and node number `k.order() / 2` stand for the ends
-  /// of the beam. `left`: the place of `left_node` in kept_.
+  /// Eliminates the nodes between two nodes with pairs; -1 and the number of nodes stand for the ends of the
+  /// beam. `left`: the place of `left_node` in kept_.
   void eliminate_between(int left_node, int right_node, std::size_t left) {
     const band_matrix& k = structure_.stiffness.band();
     const bool has_left = left_node >= 0;
@@ -319,7 +319,7 @@ class condensed_engine final : public spring_engine {
     ++counts_.checks;
     ++counts_.solves;
     residual_of_response();
-    for (std::size_t i = 1; i < kept_.size(); ++i)  // r_i - E^T L^-1 r
+    for (std::size_t i = 1; i < kept_.size(); ++i)  // forward substitution
       column_[i] = column_[i] + transposed(go_left_[i - 1]) * column_[i - 1];
     drift found;
     for (std::size_t i = kept_.size(); i-- > 0;) {
@@ -342,8 +342,8 @@ class condensed_engine final : public spring_engine {
   std::vector<node_matrix> left_, right_;        // L_i, R_i
   std::vector<node_matrix> go_left_, go_right_;  // -L_i^-1 E_i; -R_i^-1 E_{i-1}^T
   std::vector<double> reach_;                    // sqrt(D_tt / D_ww): converts a rotation to a length
-  std::vector<node_vector> x_, load_;
-  std::vector<node_vector> column_;  // the residual, then the correction
+  std::vector<node_vector> x_, load_;            // [kept nodes] the response, the condensed load
+  std::vector<node_vector> column_;              // the residual, then the correction
   std::uint64_t response_to_ = 0;
   drift_monitor drift_{32};
 };

@@ -23,7 +23,6 @@ struct residual_load {
   std::span<const double> last_s = {};
 };
 
-/// Counts of an engine's work so far.
 struct engine_counts {
   std::int64_t factors = 0;  ///< factorisations
   std::int64_t solves = 0;   ///< solves with a factor

@@ -52,8 +52,7 @@ class drift_monitor {
   int check_every_;
 };
 
-/// An engine whose switch_spring only records that a spring is wanted or not; the next response applies the
-/// change.
+/// An engine that records the wanted springs in switch_spring and applies them at the next response.
 class spring_engine : public stiffness_engine {
  public:
   void switch_spring(int pair, bool closed) final {

@@ -127,8 +127,9 @@ class inverse_columns {
 /// `inverse_columns` computes c. All other work of an event is O(pairs). Memory: a factor, and a column
 /// [pairs] for each toggle.
 ///
-/// Updates drift. The drift monitor decides when one more solve checks x. K is factored again if the drift is
-/// too large, if the columns cost more than a factor, or if 1 + sigma k c_p has lost its digits.
+/// Rounding accumulates in x (drift). The drift monitor decides when one more solve checks x. K is factored
+/// again if the drift is too large, if the columns cost more than a factor, or if 1 + sigma k c_p has lost
+/// its digits.
 class updated_engine final : public spring_engine {
  public:
   updated_engine(const linear_structure& s, factored_by how)
