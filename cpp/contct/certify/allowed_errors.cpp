@@ -12,8 +12,7 @@ namespace {
 /// bent only by couples has no shear: its computed shears are the rounding of 32 digits.
 constexpr double of_related = 0x1p-60;
 
-/// If no load acts, an error up to this share of the force that moves one settling dof alone is always
-/// allowed.
+/// If no load acts, an error up to this share of error_bounds::settling is always allowed.
 constexpr double of_settling = 0x1p-70;
 
 constexpr quantity force_kinds[] = {quantity::force, quantity::reaction, quantity::shear};
@@ -31,7 +30,7 @@ by_quantity sizes_of(const error_bounds& b, double extent) {
 }
 
 /// The sizes computed from the largest numbers less their error bounds: a number that is not certified may be
-/// too large, and without loads every number is only an error.
+/// too large, and without loads every number that is not 0 is an error.
 by_quantity proved_sizes_of(error_bounds b, double extent) {
   for (std::size_t q = 0; q < b.size.all.size(); ++q)
     if (b.size.all[q]) b.size.all[q] = std::max(0.0, *b.size.all[q] - b.error.all[q].value_or(0.0));

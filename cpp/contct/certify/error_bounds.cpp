@@ -234,7 +234,7 @@ bool error_prover::is_semidefinite() {
   return *semidefinite_;
 }
 
-/// Sets the sizes of nodal loads or, if no load acts, of the forces that move one settling dof alone.
+/// Sets the sizes of nodal loads. If no load acts, also sets b.settling.
 void error_prover::measure(const long_loads& l, error_bounds& b) const {
   const bool is_loaded = std::ranges::any_of(l.force, [](const double_double& f) { return f.hi != 0.0; });
   for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {

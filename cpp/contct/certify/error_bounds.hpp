@@ -54,7 +54,7 @@ struct error_bounds : contact_set {
   /// Bounds on the largest error of each kind of number; empty for a kind without numbers or without a bound.
   by_quantity error;
   by_quantity size;      ///< the largest number of each kind; nodal loads count as forces and moments
-  by_quantity settling;  ///< if no load acts: the force or moment that moves one settling dof alone
+  by_quantity settling;  ///< if no load acts: the largest K_ii times settlement of dof i
   /// No load acts, and at zero displacement no pair is beyond its face: this is an equilibrium.
   bool unloaded = false;
   /// The first pair, from 0, whose status is certainly wrong.

@@ -37,7 +37,7 @@ struct long_residual {
 /// A moment or shear at the end or corner of an element. Values are in the order of element_results.
 struct element_value {
   double_double value;
-  double size = 0.0;    ///< sum of the magnitudes from which the value is added up
+  double size = 0.0;    ///< sum of the magnitudes of the terms of `value`
   double energy = 0.0;  ///< |error| <= energy * rho, see reference/certificate-proof.md
   bool moment = true;   ///< false: a shear
 

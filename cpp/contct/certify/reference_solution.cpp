@@ -144,8 +144,7 @@ class reference_solver::search {
     for (int dof = 0; dof < structure_.dofs(); ++dof)
       p[structure_.row_of(dof)] = structure_.fixed[dof] != 0 ? 0.0 : motion.at(dof);
     for (std::size_t i = 0; i < set_.size(); ++i)
-      if (set_[i] != 0)
-        p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // a pair in contact does not move at all
+      if (set_[i] != 0) p[pair_rows_[i].row] -= pair_rows_[i].stretch(p);  // rounding must not move the pair
   }
 
   /// Adds springs without force at as many dofs as are needed to hold the structure at its present

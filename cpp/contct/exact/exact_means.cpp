@@ -49,7 +49,7 @@ std::optional<negative_work> work_on(const std::vector<double>& motion, const ex
   return w.work < 0 ? std::optional(std::move(w)) : std::nullopt;
 }
 
-/// Empty if the problem exceeds the limits in exact_means.hpp.
+/// Converts a problem to rational numbers; empty if it exceeds the limits in exact_means.hpp.
 std::optional<exact_problem> small_exact_problem_of(const problem& p) {
   if (dofs(p.geometry) > most_dofs_beside_doubles) return std::nullopt;
   try {

@@ -52,7 +52,7 @@ class digit_counter final : public observer {
   const problem& problem_;
   const exact_path& exactly_;
   event_list events_;
-  std::size_t steps_ = 0;          // number of steps that reached their full load
+  std::size_t steps_ = 0;          // number of steps whose ends were compared
   std::vector<rational> largest_;  // largest exact displacement of each kind of dof
   std::vector<rational> error_;    // largest error of each kind of dof
   rational largest_force_, force_error_;

@@ -130,7 +130,7 @@ class lifted_solver::lifting {
     return known;
   }
 
-  /// Adds the digits found since the last call to sum_.
+  /// Adds to sum_ the digits found since the last call.
   void gather() {
     for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += number(i, 0, digits_.size()) * modulus_;
     modulus_ *= power(digits_.size());
@@ -176,8 +176,8 @@ class lifted_solver::lifting {
   }
 
   const lifted_solver& of_;
-  integer common_ = 1;                              // a multiple of all denominators of b
-  std::vector<integer> rest_, right_;               // the remainder of common_ b, and common_ b
+  integer common_ = 1;                 // a multiple of all denominators of b
+  std::vector<integer> rest_, right_;  // common_ b times the scales of the rows: its remainder, all of it
   std::vector<std::vector<std::uint64_t>> digits_;  // digits since the last gather()
   std::vector<integer> sum_;                        // sum of digits times powers of the prime
   std::map<std::size_t, integer> powers_;           // powers of the prime, by exponent

@@ -65,7 +65,7 @@ rational path_1989::ask(const rational_vector& d_star) {
 /// Calls CONTCT once and applies its answer.
 exact_increment path_1989::next() {
   rational_vector d_star = at_.response();
-  for (rational& d : d_star) d *= 1 - at_.fraction;  // for the rest of the load
+  for (rational& d : d_star) d *= 1 - at_.fraction;  // the response to the rest of the load
   const std::vector<char> before = at_.closed;
   s_min_ = ask(d_star);
   for (std::size_t dof = 0; dof < d_star.size(); ++dof) at_.u[dof] += s_min_ * d_star[dof];

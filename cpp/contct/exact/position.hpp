@@ -45,7 +45,8 @@ class position {
   /// The events that lead from the statuses `before` to the present ones, in order of pairs.
   [[nodiscard]] std::vector<event> events_since(const std::vector<char>& before) const;
 
-  /// The end of a step at this position. `pairs_react`: pairs at fixed dofs carry a part of the reaction.
+  /// The result of a step that ends in this state. `pairs_react`: pairs at fixed dofs carry a part of the
+  /// reaction.
   [[nodiscard]] exact_step_end end(path_status status, std::vector<exact_increment> increments,
                                    bool pairs_react) const;
 

@@ -87,7 +87,7 @@ enum class factored_by { storage, cholmod, ranks };
 
 /// The fastest library for K of `s`: CHOLMOD for a wide band, if it is built in.
 [[nodiscard]] inline factored_by quickest_factor(const linear_structure& s) {
-  constexpr int wide = 128;  // subdiagonals from which CHOLMOD is faster than the band
+  constexpr int wide = 128;  // subdiagonals from which CHOLMOD is faster than LAPACK
   return sparse_factor::available() && !has_pairs_of_two(s) && s.stiffness.is_band() &&
                  s.stiffness.band().subdiagonals() >= wide
              ? factored_by::cholmod
