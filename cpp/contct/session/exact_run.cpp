@@ -22,7 +22,8 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
                     file, dofs(p.geometry), most_exact_dofs));
 }
 
-/// Returns what `find` returns. If `find` throws, its message gets `name` at its start.
+/// Returns what `find` returns. An exception of `find` becomes std::invalid_argument, whose message begins
+/// with `name`.
 template <class Find>
 auto naming(const std::string& name, const Find& find) {
   try {

@@ -25,8 +25,9 @@ struct exact_run {
   std::vector<kernel_digits> kernels;  ///< in the order of exact_request::kernels
 };
 
-/// `tell` is called for the increments of the exact path, `shown` observes those of the kernels; both may be
-/// null. Throws std::invalid_argument, naming the file, if the problem is too large, a matrix is not positive
+/// Follows the exact path of `p`, then the path of each kernel to compare. `tell` is called before every
+/// increment of the exact path; `shown` observes the paths of the kernels; `tell` and `shown` may be null.
+/// Throws std::invalid_argument, naming the file, if the problem is too large, a matrix is not positive
 /// semidefinite, or numbers become too long.
 [[nodiscard]] exact_run run_exactly(const problem& p, const exact_request& wanted,
                                     const exact_progress& tell = nullptr, observer* shown = nullptr);

@@ -10,7 +10,7 @@ namespace contct {
 enum class exit_status {
   solved = 0,  ///< solved, and the kernels agree
   kernels_differ = 1,
-  bad_input = 2,        ///< a file, an option or an output path is wrong
+  bad_input = 2,        ///< a wrong file, option or output path; or K cannot be factored
   uncertified = 3,      ///< solved but not certified, under --strict
   mechanism = 4,        ///< no equilibrium
   iteration_limit = 5,  ///< a path that ended early, a cycle, or a limit on increments, time or memory

@@ -27,7 +27,8 @@ struct load_words {
   std::string after{};
 };
 
-/// The words for a load of only settlements or only moves of faces; of several, the largest amount.
+/// The words for a load of only settlements or only moves of faces; if there are several, for the largest
+/// one.
 load_words motion_words(const model& m, const std::string& verb, const std::vector<nodal_value>& all) {
   const auto amount = [](const nodal_value& g) { return product_of<double>(g.value, g.factor); };
   const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });
@@ -69,7 +70,7 @@ load_words words_for(const model& m, const load& l, const resultant& r) {
   return {of_matrix ? "sum " : "force ", r.force};
 }
 
-/// x, or 0 if it is only the rounding of numbers of this size.
+/// Returns x, or 0 if x is only the rounding of numbers of magnitude `size`.
 double without_rounding(double x, double size) {
   return std::abs(x) <= 32 * std::numeric_limits<double>::epsilon() * size ? 0.0 : x;
 }

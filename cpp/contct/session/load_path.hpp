@@ -17,14 +17,16 @@ class load_path {
 
   /// The load at share `fraction` of step `step`; empty in step 0, before the first step.
   [[nodiscard]] load at(int step, double fraction) const;
-  /// The resultant of this load; 0 if the sum is only rounding. `step` is at least 1.
+  /// The resultant of that load. A sum that is only rounding is 0. `step` is at least 1.
   [[nodiscard]] resultant resultant_at(int step, double fraction) const;
 
-  /// True if the load at either end of the step has over 32 parts; a scattered list has one per element.
+  /// True if the load at the start or the end of the step has more than 32 parts. A distributed load on
+  /// elements that are not consecutive counts as one part for each element.
   [[nodiscard]] bool has_many_parts(int step) const;
 
   /// The load in words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load, with at
-  /// most six digits. The number alone, or "", if the words do not fit into `width` columns.
+  /// most six digits. If the words are longer than `width` characters, only the number; if the number is
+  /// longer, "".
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:
@@ -32,12 +34,11 @@ class load_path {
   [[nodiscard]] int step_before(int step) const { return problem_.steps[step - 1].from_zero ? 0 : step - 1; }
 
   const problem& problem_;
-  /// The resultant at the end of a step, or before the first; summed in rational numbers at the first
-  /// request.
+  /// The resultant at the end of a step; 0 for step 0. It is summed in rational numbers at the first request.
   [[nodiscard]] const resultant& total_of(int step) const;
 
-  mutable std::vector<std::optional<resultant>> totals_;  // see total_of
-  std::vector<std::size_t> parts_;                        // the number of parts of each of these loads
+  mutable std::vector<std::optional<resultant>> totals_;
+  std::vector<std::size_t> parts_;  // number of parts of the load at the end of each step, from step 0
 };
 
 /// True if these elements are consecutive and in ascending order.

@@ -13,11 +13,12 @@
 namespace contct {
 namespace {
 
-/// The engine: a factorisation at each increment, as in 1989, if that takes about 0.1 s or less.
+/// The name of the engine for the 1989 path: the requested engine; otherwise that of 1989, one factorisation
+/// at each increment, if calls are kept or it takes about 0.1 s or less; otherwise the fastest engine.
 std::string engine_beside(const run_result& answer, const run_request& wanted, bool calls_are_kept,
                           const kernel_facts& leader) {
   constexpr double most_work = 1e8;       // multiplications in about 0.1 s
-  constexpr double of_each_column = 200;  // the other work on a column, as a number of multiplications
+  constexpr double of_each_column = 200;  // further work on a column, converted to multiplications
   if (!wanted.engine.empty() || calls_are_kept) return engine_for(leader, wanted.engine, answer.structure);
   const linear_structure& s = answer.structure;
   if (!s.stiffness.is_band()) return std::string(quickest_engine(s));
@@ -29,7 +30,8 @@ std::string engine_beside(const run_result& answer, const run_request& wanted, b
   return is_short ? "refactor" : std::string(quickest_engine(s));
 }
 
-/// Removes the first event of `from` that equals `e`, at share `at` if that is given. Returns its share.
+/// Removes the first event of `from` that equals `e` and, if `at` is given, happens at share `at`. Returns
+/// the share of the removed event; empty if there is none.
 std::optional<double> take_event(std::vector<timed_event>& from, const event& e, std::optional<double> at) {
   const auto found = std::find_if(from.begin(), from.end(), [&](const timed_event& t) {
     return t.what == e && (!at || std::abs(t.fraction - *at) <= same_share);
@@ -40,8 +42,9 @@ std::optional<double> take_event(std::vector<timed_event>& from, const event& e,
   return share;
 }
 
-/// The rows of a step. Events that both paths have are removed from `others`; each other event belongs to the
-/// next increment of the answer. `limit`: the share of the step at which the 1989 path ended.
+/// Compares a step with `others`, the events of the 1989 path in this step. Removes from `others` the events
+/// that both paths have. Assigns each remaining event to the first increment of the answer that ends at or
+/// after the event. `limit`: the share of the step at which the 1989 path ended.
 std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_event>& others, double limit) {
   std::vector<row_of_1989> rows(answer.increments.size());
   std::vector<std::pair<row_of_1989*, event>> alone;
@@ -83,7 +86,7 @@ struct end_comparison {
   state_difference worst;
 
   void take(quantity q, double value, double right, const auto& place) {
-    if (!allowed[q]) return;  // numbers without a bound may differ in another right answer
+    if (!allowed[q]) return;  // without a bound, different numbers may be right
     const double share = share_of(std::abs(value - right), allowed[q]);
     if (share > worst.share) worst = {worst.step, q, place(), value, right, share};
   }
@@ -125,7 +128,7 @@ void compare_states(const run_result& answer, rule_1989& r) {
   }
 }
 
-/// Has the load of a step an equilibrium? Empty if the answer does not show it.
+/// True if the load of a step has an equilibrium; empty if the path of the answer does not show this.
 std::optional<bool> has_equilibrium(const run_result& answer, int step) {
   if (step < answer.end.step || answer.end.status == path_status::solved) return true;
   return step == answer.end.step ? answer.end.has_equilibrium : std::nullopt;

@@ -1,5 +1,5 @@
-// Follows the path of the 1989 rule, FORTRAN and C++ in lockstep, and compares it with an answer of the
-// corrected rule: which events differ, and which states are wrong.
+// Follows the path of the 1989 rule, with FORTRAN and C++ in lockstep, after a run of the corrected rule,
+// whose result is the answer. Compares the two paths: which events differ, and which states are wrong.
 #pragma once
 
 #include <memory>
@@ -17,22 +17,23 @@ inline const std::vector<std::string> kernels_of_1989 = {"fortran", "cpp"};
 /// An event that the two paths do not have at the same share of the step.
 struct other_event {
   event what = {};
-  std::optional<double> at;  ///< share in the 1989 path; empty: not in this step
+  std::optional<double> at;  ///< share in the 1989 path; empty: the 1989 path has no such event in this step
 };
 
-/// The differences of the 1989 path in an increment of the answer.
+/// Compares the 1989 path with one increment of the answer.
 struct row_of_1989 {
-  std::vector<other_event> otherwise = {};
-  bool reached = true;  ///< false: the path of the 1989 rule had ended before
+  std::vector<other_event> otherwise = {};  ///< the events that differ
+  bool reached = true;                      ///< false: the 1989 path ended before this increment
 };
 
-/// The number at the end of a step in which the 1989 rule differs most, relative to the size of its kind.
+/// The number at the end of a step in which the 1989 rule and the answer differ most, relative to the largest
+/// number of the same kind (see allowed_errors).
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< kind of the number
   std::string at = {};              ///< place: "pair 3", "node 5", "the support at node 1", "element 2"
   double value = 0.0, right = 0.0;  ///< the number by the 1989 rule, and in the answer
-  double share = 0.0;               ///< their difference as a share of the size of the kind
+  double share = 0.0;               ///< the difference, relative to the largest number of the kind
 
   [[nodiscard]] bool is_wrong() const { return !(share <= certified_share); }
 };
@@ -44,16 +45,17 @@ struct rule_1989 {
   lockstep_on_path compared;
   run_recorder record;
   path_end end = {};
-  std::vector<std::vector<row_of_1989>> rows = {};  ///< one for each increment [steps][increments]
+  std::vector<std::vector<row_of_1989>> rows = {};  ///< for each increment of the answer [steps][increments]
   bool same_events = true;                          ///< both paths have the same events
-  std::vector<state_difference> differences = {};   ///< only certified steps that both paths solved
+  std::vector<state_difference> differences = {};   ///< for each certified step that both paths solved
 };
 
 /// Two shares of a step are the same if they differ by at most this number.
 inline constexpr double same_share = 1e-6;
 
-/// Follows the path of the 1989 rule after that of `answer`, and compares the two. `shown` observe the path.
-/// `calls_are_kept`: the default engine is that of 1989, however long it takes.
+/// Follows the path of the 1989 rule for the problem of `answer`, and compares the path with `answer`. The
+/// observers `shown` observe the path. `calls_are_kept`: the calls are written to files, so the default
+/// engine is that of 1989, even if it is slow.
 [[nodiscard]] std::shared_ptr<const rule_1989> follow_rule_1989(const run_result& answer,
                                                                 const run_request& wanted,
                                                                 bool calls_are_kept, recorded_parts parts,

@@ -51,15 +51,17 @@ class run {
   run& operator=(const run&) = delete;
   ~run() = default;
 
-  /// Follows the leader's path, or finds the ends of the steps if there are no kernels. Writes log and trace
-  /// meanwhile; write_outputs (contct/write/outputs.hpp) writes the other files. The observers `shown`, which
-  /// show the progress, come after the comparison and the certificate.
+  /// Follows the leader's path, and for both rules the 1989 path; without kernels, finds the ends of the
+  /// steps. Writes log and trace meanwhile; write_outputs (contct/write/outputs.hpp) writes the other files.
+  /// The observers `shown`, which show the progress, are called after the comparison and the certificate.
   void go(const run_outputs& outputs, const std::vector<observer*>& shown = {});
 
-  /// Finds the ends of the steps with half the element size, and sets result.refined.
+  /// Finds the ends of the steps with half the element size, and sets result.refined if both meshes are
+  /// solved. Throws std::invalid_argument as refined does.
   void refine();
 
-  /// Follows the path of another kernel, and adds its comparison with the leading path to the result.
+  /// Follows the path of kernel `name`, and adds the comparison with the leader's path to the result. Needs
+  /// go() with wanted.free_run before.
   const compared_path& follow_alone(const std::string& name);
 
   /// The exit status without --strict.
@@ -89,8 +91,8 @@ class run {
   std::optional<path_record> own_path_;  // path of the leader, in a free run
 };
 
-/// Throws std::invalid_argument unless `kernels` are one or two kernels of the 1989 rule, the first one built
-/// in: only lines of the listing can be explained.
+/// Throws std::invalid_argument unless `kernels` are one or two different kernels of the 1989 rule, the first
+/// one built in. Other rules do not follow the listing, whose lines are explained.
 void refuse_other_rules(const std::vector<std::string>& kernels);
 
 /// A path whose calls are explained by lines of the listing.
@@ -99,7 +101,7 @@ struct explained_run {
   /// std::invalid_argument if the kernels cannot be compared, and as make_kernel does.
   explained_run(const std::vector<std::string>& kernels, increments_wanted wanted, explained_path::sink to);
 
-  /// Follows the leader's path. `engine` may be empty or "auto"; the observer `shown` may be null.
+  /// Follows the leader's path. `engine`: see engine_for. The observer `shown` may be null.
   path_end follow(const problem& p, const linear_structure& s, const std::string& engine,
                   observer* shown = nullptr);
 

@@ -31,7 +31,7 @@ void run_recorder::keep_call(const answered_call& c) {
   ++all_calls;
   const std::string_view text = c.text.value_or("");
   all_log += text.size();
-  // Only whole calls are kept, so that no text is cut.
+  // The text of a call is kept whole or not at all.
   if (log.size() + text.size() <= most_log && log.size() + text.size() == all_log) log += text;
   answers_ = calls.size() < most_calls;
   if (!answers_) return;

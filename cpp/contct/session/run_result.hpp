@@ -29,13 +29,13 @@ struct structure_state {
   double fraction = 0.0;                    ///< share of the step's load consumed
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
-  std::vector<double> pair_forces = {};     ///< more accurate than `displacement` gives; or empty [pairs]
-  std::optional<end_numbers> numbers = {};  ///< more accurate than `displacement` gives; or empty
+  std::vector<double> pair_forces = {};     ///< empty: computed from `displacement` [pairs]
+  std::optional<end_numbers> numbers = {};  ///< empty: computed from `displacement`
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
 };
 
-/// One increment of the path, with facts about the last call before it.
+/// One increment of the path, with facts about the last call before the increment.
 struct increment_record {
   int step, number;
   double s, fraction;
@@ -43,14 +43,14 @@ struct increment_record {
   std::vector<event> events;
   std::optional<double> smin = {};  ///< SMIN of the last call; empty before the first call
   bool equal = true;                ///< false: the kernels differed in the last call
-  // Empty unless states are recorded [pairs]; see `increment`:
+  // Empty unless states are recorded [pairs]; see the same members of `increment`:
   std::vector<double> d = {}, pair_force = {};
   std::vector<int> isep = {};
 };
 
 /// One call of the leader, and the answers of the followers.
 struct call_record {
-  int step = 0, number = 0;  ///< step and increment to which the call led; 0 and 0: it led to none
+  int step = 0, number = 0;  ///< step and increment after the call; 0 and 0: no increment followed
   double smin = 0.0;
   std::vector<double> ss;                  ///< only of the first most_ss pairs
   std::vector<follower_answer> followers;  ///< empty if no kernels are compared
@@ -66,7 +66,7 @@ struct step_record {
 
 /// The parts of a path that are recorded in addition to increments and ends of steps.
 struct recorded_parts {
-  bool calls = false;   ///< the first calls and the beginning of unit 26; later ones are only counted
+  bool calls = false;   ///< the first calls and the first bytes of unit 26; the others are only counted
   bool states = false;  ///< D, ISEP and pair forces after each increment
 };
 
@@ -74,7 +74,8 @@ class run_recorder final : public observer {
  public:
   static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< calls, pairs, bytes
 
-  /// `compared` is null for a single kernel; it must outlive this object and be called before it.
+  /// `compared` compares the kernels; null for a single kernel. It must outlive this object, and must observe
+  /// each call before this object.
   explicit run_recorder(const lockstep* compared = nullptr, recorded_parts parts = {})
       : compared_(compared), parts_(parts) {}
 
@@ -87,14 +88,14 @@ class run_recorder final : public observer {
   std::vector<step_record> steps;
   std::vector<call_record> calls;
   std::string log;
-  std::size_t all_calls = 0, all_log = 0;  ///< calls and bytes of unit 26, whether kept or not
+  std::size_t all_calls = 0, all_log = 0;  ///< all calls, and all bytes of unit 26, also those not kept
 
  private:
   void keep_call(const answered_call& c);
 
   const lockstep* compared_;
   recorded_parts parts_;
-  bool answers_ = false;                      // the last kept call has not led to an increment yet
+  bool answers_ = false;                      // the last call is kept, and no increment followed yet
   std::optional<double> smin_;                // SMIN of the last call
   std::vector<increment_record> increments_;  // increments of the current step
 };
@@ -131,7 +132,7 @@ struct run_result {
   std::vector<std::string> kernels;  ///< the leader first; for both rules, those of 1989 last
   std::string engine;
   std::optional<lockstep_on_path> compared;  ///< empty: no kernel was compared call by call
-  std::shared_ptr<const rule_1989> beside;   ///< null: not a run of both rules, or no answer
+  std::shared_ptr<const rule_1989> beside;   ///< null: not a run of both rules, or the answer is not_factored
   std::vector<compared_path> free_runs;
   bool equal = true;
   std::vector<mesh_change> refined;  ///< empty: not requested, or not solved on both meshes
@@ -142,10 +143,10 @@ struct run_result {
 
   /// The status as written in results: "solved", "kernels-disagree", ..
   [[nodiscard]] std::string_view status() const;
-  /// The call-by-call comparison of kernels, on the path of the leader or of the 1989 rule; null if there is
-  /// none.
+  /// The call-by-call comparison of kernels; in a run of both rules, on the 1989 path. Null if there is no
+  /// comparison.
   [[nodiscard]] const lockstep_on_path* compared_calls() const;
-  /// The record of the path whose calls were kept: that of the 1989 rule in a run of both rules.
+  /// The record of the path whose calls are kept: the leader's path; in a run of both rules, the 1989 path.
   [[nodiscard]] const run_recorder& record_of_calls() const;
 };
 
@@ -159,14 +160,16 @@ template <class Comparing>
 /// The problem's title, or the name of its file.
 [[nodiscard]] std::string title_of(const problem& p, const std::string& file);
 
-/// Divides every element of a beam in two, and of a plate in four. Loads, supports and [[contact]] keep their
-/// places. A new node is on a bed if each of its neighbours is on the bed or fixed in w, and at least one is
-/// on the bed. On a plate a dof of a new node is fixed if it is fixed at all of its neighbours; its
-/// settlement is the mean of theirs.
+/// Returns the problem with every element of a beam divided in two, or of a plate in four. Loads, supports
+/// and [[contact]] keep their places. A new node is on a bed if each of its neighbours is on the bed or fixed
+/// in w, and at least one neighbour is on the bed. On a plate, a dof of a new node is fixed if the dof is
+/// fixed at all neighbours; its settlement is the mean of the neighbours' settlements. Throws
+/// std::invalid_argument for a matrix.
 [[nodiscard]] problem refined(const problem& p);
 
-/// The largest difference, in any step, of the extremes ("w", "moment", "shear", "mx", ..), the contact
-/// forces of [[contact]] ("force"), the "pressure" of beds and the reactions of a beam ("reaction").
+/// Compares the results of two meshes, which must both be solved. Returns the largest difference in any step
+/// for each kind of number: the extremes ("w", "moment", "shear", "mx", ..), the contact forces of
+/// [[contact]] ("force"), the "pressure" of beds and the reactions of a beam ("reaction").
 [[nodiscard]] std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine);
 
 }  // namespace contct

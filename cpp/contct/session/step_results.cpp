@@ -234,18 +234,18 @@ void for_each_state_of_envelope(const run_result& r, const Visit& visit) {
     if (of_combinations && (!m.is_end || m.step->end.fraction < 1.0)) continue;
     structure_state s = states.at(m);
     if (s.displacement.empty()) continue;
-    s.pair_forces.clear();  // all numbers of an envelope are computed from the solved shape
+    s.pair_forces.clear();  // all numbers of an envelope are computed from the displacement
     visit(s, loads.at(s.step, s.fraction));
   }
 }
 
-/// The number of parts into which an element is divided.
+/// The number of parts into which curves_of divides an element.
 int parts_of(const beam& b) {
   constexpr int enough = 480;
   return (enough + b.elements() - 1) / b.elements();
 }
 
-/// The places, with infinite values that any state replaces.
+/// The curves before the first state: all places, with infinite values that any state replaces.
 envelope_curves begun(const beam& b) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   envelope_curves all;
@@ -258,7 +258,8 @@ envelope_curves begun(const beam& b) {
   return all;
 }
 
-/// Widens the curves by one state. Values at ends of elements are taken directly, not from the polynomials.
+/// Widens the curves by one state. Values at the ends of an element are the known ones, without the rounding
+/// of its polynomials.
 void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s) {
   const int parts = parts_of(b);
   std::size_t place = 0;

@@ -17,8 +17,9 @@ namespace contct {
 /// `node` counts from 0; `u`: displacements [dofs].
 [[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
 
-/// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs of
-/// pairs and, if places are known, dofs along an axis; all dofs if there are neither.
+/// The nodes whose displacement is a deflection, from 0: all nodes of a beam or plate. In a matrix, where
+/// each dof is a node: the dofs of pairs and, if places are known, the dofs along an axis; all dofs if there
+/// are no pairs and no places.
 [[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
 
 /// The name of a node in tables: its number, from 1, or its label in a matrix.
@@ -33,7 +34,7 @@ struct place {
 /// The nodes of an element of a beam or plate, in the order of element_results.
 [[nodiscard]] std::vector<int> nodes_of_element(const model& m, int element);
 
-/// The state of a pair in pictures. at_face: its gap is below EPSGAP, whatever its status.
+/// The state of a pair in pictures. at_face: the distance from the face is below EPSGAP, whatever the status.
 enum class pair_state { open, closed, at_face };
 
 /// The state, gap and contact force of a pair, as results contain them.
@@ -42,7 +43,8 @@ struct pair_reading {
   pair_state look;
   double face;  ///< the position of the face, with its move
 };
-/// The reading at deflection `w`. The face of `p` must be moved already.
+/// The reading of pair `p` at deflection `w`. The face of `p` must be at its moved position (see
+/// pairs_under).
 [[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
 
 /// The results of one state. Pairs, supports and nodes count from 0.
@@ -52,7 +54,8 @@ struct step_results {
   element_results stresses;         ///< see stresses_of
   std::vector<double> reactions;    ///< [supports]
   std::vector<pair_reading> pairs;  ///< [pairs]
-  /// The pieces of elements in which loads begin, end or act, or impose a curvature: see beam_lines.
+  /// The pieces of each element (from 0) in which loads begin, end or act, or impose a curvature: see
+  /// beam_lines.
   std::map<std::size_t, std::vector<element_line>> pieces = {};
 
   /// The pair with the largest contact force; empty if no pair has one.
@@ -65,11 +68,12 @@ struct step_results {
 [[nodiscard]] step_results numbers_of(const problem& p, const load& l, const structure_state& s);
 [[nodiscard]] step_results results_of(const problem& p, const load& l, const structure_state& s);
 
-/// The sums of the upward forces on a structure. In equilibrium they add up to 0, up to rounding.
+/// The sums of the upward forces on a structure. In equilibrium the three sums add up to 0, except for
+/// rounding.
 struct force_balance {
   double loads, reactions, contact;
 };
-/// The sums; empty for a matrix, which has no upward direction.
+/// The sums of a state with the results `r`; empty for a matrix, which has no upward direction.
 [[nodiscard]] std::optional<force_balance> balance_of(const problem& p, const load& l, const step_results& r);
 
 /// The contact of a bed with the structure.
@@ -90,7 +94,8 @@ struct penetration {
   double x = 0.0;                     ///< the position with the largest depth
   std::size_t first = 0, second = 0;  ///< the pairs, from 0
 };
-/// The deepest penetration in a state; empty if it is at most a thousandth of the largest deflection.
+/// The deepest penetration of a beam at displacements `u` [dofs] under load `l`; empty if the depth is at
+/// most a thousandth of the largest deflection, and for other structures.
 [[nodiscard]] std::optional<penetration> deepest_penetration(const problem& p, const load& l,
                                                              std::span<const double> u);
 
@@ -100,10 +105,10 @@ struct penetration {
 /// A place in words: "node 9, x = 4", "x = 4.31", "node 9, (1, 0.5)" or "dof 185.3".
 [[nodiscard]] std::string place_words(const model& m, const placed_value& at);
 
-/// The least and largest values on a path: after its increments, if their states can be solved for, and at
-/// the ends of its steps. Combinations start from zero: only their ends under full load count.
+/// The least and largest values on a path: after its increments, if path_states finds their displacements,
+/// and at the ends of its steps. Of combinations only the ends under full load count.
 struct envelope {
-  /// A value with its step and increment, from 1; increment 0: the step ended without one.
+  /// A value with its step and increment, from 1; increment 0: the step ended without an increment.
   template <class Value>
   struct reached {
     Value value;
@@ -114,7 +119,7 @@ struct envelope {
     reached<Value> least, most;
   };
 
-  int states = 0;
+  int states = 0;  ///< the number of states
   std::vector<std::string_view> names;
   std::vector<range<placed_value>> values;  ///< least and largest value for each name
   std::vector<reached<double>> pairs;       ///< the largest force of each pair, or 0 [pairs]
@@ -124,15 +129,15 @@ struct envelope {
 /// The envelope of a run whose recorder keeps states, or of combinations.
 [[nodiscard]] envelope envelope_of(const run_result& r);
 
-/// The envelope along a beam: the least and largest value of each quantity at each place, and the state that
-/// has it. Empty for plates and matrices, and if no state is known.
+/// The envelope along a beam: the least and largest value of each quantity at each place, each with its step
+/// and increment. Empty for plates and matrices, and if no state is known.
 struct envelope_curves {
   struct curve {
     std::string_view name;                    ///< "w", "moment" or "shear"
     std::vector<envelope::range<double>> at;  ///< [places]
   };
   /// The places: nodes and, if there are fewer than 480 elements, equidistant places in each element. A node
-  /// between elements is listed twice, because the shear may jump.
+  /// between two elements is listed twice, because the shear may jump there.
   std::vector<double> x;
   std::vector<curve> curves;
 };
