@@ -24,7 +24,8 @@ std::string as_json(const std::string& text) {
   return json_text(json(text));
 }
 
-/// The error as JSON, with the place that begins its message: "pb.toml:12:3: ..", or without the column.
+/// The error as JSON. File, line and column are taken from the start of the message: "pb.toml:12:3: ..", or
+/// "pb.toml:12: ..".
 std::string error_json(std::string_view message) {
   json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
   const auto number_at = [message](std::size_t from) {  // the number before a colon; 0 if there is none
@@ -44,7 +45,8 @@ std::string error_json(std::string_view message) {
   return json_text(error);
 }
 
-/// The answer as text. The result is not parsed again, which would take longer than the path.
+/// The answer as text. Inserts the text of the result without parsing it, because parsing would take longer
+/// than the path.
 std::string text_of(const served_answer& a, const std::optional<std::string>& error) {
   const auto exit = error ? exit_status::bad_input : a.exit;
   std::string text =
@@ -59,7 +61,8 @@ std::string text_of(const served_answer& a, const std::optional<std::string>& er
   return text + "}";
 }
 
-/// Refused values are written recursively, so unlimited depth could overflow the stack.
+/// Refuses options that are nested more than 16 deep: a message that quotes a refused value writes it by
+/// recursion, which could overflow the stack.
 void refuse_deep(int depth) {
   constexpr int deepest = 16;
   if (depth > deepest)
@@ -77,7 +80,7 @@ request::request(const char* text, std::initializer_list<std::string_view> known
       return true;
     });
   } catch (const nlohmann::json::exception& e) {
-    constexpr std::size_t longest = 300;  // the message quotes the text of the options
+    constexpr std::size_t longest = 300;  // of the message, because it quotes the options
     throw std::invalid_argument(
         fmt::format("options: found no JSON: {}; allowed: an object", printable(e.what(), longest)));
   }

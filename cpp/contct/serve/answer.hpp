@@ -1,4 +1,5 @@
-// Parses the options of the functions of serve.h and writes their answers, both as JSON objects.
+// Parses the options of the functions of serve.h, and writes the answers. Options and answers are JSON
+// objects.
 #pragma once
 
 #include <deque>
@@ -16,7 +17,7 @@
 
 namespace contct {
 
-/// The answer to a request, filled in step by step.
+/// The answer to a request. The functions of serve.h fill it in step by step.
 struct served_answer {
   exit_status exit = exit_status::solved;
   std::vector<std::string> messages;
@@ -43,7 +44,7 @@ class request {
   [[nodiscard]] std::vector<std::vector<double>> lists(std::string_view name) const;
   [[nodiscard]] bool has(std::string_view name) const { return options_.contains(name); }
 
-  /// The name of the problem in messages: option "file" in "folder".
+  /// The path of the problem in messages: the option "file", in the folder of the option "folder".
   [[nodiscard]] std::string file() const;
 
   /// Reads the problem in `text`. The options give its name and the files that it may read; its warnings
@@ -59,11 +60,13 @@ class request {
   nlohmann::json options_ = nlohmann::json::object();
 };
 
-/// The lock for all uses of kernels, because unit 26 belongs to the whole process. It is recursive: if a
-/// kernel of the caller requests another kernel, the request is refused and does not hang.
+/// The lock for all uses of kernels, because unit 26 belongs to the whole process. The lock is recursive: if
+/// a kernel of the caller calls the library and requests another kernel, the call is refused and does not
+/// hang.
 [[nodiscard]] std::recursive_mutex& turn();
 
-/// Returns the answer that `find` fills in, or its error, as text from malloc; null if there is no memory.
+/// Calls `find` and returns the answer that `find` filled in, or the error that it threw, as text from
+/// malloc; null if there is no memory.
 [[nodiscard]] char* answered(const std::function<void(served_answer&)>& find) noexcept;
 
 }  // namespace contct

@@ -28,7 +28,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Throws std::invalid_argument for a text that is not empty, "auto" or the name of an engine.
+/// Throws std::invalid_argument unless `name` is empty, "auto" or the name of an engine.
 void refuse_unknown_engine(const std::string& name) {
   const std::vector<std::string> names = engine_names();
   if (name.empty() || name == "auto" || std::ranges::find(names, name) != names.end()) return;
@@ -36,7 +36,7 @@ void refuse_unknown_engine(const std::string& name) {
       fmt::format("options: engine: found \"{}\"; allowed: auto, {}", name, fmt::join(names, ", ")));
 }
 
-/// Options that request further outputs, and these outputs.
+/// The options that request further outputs, and the member of run_outputs for each.
 constexpr std::pair<const char*, output_file * run_outputs::*> further_outputs[] = {
     {"page", &run_outputs::page},
     {"log", &run_outputs::log},
@@ -93,7 +93,8 @@ void run_path(const char* text, const char* options, served_answer& a) {
   a.tell(end_messages(run.result));
 }
 
-/// Adds every number of the file with its place, and the pairs with the keys of their numbers.
+/// Adds to `out` every number of the problem file with its place, and the pairs with the keys of their faces
+/// and stiffnesses.
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
   const toml::table document = parse_toml(text, file);
   json& numbers = out["numbers"] = json::array();
@@ -180,13 +181,14 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   a.exit = status_of(end.status, run.equal());
 }
 
-/// The states of a request, with the statuses of their pairs.
+/// The states of a request to contct_certify, with the statuses of the pairs.
 struct given_states {
   std::vector<std::vector<double>> displacement;  // [states][dofs]
   std::vector<std::vector<int>> isep;             // [states][pairs]
 };
 
-/// The statuses if the request lists none: a pair is in contact if the state touches or enters its face.
+/// The statuses if the request lists none [pairs]: a pair is in contact if the structure touches its face or
+/// is beyond it.
 std::vector<int> statuses_at(const problem& p, const load& l, const linear_structure& s,
                              std::span<const double> displacement) {
   std::vector<int> isep(p.pairs.size(), separated);

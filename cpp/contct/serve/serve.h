@@ -21,8 +21,8 @@
  *
  * Options of all functions with a problem, each with its default:
  *   "file"    "problem": the name of the problem in messages and pages
- *   "folder"  "": the working directory. The folder of the problem, unless "file" begins with "/". The files
- *             that the problem names are searched there
+ *   "folder"  "": the folder of the problem, unless "file" begins with "/"; files that the problem names are
+ *             searched in this folder. "" is the working directory
  *   "allow_outside"
  *             false: a problem that names files outside its folder is refused, so that a problem from a
  *             stranger cannot read other files of the user. true: any file */
@@ -46,14 +46,15 @@ extern "C" {
 #define CONTCT_SERVE_VERSION 1
 CONTCT_SERVE_EXPORT int contct_serve_version(void);
 
-/* "result": { "version": "0.2.0", "listing_sha256", "floating_point", "lapack", "kernels": [{ "name",
- *   "real_bytes", "rule", "language", "compiler", "flags" }], "engines": ["auto", ..] }. */
+/* Describes the program. "result": { "version": "0.2.0", "listing_sha256", "floating_point", "lapack",
+ *   "kernels": [{ "name", "real_bytes", "rule", "language", "compiler", "flags" }],
+ *   "engines": ["auto", ..] }. */
 CONTCT_SERVE_EXPORT char* contct_about(void);
 
 /* contct run: follows the path of a problem. "result" is what --json writes (reference/result-file.md).
- *   "kernels"         a list, the leader first. Without it "corrected" gives the answer, and the 1989 path is
- *                     compared with it
- *   "engine"          as --engine; without it, the default engine of the leader
+ *   "kernels"         a list, the leader first. Without a list, the kernel "corrected" gives the answer, and
+ *                     the 1989 path is compared with the answer
+ *   "engine"          as --engine; without this option, the default engine of the leader
  *   "final_only"      false; true: no path, only the equilibrium under the load of each step
  *   "envelope"        false; true: the result contains the envelope
  *   "max_increments"  0: the default limit
@@ -72,26 +73,28 @@ CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options)
 
 /* contct exact: follows the path in rational arithmetic. "result" is what contct exact --json writes.
  *   "rule"     "corrected"; or "1989"
- *   "kernels"  kernels whose paths are compared with the exact path; without it, none */
+ *   "kernels"  kernels whose paths are compared with the exact path; without this option, none */
 CONTCT_SERVE_EXPORT char* contct_exact(const char* problem, const char* options);
 
-/* contct explain: the effect of each line of the listing. "result" is what contct explain --json writes.
+/* contct explain: follows a path and explains the effect of each line of the listing. "result" is what
+ * contct explain --json writes.
  *   "kernels"          ["fortran", "cpp"]; one or two kernels of the 1989 rule
  *   "engine"           "refactor"
- *   "step", "increment"  the number, from 1, of the only one to explain; without them, all are explained */
+ *   "step", "increment"  the number, from 1, of the only step and of the only increment in a step to explain;
+ *                        without these options, all are explained */
 CONTCT_SERVE_EXPORT char* contct_explain(const char* problem, const char* options);
 
 /* Bounds the errors of given states. "result" is that of contct_run without increments: `w`, `pairs`,
  * `error` and `certificate` of each state as it was given.
  *   "displacement"  [[..], ..]: a list of displacements at all dofs for each of the first steps, under the
  *                   full load of the step
- *   "closed"        [[..], ..]: for each of these states the pairs in contact, from 1. Without it, a pair is
- *                   in contact if the state touches or enters its face */
+ *   "closed"        [[..], ..]: for each state the pairs in contact, from 1. Without this option, a pair is
+ *                   in contact if the structure touches its face or is beyond it */
 CONTCT_SERVE_EXPORT char* contct_certify(const char* problem, const char* options);
 
-/* One call of a kernel: its name, followed by the arguments of contct_kernel (contct/kernel/plugin.h).
- * "result": { "text": what the call wrote to unit 26 }. A call whose id or dimensions lead outside the arrays
- * is refused. */
+/* Calls a kernel once. `kernel` is its name; the other arguments are those of contct_kernel
+ * (contct/kernel/plugin.h). "result": { "text": what the call wrote to unit 26 }. A call whose id, indof or
+ * ndofpn leads outside the arrays is refused. */
 CONTCT_SERVE_EXPORT char* contct_call(const char* kernel, const double dd[], const double dtest[],
                                       const double cc[], double ss[], double* smin, const int id[],
                                       int isep[], const int isurf[], int nc, int indof, int ndofpn, int ndof);
@@ -106,17 +109,18 @@ typedef void contct_kernel_function(const double dd[], const double dtest[], con
  * it with a leading kernel. "result" is what contct fuzz --json writes; "exit" is 1 if the two differ.
  *   "leader"  "fortran"
  *   "name"    "function": the name of the caller's kernel
- *   "calls"   20000; "problems" 40; "seed" 1989 */
+ *   "calls", "problems", "seed"
+ *             20000, 40, 1989: as --calls, --problems and --seed of contct fuzz */
 CONTCT_SERVE_EXPORT char* contct_judge(contct_kernel_function* kernel, const char* options);
 
 /* contct replay: sends the calls of a trace to a kernel. "result": { "kernel", "calls", "values_compared",
  *   "mismatches", "first": the first mismatch in words, or null }.
  *   "file"    "trace": the name of the trace in messages
- *   "kernel"  a kernel; without it "fortran", "fortran-r4" or "corrected", by the rule and precision of the
- *             trace */
+ *   "kernel"  a kernel; without this option "fortran", "fortran-r4" or "corrected", by the rule and precision
+ *             of the trace */
 CONTCT_SERVE_EXPORT char* contct_replay(const char* trace, const char* options);
 
-/* Frees the text that one of these functions returned; null is allowed. */
+/* Frees a text that a function of this file returned; null is allowed. */
 CONTCT_SERVE_EXPORT void contct_free(char* text);
 
 /* clang-format on */

@@ -11,7 +11,7 @@
 namespace contct {
 namespace {
 
-/// std::from_chars does not accept a plus sign.
+/// Removes a plus sign at the start, which std::from_chars does not accept.
 std::string_view without_plus(std::string_view number) {
   const bool plus = number.size() > 1 && number[0] == '+' && number[1] != '-';
   return plus ? number.substr(1) : number;

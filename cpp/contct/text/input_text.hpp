@@ -1,4 +1,4 @@
-// Reading input files: a whole file as text, its lines and fields; errors name file and line.
+// Reads input files: a whole file as text, and a text by lines and fields. Errors name file and line.
 #pragma once
 
 #include <charconv>
@@ -34,8 +34,8 @@ class input_error : public std::runtime_error {
 /// The characters that separate the fields of a line and are trimmed from its ends.
 inline constexpr std::string_view blanks = " \t\r\v\f";
 
-/// The number in `text`, all of it, as std::from_chars reads it: no blanks, no plus sign. Nothing if `text`
-/// is not such a number or is out of range. `format`: a std::chars_format, for reals.
+/// Converts all of `text` to a number by std::from_chars, which allows no blanks and no plus sign. Empty if
+/// `text` is not one number in the range of the type. `format`: a std::chars_format, for reals.
 template <class Number, class... Format>
 [[nodiscard]] std::optional<Number> number_in(std::string_view text, Format... format) {
   Number value{};
@@ -58,14 +58,15 @@ class text_lines {
   [[nodiscard]] std::int64_t line() const { return line_; }      ///< counted from 1; 0 before the first
   [[nodiscard]] const std::string& file() const { return file_; }
 
-  /// `field` as a whole number, or as a finite real; a plus sign is allowed. `what` describes the number in
-  /// messages. With `fortran`, a real may have D instead of E.
+  /// Returns `field` as a whole number, or as a finite real; a plus sign is allowed. Refuses any other field.
+  /// `what` describes the number in messages. With `fortran`, a real may have D instead of E.
   [[nodiscard]] int whole(std::string_view field, std::int64_t least, std::int64_t most,
                           std::string_view what) const;
   [[nodiscard]] double real(std::string_view field, std::string_view what, bool fortran = false) const;
 
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
-  /// Refuses a last line without a line end: if it is truncated, its numbers may still parse.
+  /// Refuses the present line if it has no line end: it may be truncated, and a truncated number may still
+  /// parse.
   void refuse_unended() const;
 
  private:
@@ -75,8 +76,8 @@ class text_lines {
   bool ended_ = true;
 };
 
-/// Reads lines of fields that blanks and tabs separate. Skips blank lines; refuses a last line without a line
-/// end. Linear in the text.
+/// Reads lines of fields, which the characters in `blanks` separate. Skips blank lines; refuses a last line
+/// without a line end. Linear in the text.
 class field_lines : public text_lines {
  public:
   using text_lines::text_lines;
@@ -95,7 +96,7 @@ class field_lines : public text_lines {
     return text_lines::real(field(i), what, fortran);
   }
 
-  /// Refuses the line if it has another number of fields.
+  /// Refuses the line if it does not have `fields` fields; `allowed` describes them.
   void expect(std::size_t fields, std::string_view allowed) const;
 
  private:

@@ -20,8 +20,8 @@ int why_lost = 0;  // errno of the first print that failed
 
 namespace fs = std::filesystem;
 
-/// The file that is written if `path` is opened: follows symbolic links, also to a target that does not
-/// exist.
+/// Returns the path of the file that is written if `path` is opened. Follows symbolic links, also to a target
+/// that does not exist.
 fs::path followed(fs::path path) {
   std::error_code ignored;
   if (fs::exists(path, ignored)) return fs::canonical(path);
@@ -34,15 +34,15 @@ fs::path followed(fs::path path) {
   return (wrong ? folder : resolved) / path.filename();
 }
 
-/// Opens a new file with a temporary name in the folder of `target`, because a rename must stay in one file
-/// system. Returns its descriptor, or -1.
+/// Opens a new file in the folder of `target`, because a rename must stay in one file system. Writes the
+/// temporary name to `name`. Returns the descriptor, or -1.
 int open_beside(const std::string& target, std::string& name) {
   name = (fs::path(target).parent_path() / ".contct-partial-XXXXXX").string();
   return mkostemp(name.data(), O_CLOEXEC);
 }
 
-/// Waits until written data are on the disk. Returns 0, or errno; 0 too if the file system does not support
-/// it.
+/// Waits until the written data are on the disk. Returns 0, or errno; also 0 if the file system does not
+/// support fsync.
 int sync_to_disk(int descriptor) {
   int error = 0;
   do {
@@ -51,7 +51,7 @@ int sync_to_disk(int descriptor) {
   return error == EINVAL || error == ENOSYS || error == EROFS ? 0 : error;
 }
 
-/// Copies one file to another, with the permissions of any new file. Returns 0, or errno.
+/// Copies one file to another, and gives the copy the permissions of a new file. Returns 0, or errno.
 int copy_all(int from, int to) {
   const mode_t removed = umask(0);
   umask(removed);
@@ -72,7 +72,8 @@ int copy_all(int from, int to) {
 
 }  // namespace
 
-/// The file without a name is in the target's own folder, so that an unwritable folder is refused at once.
+/// Opens a file without a name in the folder of the target, so that a folder without write permission is
+/// refused at once.
 output_file::output_file(std::string path) : path_(std::move(path)) {
   if (is_standard_output()) {
     file_ = stdout;
@@ -116,12 +117,13 @@ void output_file::finish() {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(errno);
 }
 
-/// Copies the file to a temporary name, then renames the copy to the target. The copy is on the disk before
-/// it replaces another file; otherwise a power failure could lose both.
+/// Copies the file to a temporary name, then renames the copy to the target. Before the copy replaces another
+/// file, it is written to the disk; otherwise a power failure could lose both files.
 void output_file::give_name() const {
   const signals_wait until_named;
   std::error_code ignored;
-  const bool replaces = fs::exists(target_, ignored);  // before the copy exists: without memory this throws
+  // Before the copy is made, because an exception here (no memory) would leave the copy behind.
+  const bool replaces = fs::exists(target_, ignored);
   std::string name;
   const int copy = open_beside(target_, name);
   if (copy < 0) fail(errno);

@@ -9,8 +9,8 @@
 
 namespace contct {
 
-/// Blocks all signals of this thread except SIGKILL while this object exists, so that no temporary file is
-/// left behind.
+/// Blocks the signals of this thread while this object exists, so that no signal but SIGKILL can end the
+/// process between making and removing a temporary file.
 class signals_wait {
  public:
   signals_wait() {
@@ -32,9 +32,10 @@ class output_error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that gets its name in `finish`: if the process ends before, nothing remains. A symbolic link is
-/// followed, and its target is replaced. "-" is standard output. If the path exists and is not a regular
-/// file, such as a device, it is written directly.
+/// A file that gets its name in `finish`; if the process ends before `finish`, no file remains. If the path
+/// is a symbolic link, its target is replaced. "-" is standard output. A path that exists but is not a
+/// regular file, such as a device, is written directly. The constructor, `write` and `finish` throw
+/// output_error.
 class output_file {
  public:
   explicit output_file(std::string path);
@@ -53,7 +54,7 @@ class output_file {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_;  // path_ with links followed; empty if it is written directly
+  std::string target_;  // path_ with links followed; empty: path_ is written directly
   std::string* kept_ = nullptr;
   std::FILE* file_ = nullptr;
 };
@@ -63,16 +64,16 @@ struct reader_gone : output_error {
   using output_error::output_error;
 };
 
-/// Prints to standard output, escaped by `terminal_text`; on a terminal, colour codes are kept.
-/// flush_standard_output reports a failure, after the files are written.
+/// Prints `raw` to standard output, escaped by `terminal_text`; on a terminal, colour codes are kept. Throws
+/// nothing: if printing fails, flush_standard_output throws later.
 void print_text(std::string_view raw);
 
 /// Flushes standard output. Throws output_error if anything printed so far could not be written; reader_gone
 /// if standard output is a pipe without a reader.
 void flush_standard_output();
 
-/// True if writing to one path would change the file at the other: two names of one file, which need not
-/// exist. False for devices, pipes and terminals.
+/// True if both paths are names of one file, so that writing to one path would change the file at the other.
+/// The file need not exist. False for devices, pipes and terminals.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace contct

@@ -18,7 +18,7 @@ decoded first_character(std::string_view text) {
   const unsigned lead = byte(0);
   if (lead < 0x80) return {lead, 1};
   const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // [bytes] the least character that needs them
+  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // [bytes] the least character of this length
   if (lead < 0xc2 || lead > 0xf4 || bytes > text.size()) return {};
   char32_t character = lead & (0x7fU >> bytes);
   for (std::size_t i = 1; i < bytes; ++i) {
@@ -36,8 +36,8 @@ bool is_obeyed(char32_t c) {
   return control || (c >= 0x202a && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
 }
 
-/// Replaces by `replacement(bytes)` every control character that is not in `kept`, and every byte that is not
-/// UTF-8.
+/// Replaces every character for which is_obeyed is true, except those in `kept`, and every byte that is not
+/// UTF-8 by `replacement(bytes)`.
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
   const auto plain = [](char c) { return c >= ' ' && c <= '~'; };
@@ -159,7 +159,7 @@ std::string field_words(std::string_view text, std::string_view kind) {
   constexpr std::size_t no_secret = 3;
   constexpr std::string_view of_numbers = "0123456789+-.,_eEdDxXpP \t";
   constexpr escape lower[] = {{'A', "a"}, {'F', "f"}, {'I', "i"}, {'N', "n"}, {'+', ""}, {'-', ""}};
-  const std::string word = text.size() <= longest ? escaped(text, lower) : "";  // without signs
+  const std::string word = text.size() <= longest ? escaped(text, lower) : "";  // lower case, without signs
   const bool number_like = text.find_first_of("0123456789") < text.size() &&
                            text.find_first_not_of(of_numbers) == std::string_view::npos;
   if (number_like || text.size() <= no_secret || word == "nan" || word == "inf")
@@ -181,7 +181,7 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::string did_you_mean(std::string_view found, std::span<const std::string> known) {
-  constexpr std::size_t longest_word = 64;  // time and memory grow with its square
+  constexpr std::size_t longest_word = 64;  // time and memory grow with the square of the length
   if (found.size() > longest_word) return "";
   std::string_view nearest;
   int least = 0;

@@ -1,4 +1,4 @@
-// Joins and compares words, and escapes text from a file or a person for markup, messages and terminals.
+// Joins and compares words, and escapes text that may contain anything for markup, messages and terminals.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace contct {
 
-/// Joins `words`, with `between` in between. fmt::join does the same, but takes half a second to compile in
-/// each file that uses it.
+/// Joins `words`, with `between` in between. fmt::join would take half a second to compile in each file that
+/// uses it.
 [[nodiscard]] std::string joined(const std::vector<std::string>& words, std::string_view between);
 
-/// "1 node", "3 nodes", "2 mismatches".
+/// Returns "1 node", "3 nodes", "2 mismatches": a number and the noun `what`, in the plural unless `n` is 1.
 [[nodiscard]] std::string counted(std::size_t n, std::string_view what);
 
 /// `text` with ASCII letters in lower case.
@@ -24,6 +24,7 @@ struct escape {
   char character;
   std::string_view text;
 };
+/// Replaces each character of `text` that is in `escapes`.
 [[nodiscard]] std::string escaped(std::string_view text, std::span<const escape> escapes);
 
 /// Escapes text between tags and in quoted attributes of HTML and XML. Characters that `terminal_text`
@@ -35,8 +36,8 @@ struct escape {
 /// UTF-8. Line ends are kept.
 [[nodiscard]] std::string terminal_text(std::string_view text);
 
-/// As `terminal_text`, but for one line: escapes line ends too, and shows at most the first `longest` bytes,
-/// cut between characters, then "...".
+/// As `terminal_text`, but for one line: escapes line ends too, and cuts a text of more than `longest` bytes
+/// between two characters, with "..." at its end.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t longest = 60);
 
 /// As `terminal_text`, for a whole title or name: blanks replace line ends and tabs.
@@ -48,23 +49,24 @@ struct escape {
 /// `printable` in quotation marks.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// A field or a line of a file for a message. If it looks like numbers or has at most 3 bytes: its beginning,
-/// in quotation marks. Otherwise only its length, "a word of 5 bytes", because a file that a problem names
-/// may contain text that a message must not reveal.
+/// Describes a field or a line of a file for a message. Quotes the beginning of a text that looks like
+/// numbers or has at most 3 bytes. Of any other text tells only the length, "a word of 5 bytes", because a
+/// file that a problem names may contain text that a message must not reveal.
 [[nodiscard]] std::string field_words(std::string_view text, std::string_view kind = "a word");
 
-/// JSON with \uNNNN for the characters that `terminal_text` escapes, which occur only in its strings.
+/// Replaces the characters of JSON that `terminal_text` escapes, which occur only in strings, by \uNNNN.
 [[nodiscard]] std::string json_escaped(std::string_view json);
 
-/// A JSON value as text, indented by `indent` blanks, or on one line if it is negative. Bytes that are not
-/// UTF-8 become U+FFFD.
+/// A JSON value as text, indented by `indent` blanks, or on one line if `indent` is negative. Bytes that are
+/// not UTF-8 become U+FFFD.
 template <class Json>
 [[nodiscard]] std::string json_text(const Json& value, int indent = -1) {
   return json_escaped(value.dump(indent, ' ', false, Json::error_handler_t::replace));
 }
 
-/// " (did you mean \"stiffness\"?)" with the nearest of `known`, at most a third of its letters wrong; the
-/// first of equally near words. Empty if no word is that near.
+/// Returns " (did you mean \"stiffness\"?)" with the word of `known` nearest to `found`; of equally near
+/// words, the first. Empty if even the nearest word needs more edits than a third of its letters (1 is always
+/// allowed). Case is ignored.
 [[nodiscard]] std::string did_you_mean(std::string_view found, std::span<const std::string> known);
 
 }  // namespace contct

@@ -13,7 +13,7 @@
 namespace contct {
 namespace {
 
-/// Empty if the variable is not set.
+/// The value of an environment variable; empty if the variable is not set.
 std::string_view environment(const char* name) {
   const char* const value = std::getenv(name);
   return value == nullptr ? std::string_view() : value;

@@ -10,7 +10,7 @@ namespace contct {
 /// How to print to standard output.
 struct terminal {
   int width = 80;      ///< columns
-  bool color = false;  ///< print ANSI colours
+  bool color = false;  ///< true: print ANSI colours
 };
 
 /// Finds out how to print to standard output. The width is COLUMNS if set, else the terminal's, else 80
@@ -19,7 +19,7 @@ struct terminal {
 
 enum class paint { good, bad, quiet, strong };
 
-/// `text`, escaped by `terminal_text`, in colour if `t` has colours.
+/// Returns `text`, escaped by `terminal_text`, in the style `p` if `t` has colours.
 [[nodiscard]] std::string painted(const terminal& t, paint p, std::string_view text);
 
 /// As `terminal_text`, but keeps the codes of `painted`.
