@@ -12,7 +12,7 @@
 namespace contct {
 namespace {
 
-/// sum += factor * part. Each load keeps `factor`, for exact arithmetic.
+/// Adds factor * part to `sum`. Each load in `sum` keeps `factor`, for exact arithmetic.
 void add(load& sum, const load& part, double factor) {
   for (const auto values : nodal_values) {
     for (nodal_value v : part.*values) {
@@ -41,7 +41,7 @@ std::string unique_name(const toml_value& t, std::set<std::string>& names) {
   return name;
 }
 
-/// Makes a step for each combination and for each place of a train.
+/// Makes a step for each combination and for each position of a train.
 class combination_reader {
  public:
   combination_reader(const model& m, std::vector<load> cases) : model_(m), cases_(std::move(cases)) {}
@@ -53,7 +53,7 @@ class combination_reader {
     put(t, std::move(l));
   }
 
-  /// Makes a step for each place of the axles.
+  /// Reads a train and makes a step for each of its positions.
   void read_train(const toml_value& t) {
     t.allow_only({"name", "axles", "from", "to", "by", "terms", "factor"});
     const auto* const b = std::get_if<beam>(&model_.kind);
@@ -151,7 +151,8 @@ class combination_reader {
   std::set<std::string> names_;  // names of combinations and trains
 };
 
-/// Refuses steps together with combinations or trains, and cases without either.
+/// Refuses a document that has steps together with combinations or trains, and a document that has cases but
+/// no combinations and no trains.
 void refuse_mixed(const toml_value& top) {
   constexpr const char* allowed =
       "[[step]]s, each going on from the one before, or [[combination]]s and [[train]]s of [[case]]s, each "

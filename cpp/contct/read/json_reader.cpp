@@ -22,7 +22,7 @@ class json_parser {
   }
 
  private:
-  /// Skips blanks and returns the next character without taking it; 0 at the end.
+  /// Skips blanks and returns the next character, which stays unread; 0 at the end of the text.
   char next() {
     at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
     return at_ < text_.size() ? text_[at_] : '\0';

@@ -22,7 +22,7 @@ namespace {
 constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
 constexpr std::int64_t most_entries = most_rows;
 
-/// An entry of the lower triangle, row >= column, both from 0, and its line in the file. 32 bytes.
+/// An entry of the lower triangle, row >= column, both from 0, and its line in the file.
 struct read_entry {
   int row, column;
   double value;
@@ -33,16 +33,16 @@ struct read_entry {
 /// Matrix Market files contain the lower triangle, CalculiX files the upper triangle.
 enum class entry_format { matrix_market, calculix };
 
-/// True for a line that looks like a header. A message may quote it; any other line may contain text that
-/// must not be revealed.
+/// True for a line that looks like a header, which a message may quote. Any other line may contain text that
+/// a message must not reveal.
 bool is_like_header(std::string_view line) {
   return line.front() == '%' || lower_case(line).find("market") != std::string::npos;
 }
 
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and a line end
 
-/// Lines with numbers. `warn` makes one warning: the first number that is not the shortest decimal of its
-/// double, and the count of such numbers.
+/// Reads lines with numbers, and counts the numbers that are not the shortest decimal of their double. `warn`
+/// adds one warning, with the first such number and the count.
 class number_lines : public field_lines {
  public:
   using field_lines::field_lines;
@@ -85,7 +85,7 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
   return array;
 }
 
-/// Goes to the line with the size, after the comments.
+/// Goes to the line with the size of the matrix or vector, after the comments.
 void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed) {
   do {
     if (!lines.next()) lines.refuse("the end of the file", allowed);
@@ -148,8 +148,8 @@ int first_digit(const read_entry& e) {
   return static_cast<int>(std::floor(std::log10(std::abs(e.value))));
 }
 
-/// How a program rounded its output: to a number of decimal places or to a number of digits, without trailing
-/// zeros. Whole numbers are exact.
+/// Finds how a program rounded the entries: all to the same decimal place, or all to the same number of
+/// digits, with trailing zeros removed. Whole numbers are exact.
 struct written_digits {
   int most_digits = 0;
   std::optional<int> lowest, highest;  // extremes of last_digit; empty: all entries are exact
@@ -193,7 +193,8 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   return matrix;
 }
 
-/// Calls read(i) for each line i, from 0, after the line with the size, which declares `said` such lines.
+/// Calls read(i) for each line i, from 0, after the line with the size. Refuses a file with more or fewer
+/// than `said` such lines, the number that the line with the size declares.
 template <class Read>
 void read_lines(field_lines& lines, int said, std::string_view kind, const Read& read) {
   const std::int64_t size_line = lines.line();
@@ -211,7 +212,8 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
 /// The line of the file in which each name occurs.
 using line_numbers = std::unordered_map<std::string_view, std::int64_t>;
 
-/// Refuses a name that an earlier line has.
+/// Refuses `name` if an earlier line has it; otherwise adds it to `line_of`. `what`: the kind of name, for
+/// messages.
 void refuse_again(const field_lines& lines, std::string_view what, std::string_view name,
                   line_numbers& line_of) {
   const auto [before, is_new] = line_of.try_emplace(name, lines.line());

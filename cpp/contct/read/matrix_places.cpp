@@ -26,7 +26,8 @@ int direction_of(std::string_view name) {
   return name == "r" ? 6 : 0;
 }
 
-/// Node "185" and direction 3 for the label "185.3"; empty if the node or the direction is unknown.
+/// Finds node and direction in a label: node "185" and direction 3 in "185.3". Empty if the node or the
+/// direction is unknown.
 placed_dof place_of_label(std::string_view label, const std::unordered_map<std::string_view, int>& nodes) {
   const std::size_t dot = label.rfind('.');
   if (dot == std::string_view::npos) return {};
@@ -68,7 +69,8 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   return any;
 }
 
-/// The edges between these pairs of nodes, each edge once with the number of its pairs.
+/// Makes edges from `pairs` of node indices, one edge for each two nodes. Its `elements` tells how often the
+/// two nodes occur in `pairs`.
 std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   std::sort(pairs.begin(), pairs.end());
   std::vector<mesh_edge> edges;
@@ -79,8 +81,9 @@ std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   return edges;
 }
 
-/// Adds edges between nodes that the matrix couples. Adds none if there are more than 3 for each node, as in
-/// a solid or a plate, whose couplings are not members. A space frame has at most 3, a plane frame 2.
+/// Adds an edge between any two nodes that the matrix couples. Adds no edge if there would be more than 3 for
+/// each node, as in a solid or a plate, whose couplings are not members. A space frame has at most 3 edges
+/// for each node, a plane frame 2.
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
   constexpr std::size_t most_couplings_of_a_node = 3;
   std::vector<std::pair<int, int>> couples;
@@ -135,7 +138,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
-/// CalculiX ignores case and blanks in a keyword's line.
+/// In upper case and without blanks, because CalculiX ignores case and blanks in the line of a keyword.
 std::string without_case_and_blanks(std::string_view text) {
   std::string plain;
   for (const char c : text) {
@@ -165,7 +168,7 @@ constexpr solid known_solids[] = {{"C3D4", 4, false, tetrahedron}, {"C3D6", 6, f
                                   {"C3D8", 8, false, brick},       {"C3D10", 4, true, tetrahedron},
                                   {"C3D15", 6, true, wedge},       {"C3D20", 8, true, brick}};
 
-/// The solid of a type, also with letters after it; null for other types.
+/// The solid of an element type, which may have letters after the number; null for other types.
 const solid* solid_of(std::string_view type) {
   for (const solid& s : known_solids) {
     if (type.substr(0, s.type.size()) != s.type) continue;
@@ -201,7 +204,7 @@ class inp_reader {
  private:
   enum class data { ignored, nodes, solids, others };
 
-  /// An edge, or half of an edge with a midside node, between two node numbers.
+  /// An edge, or half of an edge with a midside node. `from` and `to` are node numbers of the file.
   struct side {
     int from, to;
     std::int64_t line_of_element;
@@ -250,7 +253,8 @@ class inp_reader {
       lines_.refuse(fmt::format("node {} again, at another place", number), "each node at one place");
   }
 
-  /// An element's nodes may be on several lines; its type gives their number.
+  /// Reads a line of an element. The nodes of an element may be on several lines; the type gives their
+  /// number.
   void read_solid() {
     const std::vector<std::string_view> fields = fields_of(line_);
     std::size_t i = 0;
@@ -322,7 +326,7 @@ class inp_reader {
   std::string_view line_;  // the current line, without blanks around it
   data holds_ = data::ignored;
   std::string type_;        // type of the block's elements
-  bool continues_ = false;  // the line before ends with a comma, in an element of unknown type
+  bool continues_ = false;  // the line before, of an element of unknown type, ends with a comma
   std::vector<placed_node> nodes_;
   std::unordered_map<int, int> index_;  // index in nodes_ of each node number
   const solid* solid_ = nullptr;        // null: the type is unknown

@@ -15,7 +15,8 @@ double rounding_of(std::span<const double> among) {
          std::max(std::abs(among.front()), std::abs(among.back()));
 }
 
-/// Every x that the document names, except those of `x` in [beam].
+/// The values of every key x of the document except that of [beam], and the ends of the pieces of EI or
+/// section.
 std::vector<double> named_coordinates(const toml_value& beam, const toml_value& top) {
   std::vector<double> named;
   const auto take = [&named](const toml_value& t, const char* key) {
@@ -34,8 +35,8 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
   return named;
 }
 
-/// `named` and `ends`, ascending, each once. Omits coordinates outside the ends, which are refused when they
-/// are read.
+/// Joins `named` and `ends`, ascending, each coordinate once. Omits coordinates outside the ends, which are
+/// refused when their tables are read.
 std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector<double> named) {
   std::erase_if(named, [&ends](double x) {
     return x < ends.front() || x > ends.back() || find_coordinate(ends, x).has_value();
@@ -49,8 +50,8 @@ std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector
   return named;
 }
 
-/// The decimal with 15 digits nearest to x if it is within `same`, otherwise x. A user would write this
-/// decimal for the node: 0.2 rather than 0.6 / 3.
+/// The decimal with 15 digits nearest to x, if the difference is at most `same`; otherwise x. A user writes
+/// this decimal for the node: 0.2 rather than 0.6 / 3.
 double as_written(double x, double same) {
   const double decimal = number_in<double>(fmt::format("{:.15g}", x)).value_or(x);
   return std::abs(decimal - x) <= same ? decimal : x;

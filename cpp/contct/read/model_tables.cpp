@@ -17,13 +17,13 @@
 namespace contct {
 namespace {
 
-// Two bands of this size take 8 GB.
+// Two bands of this many entries take 8 GB.
 constexpr std::int64_t most_band_entries = 500'000'000;
-/// The largest size of a file of coordinates or of a mesh, in MiB; a million nodes take some 50.
+/// The largest size of a file of coordinates or of a mesh, in MiB. A million nodes take about 50 MiB.
 constexpr std::size_t largest_mesh_file = 256;
 constexpr real_range poisson{-1.0, false, "a number greater than -1 and at most 0.5", 0.5};
 
-/// Reads coordinates, which must increase; `what` names one of them in messages.
+/// Reads coordinates, which must increase; `what` is the word for a coordinate in messages.
 std::vector<double> read_coordinates(const toml_value& t, const char* key, const char* what) {
   std::vector<double> x = t[key].reals(any_real, 2);
   for (std::size_t i = 1; i < x.size(); ++i) {
@@ -58,8 +58,8 @@ struct section_key {
   const char* name;
   double beam_section::*value;
 };
-/// The optional keys of a section. Either all pieces have such a key or none, because stresses and
-/// self-weight are for the whole beam.
+/// The optional keys of a section. All pieces must have such a key or none may, because stresses and
+/// self-weight are computed for the whole beam.
 constexpr section_key more_of_sections[] = {
     {"W", &beam_section::W}, {"A", &beam_section::A}, {"weight", &beam_section::weight}};
 
@@ -97,7 +97,7 @@ void read_stiffness(const toml_value& t, beam& b) {
   b.EI.resize(elements, b.EI.front());
 }
 
-/// Refuses an element whose stiffness is out of the range of doubles although its numbers are finite.
+/// Refuses an element whose stiffness is out of the range of doubles, although its length and EI are finite.
 void check_elements(const toml_value& t, const beam& b) {
   for (int e = 0; e < b.elements(); ++e) {
     const double h = b.length_of(e);
@@ -112,7 +112,7 @@ void check_elements(const toml_value& t, const beam& b) {
   }
 }
 
-/// With element_size, nodes are added between the coordinates of the table.
+/// Reads the nodes of a beam. If the table has element_size, adds nodes between the coordinates of the table.
 mesh_line read_nodes(const toml_value& t, const toml_value& top) {
   if (t.has("x")) t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
   if (t.has("element_size")) t.refuse_beside({"elements"}, "element_size", "either elements or element_size");
@@ -193,7 +193,8 @@ void read_material(const toml_value& t, plate& p) {
              "D = E t^3 / 12 (1 - nu^2) within the range of double precision");
 }
 
-/// The same for a plate: checks D b / a^3 along x and y, and the stiffnesses of slopes and twist.
+/// Refuses an element of a plate whose stiffness is out of the range of doubles: checks D b / a^3 for the
+/// sides a and b in both orders, and the stiffnesses of slopes and twist.
 void check_elements(const toml_value& t, const plate& p) {
   const auto sound = [&](double a, double b) {
     const double along = p.D * b / a / a / a;
@@ -219,8 +220,8 @@ plate read_plate(const toml_value& t) {
   return p;
 }
 
-/// The most bytes that a run needs at a time, with K as it is stored: for the structure, an engine and the
-/// reference solution. If K is sparse, CHOLMOD orders it for this estimate.
+/// The most bytes that a run needs at a time for the structure, an engine and the reference solution, with K
+/// stored as a.as_band says. If K is sparse, CHOLMOD orders K for this estimate.
 std::int64_t bytes_of_run(const assembled& a) {
   if (a.as_band) return 3 * bytes_of_band(a.stiffness, a.rows);
   // An engine also stores columns of the inverse, for which half a factor is enough.
@@ -240,8 +241,9 @@ std::string read_storage(const toml_value& t) {
   return storage;
 }
 
-/// Chooses a band, unless CHOLMOD is built in and the band is too large or sparse factors take far less
-/// memory. Decides before memory is allocated.
+/// Chooses the storage of K before memory is allocated: that of the key storage; otherwise a band, unless
+/// CHOLMOD is built in and the band is too large or sparse factors take far less memory. Refuses a matrix
+/// that needs more than memory_limit.
 void choose_storage(const toml_value& t, assembled& a) {
   constexpr std::int64_t small_band = std::int64_t{256} << 20;
   constexpr std::int64_t far_less = 4;
@@ -285,14 +287,15 @@ void finish(const toml_value& t, assembled& a) {
   choose_storage(t, a);
 }
 
-/// Refuses a file that contains no node of any label: it belongs to another structure.
+/// Refuses a file of nodes if no label names one of its nodes, because the file then belongs to another
+/// structure.
 void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
   if (a.places.known()) return;
   named.refuse(fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
-/// Reads the mesh that the table names, or else the job's .inp file, if it exists.
+/// Reads the mesh that the table names; without the key mesh, the .inp file of the job if there is one.
 void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
   const std::string path = t.has("mesh") ? files.path_of(t["mesh"]) : files.path_of(t["job"], ".inp");
   if (!t.has("mesh") && !std::filesystem::exists(path)) return;

@@ -1,5 +1,5 @@
-// Finds the nodes that a table of a problem file names by number, coordinate or label; makes the nodes of a
-// beam with element_size.
+// Finds the nodes that a table of a problem file names by number, coordinate or label. Makes the nodes of a
+// beam from its key element_size.
 #pragma once
 
 #include <optional>
@@ -16,9 +16,9 @@ namespace contct {
 
 inline constexpr int most_elements = 2'000'000;
 
-/// The index, from 0, of x in the ascending coordinates `among`; nothing if x is not one of them. Coordinates
-/// of a mesh are computed with two roundings: 3 * 0.7 / 7 is not the double nearest to 0.3. So x equals a
-/// coordinate if they differ by at most 4 roundings of the larger end of the structure.
+/// The index, from 0, of x in the ascending coordinates `among`; empty if x is not one of the coordinates. A
+/// coordinate of a mesh has two roundings: 3 * 0.7 / 7 is not the double nearest to 0.3. So x may differ from
+/// a coordinate by 4 machine epsilons times the larger magnitude of the two ends.
 [[nodiscard]] std::optional<int> find_coordinate(std::span<const double> among, double x);
 
 /// Coordinates that a value in a problem file may name.
@@ -27,8 +27,8 @@ struct coordinate_row {
   std::string_view what;           ///< "node" or "grid line"
   std::string_view remedy;         ///< advice in messages: how to add a coordinate
 
-  /// The index, from 0, of the coordinate equal to `named`. Refuses any other number and names the two
-  /// nearest coordinates.
+  /// The index, from 0, of the coordinate equal to `named`. Refuses any other number; the message names the
+  /// two nearest coordinates.
   [[nodiscard]] int index_of(const toml_value& named) const;
   /// The coordinate equal to `named`; if there is none, `named` itself, which must be between the first and
   /// the last coordinate.
@@ -43,10 +43,11 @@ struct coordinate_row {
   return {x, "node", "element_size in [beam] puts a node at every x that the file names"};
 }
 
-/// True if `key` in the beam's table, EI or section, is a list of pieces, each with its end `to`.
+/// True if the value of `key`, EI or section, in the table `beam` is a list of pieces, each with its end
+/// `to`.
 [[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
 
-/// Coordinates, and the runs of equal parts that they consist of.
+/// Coordinates, and the runs of equal parts that the line consists of.
 struct mesh_line {
   std::vector<double> x;
   std::vector<even_run> runs;
@@ -55,9 +56,9 @@ struct mesh_line {
 /// A line from 0 to `length` with `elements` equal elements.
 [[nodiscard]] mesh_line even_line(double length, int elements);
 
-/// The nodes of a beam whose table has element_size: the coordinates `ends`, which ascend; every x between
-/// the ends that a table of the document `top` names; and between each two of these, nodes at equal distances
-/// of at most element_size.
+/// Makes the nodes of a beam whose table has element_size: at the ascending coordinates `ends`; between the
+/// ends, at the values of the keys x of the document `top` and at the ends of pieces; and between two
+/// neighbours of these nodes, more nodes at equal distances of at most element_size.
 [[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
@@ -67,24 +68,28 @@ class node_reader {
   /// `m` must outlive this object.
   explicit node_reader(const model& m);
 
-  /// The keys that name nodes, and `others`, for toml_value::allow_only.
+  /// Returns the keys that name nodes, followed by `others`, for toml_value::allow_only.
   [[nodiscard]] std::vector<std::string_view> keys_with(std::vector<std::string_view> others) const;
 
   [[nodiscard]] bool named_in(const toml_value& t) const { return t.has(key_in(t)); }
 
-  /// The nodes that a table names, from 0, in its order, each once; at least one.
+  /// The nodes that a table names, from 0, in the order of the table; at least one. Refuses a node named
+  /// twice.
   [[nodiscard]] std::vector<int> read(const toml_value& t) const;
 
   [[nodiscard]] const model& structure() const { return structure_; }
   [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
 
-  /// [count] the dofs of a matrix, from 0, that a value names by labels: one label for all, or one for each.
+  /// The dofs of a matrix, from 0, whose labels are in the value `named` [count]. The value has one label for
+  /// all `count` pairs, or one for each pair.
   [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;
 
-  /// The dofs of a node, from 0, whose names are keys of a table. Refuses a table without such a key.
+  /// The dofs of a node, from 0, whose names are keys of a table. Refuses a table without such a key,
+  /// described by `found`.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 
-  /// Refuses `named` if its dof `dof` of `node` is theta at a hinge, where the beam has two slopes.
+  /// Refuses the value `named`, which is for dof `dof` of `node`, if this dof is theta at a hinge, where the
+  /// beam has two slopes.
   void refuse_hinge(const toml_value& named, int node, int dof) const;
 
   [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }

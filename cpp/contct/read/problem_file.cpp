@@ -85,7 +85,8 @@ class problem_reader {
     problem_.units = {label("length"), label("force")};
   }
 
-  /// Refuses a hinge at an end of the beam, where it would only mean that no support fixes theta.
+  /// Reads a hinge. Refuses a hinge at an end of the beam, where the moment is 0 without a hinge unless a
+  /// support fixes theta.
   void read_hinge(const toml_value& t) {
     beam* const b = std::get_if<beam>(&problem_.geometry.kind);
     if (b == nullptr) t.refuse("this without a beam", "a [[hinge]] of a [beam]");
@@ -154,7 +155,8 @@ class problem_reader {
     }
   }
 
-  /// Makes a pair of the table `t` at `node` with face `face`, the table's i-th face (from 0).
+  /// Makes a pair of the table `t` at `node` with face `face`, face number `i` (from 0) of the table. Refuses
+  /// a face inside the structure, and the state "contact" at a face other than 0.
   [[nodiscard]] contact_pair pair_at(const toml_value& t, const facing& f, int node, double face,
                                      std::size_t i) const {
     const std::string found = fmt::format("{:g} at {}", face, place_words(problem_.geometry, node));
@@ -173,7 +175,7 @@ class problem_reader {
     return {node, f.surface, face, 0.0, f.closed.value_or(face == 0)};
   }
 
-  /// [pairs] the dof with the face of each pair of a table; -1 if the face is fixed.
+  /// The dof that carries the face of each pair of a table [pairs]; -1 if the face is fixed.
   [[nodiscard]] std::vector<int> read_others(const toml_value& t, const std::vector<int>& at) const {
     std::vector<int> none(at.size(), -1);
     if (!t.has("other")) return none;
@@ -219,8 +221,8 @@ class problem_reader {
     }
   }
 
-  /// Reads the faces of a bed: one for all nodes or one for each, fixed in w or not. For a polynomial, also
-  /// writes its coefficients.
+  /// Reads the faces of a bed: one for all nodes `at`, or one for each node, including nodes that are fixed
+  /// in w. If the face is a polynomial, also writes its coefficients.
   [[nodiscard]] std::vector<double> read_faces(const toml_value& t, const std::vector<int>& at,
                                                std::vector<double>& coefficients) const {
     const toml_value face = t["face"];
@@ -234,7 +236,8 @@ class problem_reader {
     return values;
   }
 
-  /// Adds a pair at every node of the bed that can deflect, with its tributary length or area.
+  /// Reads a bed: adds a pair at every node of the bed that can deflect. The stiffness of a pair is the
+  /// modulus times the tributary length or area of its node.
   void read_bed(const toml_value& t) {
     t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
@@ -260,8 +263,8 @@ class problem_reader {
     if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) warn_of_spacing(t, *b, modulus, at);
   }
 
-  /// On ground of this modulus a beam bends over a length of (4 EI / modulus)^(1/4). Warns if neighbouring
-  /// nodes of the bed are more than half of this length apart; names only the worst place.
+  /// Warns if neighbouring nodes of a bed are more than half of (4 EI / modulus)^(1/4) apart, the length over
+  /// which the beam bends on ground of this modulus. Names only the worst place.
   void warn_of_spacing(const toml_value& t, const beam& b, double modulus, const std::vector<int>& at) {
     std::vector<char> is_on_bed(nodes(), 0);
     for (const int node : at) is_on_bed[node] = 1;
@@ -269,7 +272,7 @@ class problem_reader {
     std::string warning;
     for (int e = 0; e < b.elements(); ++e) {
       if (is_on_bed[e] == 0 || is_on_bed[e + 1] == 0) continue;
-      const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // never 0
+      const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // no underflow to 0
       if (b.length_of(e) <= worst * most) continue;
       worst = b.length_of(e) / most;
       warning = fmt::format(

@@ -1,4 +1,4 @@
-// Reading problem files (TOML).
+// Reads problem files (TOML).
 #pragma once
 
 #include <string>
@@ -11,11 +11,12 @@
 namespace contct {
 
 /// Reads and checks the problem in the file at `path`; "-" is standard input. Throws input_error if anything
-/// in it is not allowed. A number means the shortest decimal that reads as its double; problem::warnings
-/// names numbers that are written differently. `allowed`: where the files that it names may be.
+/// in the file is not allowed. A number means the shortest decimal that reads as its double;
+/// problem::warnings names numbers that are written differently. `allowed`: where other files may be that the
+/// problem file names.
 [[nodiscard]] problem read_problem(const std::string& path, reach allowed = reach::own_folder);
 
-/// The same for text already in memory; `file` is its name in messages.
+/// Reads and checks the problem in `text`, as read_problem does; `file` is the name of the text in messages.
 [[nodiscard]] problem parse_problem(std::string_view text, std::string_view file,
                                     reach allowed = reach::own_folder);
 

@@ -99,8 +99,8 @@ class step_reader {
       return;
     }
     if (!uniform.is_array()) uniform.refuse("a number, or an array of tables");
-    // Loads on the same elements are added up; otherwise each of thousands of loads on "all" would take a
-    // pass over the beam.
+    // Loads on the same elements are added up, because each load takes a pass over its elements, and a file
+    // may have thousands of loads on "all".
     std::map<std::vector<int>, std::size_t> place;
     for (const toml_value& table : uniform.tables()) {
       if (table.has("from") || table.has("to")) {
@@ -120,7 +120,8 @@ class step_reader {
     }
   }
 
-  /// Adds weight per volume times area, or thickness: one load for each run of elements of equal weight.
+  /// Adds the self-weight, which is the weight per volume times area or thickness: one load for each run of
+  /// elements of equal weight.
   void read_self_weight(const toml_value& t, load& l) const {
     const std::optional<bool> acts = t.required("true or false").value_exact<bool>();
     if (!acts) t.refuse("true or false");
@@ -153,7 +154,7 @@ class step_reader {
     d.polynomial = read_intensity(t);
     const int all = elements(nodes_.structure());
     if (t.has("elements")) d.elements = t["elements"].numbers(all);
-    if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // all are named
+    if (static_cast<int>(d.elements.size()) == all) d.elements.clear();  // empty means all elements
     return d;
   }
 
@@ -164,7 +165,7 @@ class step_reader {
     return read_polynomial(t, nodes_.structure(), "value: only a beam's load may be a polynomial");
   }
 
-  /// Reads a distributed load from one coordinate to another.
+  /// Reads a distributed load on a part of a beam, or on a rectangle of a plate.
   [[nodiscard]] placed_load read_part(const toml_value& t) const {
     t.allow_only({"value", "polynomial", "elements", "from", "to"});
     t.refuse_beside({"elements"}, "from or to", "either elements, or from and to");
@@ -189,7 +190,7 @@ class step_reader {
       to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this begins", from));
   }
 
-  /// Reads `from` and `to` along a beam; a missing one is the end of the beam.
+  /// Reads `from` and `to` along a beam. A missing `from` is the start of the beam, a missing `to` its end.
   static void read_ends(const toml_value& t, const beam& b, placed_load& p) {
     const coordinate_row x = nodes_along(b.x);
     p.from = t.has("from") ? x.place_of(t["from"]) : b.x.front();
@@ -197,7 +198,8 @@ class step_reader {
     refuse_reversed(t[t.has("to") ? "to" : "from"], p.from, p.to);
   }
 
-  /// Reads `from` and `to` on a plate, two corners of a rectangle; a missing one is a corner of the plate.
+  /// Reads `from` and `to` on a plate, two corners of a rectangle. A missing `from` is the first corner of
+  /// the plate, a missing `to` the last corner.
   static void read_rectangle(const toml_value& t, const plate& of, placed_load& p) {
     const auto read = [&](const char* key, double x, double y) -> std::array<double, 2> {
       if (!t.has(key)) return {x, y};
@@ -221,7 +223,8 @@ class step_reader {
     double x = 0.0;
   };
 
-  /// The places that a table names, each once.
+  /// The places that a table names, each once. `between_nodes`: places between the nodes of a beam are
+  /// allowed.
   [[nodiscard]] std::vector<named_place> read_places(const toml_value& t, bool between_nodes) const {
     std::vector<named_place> all;
     const beam* const b = between_nodes && t.has("x") ? of_beam() : nullptr;
@@ -257,7 +260,8 @@ class step_reader {
     }
   }
 
-  /// Refuses a settlement of a dof that is not fixed: the base of an elastic support cannot be moved.
+  /// Refuses a settlement of a dof that no support fixes. The base of an elastic support cannot be moved
+  /// either.
   void refuse_unfixed(const toml_value& t, int node, int dof) const {
     const std::string_view name = nodes_.dof_names()[dof];
     const hold here = held_[node * nodes_.dof_names().size() + dof];
@@ -286,7 +290,7 @@ class step_reader {
     }
   }
 
-  /// Faces move in the direction of the deflection, the dof on which pairs act.
+  /// Reads the moves of faces. A face moves in the direction of the deflection, on which pairs act.
   void read_moves(const toml_value& t, load& l) const {
     const std::string_view name = nodes_.dof_names().front();
     std::set<int> moved;

@@ -15,20 +15,20 @@ namespace contct {
 [[nodiscard]] model read_model(const toml_value& top, const named_files& files,
                                std::vector<std::string>& warnings);
 
-/// Adds entries of 0 to the stiffness of `a` where pairs between two dofs need entries; then orders its rows
-/// and chooses its storage again, by the table of the matrix in `top`.
+/// Adds entries of 0 to the stiffness of `a` where pairs between two dofs need entries; then orders the rows
+/// and chooses the storage again, by the table [matrix] or [calculix] in `top`.
 void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pairs, assembled& a);
 
 /// Reads the key "polynomial", for a load or for faces along a beam: coefficients in x, constant first.
-/// Refuses it for other structures, with `elsewhere` as the allowed alternative.
+/// Refuses the key for other structures; `elsewhere` tells in the message what is allowed.
 [[nodiscard]] std::vector<double> read_polynomial(const toml_value& t, const model& m,
                                                   std::string_view elsewhere);
 
 /// Refuses the loads of the table `t` if a sum of loads, or a settlement, is beyond the range of doubles.
 void refuse_endless_sums(const toml_value& t, const model& m, const load& l);
 
-/// Reads the load of each table. `p` already has its supports and pairs; it receives warnings about numbers
-/// in the files that a table names. `files` finds these files.
+/// Reads the load of each table. `p` already has its supports and pairs. `files` finds the files that a table
+/// names; `p` receives warnings about the numbers in these files.
 [[nodiscard]] std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
                                            const named_files& files, problem& p);
 

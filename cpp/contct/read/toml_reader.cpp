@@ -76,7 +76,8 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-/// A hint for a line parsed up to `column`, from 1: "title = Crane" and "Q pos. 1 = 1.5" lack quotes.
+/// A hint that quotes are missing, as in "title = Crane" and "Q pos. 1 = 1.5"; empty if no quotes seem to be
+/// missing. `column`: where parsing failed, from 1.
 std::string_view quotes_hint(std::string_view line, std::size_t column, std::string_view description) {
   if (description.find("expected '='") != std::string_view::npos)
     return line.find('=', column) == std::string_view::npos ? "" : " (a name with blanks stands in quotes)";
@@ -194,7 +195,7 @@ std::vector<double> toml_value::reals(const real_range& range, std::size_t least
   const std::string allowed = fmt::format("an array of at least {} numbers, each {}", least, range.words);
   std::vector<double> values;
   for (const toml::node& entry : array(allowed, least)) {
-    // The name of an entry is made only for a message, because these arrays can be long.
+    // The name of an entry is made only for a message, because arrays of numbers can be long.
     const auto* const real = entry.as_floating_point();
     const bool good = real != nullptr && std::isfinite(real->get()) && range.holds(real->get());
     values.push_back(good ? real->get() : entry_at(entry, values.size()).real(range));
@@ -223,7 +224,7 @@ std::vector<int> toml_value::numbers(int count) const {
     for (int number = first; number <= last; ++number) list.push_back(number - 1);
     return list;
   }
-  std::unordered_set<int> seen;  // not `count` marks: a file may contain thousands of short lists
+  std::unordered_set<int> seen;  // not `count` flags: there may be thousands of short lists
   for (const toml_value& entry : entries(allowed, 1)) {
     list.push_back(entry.integer(1, count) - 1);
     if (!seen.insert(list.back()).second) entry.refuse(entry.found() + ", a second time", allowed);
@@ -273,13 +274,13 @@ named_files::named_files(std::string_view problem_file, reach allowed)
 
 std::string named_files::path_of(const toml_value& named, std::string_view ending) const {
   const std::string name = named.text().append(ending);
-  if (name.find('\0') != std::string::npos)  // system functions would end the name there
+  if (name.find('\0') != std::string::npos)  // a system function would end the name at this character
     named.refuse(in_quotes(name), "the name of a file, which has no character \\u0000");
   const std::string path = (fs::path(folder_) / name).string();
   if (allowed_ == reach::own_folder && !is_below(path))
     named.refuse(in_quotes(name) + ", which is not below the folder of the problem file",
                  "a file below it, or any with --allow-outside (\"allow_outside\" in the library)");
-  // "./-" is a file of this name; "-" would be standard input, which may contain the problem.
+  // The file "-" gets the path "./-", because the path "-" means standard input.
   return all_->emplace_back(path == "-" ? "./-" : path);
 }
 
@@ -298,7 +299,7 @@ bool named_files::is_below(const std::string& path) const {
 
 namespace {
 
-/// Goes forward through a text by lines and columns as toml++ counts them: from 1, columns in code points.
+/// Goes forward through a text by lines and columns. Both count from 1, columns in code points, as in toml++.
 class text_walk {
  public:
   explicit text_walk(std::string_view text) : rest_(text) {
@@ -306,7 +307,7 @@ class text_walk {
     if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   }
 
-  /// The literal that begins at this place, which must not be before an earlier one.
+  /// The literal that begins at this line and column. They must not be before those of an earlier call.
   [[nodiscard]] std::string_view number_at(int line, int column) {
     constexpr std::string_view of_numbers = "0123456789+-._eExXoObBabcdfABCDF";
     for (; line_ < line; ++line_, column_ = 1) rest_.remove_prefix(rest_.find('\n') + 1);
@@ -323,8 +324,8 @@ class text_walk {
   int line_ = 1, column_ = 1;
 };
 
-/// Appends every finite number under `node`, whose key is `key`. A whole number may be hexadecimal, so it is
-/// compared with the shortest decimal by its value.
+/// Appends every finite number under `node`, whose key is `key`. A whole number may be hexadecimal, so its
+/// value in decimal, not its literal, is compared with the shortest decimal.
 void append_numbers(const toml::node& node, const std::string& key, std::vector<written_number>& numbers) {
   const auto append = [&](double value, bool is_meant) {
     const toml::source_position& at = node.source().begin;

@@ -1,5 +1,5 @@
 // Strict reading of TOML: refuses unknown keys and values out of range. Also finds the files that a problem
-// file names, and its numbers as they are written.
+// file names, and lists the numbers of a document as they are written.
 #pragma once
 
 #include <toml++/toml.h>
@@ -16,7 +16,7 @@
 
 namespace contct {
 
-/// A range of numbers, and its description for messages.
+/// A range of numbers, with its description for messages.
 struct real_range {
   double least = 0.0;
   bool may_equal_least = true;
@@ -36,9 +36,9 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// The positions of nodes in a tree that toml++ did not parse.
 using toml_places = std::map<const toml::node*, toml::source_position>;
 
-/// A value of a TOML file, and its name: "contact[2].face", or "" for the file itself. A missing key has a
-/// value, too, which is refused when it is read. Every refusal is an input_error with file, line and column.
-/// The document and the name of the file must outlive this object.
+/// A value of a TOML file, and its name: "contact[2].face", or "" for the file itself. For a missing key
+/// there is a toml_value too; reading it is refused. Every refusal is an input_error with file, line and
+/// column. The document and the name of the file must outlive this object.
 class toml_value {
  public:
   toml_value(const toml::table& document, std::string_view file)
@@ -60,11 +60,12 @@ class toml_value {
   [[nodiscard]] std::vector<toml_value> each(std::string_view allowed) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(const real_range& range, std::size_t least) const;
-  /// One number for all `things`, or an array of `count` numbers, one for each.
+  /// Reads one number for all `things`, or an array of `count` numbers, one for each. Returns 1 or `count`
+  /// numbers.
   [[nodiscard]] std::vector<double> reals_for(const real_range& range, std::size_t count,
                                               std::string_view things) const;
-  /// Numbers of nodes or elements: [1, 3, 5], "2..20" or "all". They are from 1 to `count` in the file, each
-  /// once; from 0 in the result, in the same order.
+  /// Numbers of nodes or elements: [1, 3, 5], "2..20" or "all". In the file, the numbers are from 1 to
+  /// `count`, each at most once; the result has them from 0, in the same order.
   [[nodiscard]] std::vector<int> numbers(int count) const;
 
   [[nodiscard]] toml_value table() const;
@@ -75,7 +76,7 @@ class toml_value {
     return node_ == nullptr ? std::vector<toml_value>{} : tables();
   }
 
-  /// has: true if this table has the key. []: the value of the key.
+  /// has: true if this table has the key. []: the value of the key. Both need a value that is a table.
   [[nodiscard]] bool has(std::string_view key) const { return node_->as_table()->contains(key); }
   [[nodiscard]] toml_value operator[](std::string_view key) const;
   /// allow_only refuses all other keys. refuse_beside refuses `others` in a table with the keys in `beside`.
@@ -83,12 +84,12 @@ class toml_value {
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;
 
-  /// The node. Refuses a missing value.
+  /// The node of toml++. Refuses a missing value.
   [[nodiscard]] const toml::node& required(std::string_view allowed) const;
   [[nodiscard]] bool is_table() const { return node_ != nullptr && node_->is_table(); }
   [[nodiscard]] bool is_array() const { return node_ != nullptr && node_->is_array(); }
 
-  /// The name of entry i, from 0, of an array; of any other value, its own name.
+  /// The name of entry i, from 0, of this array; if this value is no array, the name of the value.
   [[nodiscard]] std::string name_of(std::size_t i) const { return is_array() ? indexed(name_, i) : name_; }
   /// The position of this value, for messages: "pb.toml:12: contact[2]".
   [[nodiscard]] std::string where() const;
@@ -99,7 +100,7 @@ class toml_value {
   [[noreturn]] void refuse(std::string_view allowed) const { refuse(found(), allowed); }
 
  private:
-  /// A value inside this one. A missing value gets the position of this one.
+  /// A value inside this value. If it is missing (null), it gets the position of this value.
   [[nodiscard]] toml_value inner(const toml::node* node, std::string name) const {
     toml_value v = *this;
     v.node_ = node;
@@ -128,21 +129,21 @@ class toml_value {
 /// Parses a document. Throws input_error with line and column.
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view file);
 
-/// Where the files may be that a problem file names. A problem file from a stranger must not read all files
-/// of its user.
+/// Where the files may be that a problem file names. own_folder: in the folder of the problem file or below,
+/// so that a problem file from a stranger cannot read other files of the user.
 enum class reach { own_folder, anywhere };
 
 /// Finds files relative to the folder of the problem file.
 class named_files {
  public:
-  /// `problem_file`: its path; without a folder, the working directory is the folder.
+  /// `problem_file`: the path of the problem file. A path without a folder means the working directory.
   named_files(std::string_view problem_file, reach allowed);
 
   /// The path of the named file, with `ending` appended. Unless all files are allowed, refuses a file that is
   /// not below the folder once symbolic links are followed.
   [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
 
-  /// All results of path_of of this object and its copies.
+  /// All paths that path_of of this object and of its copies has returned.
   [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }
 
  private:
