@@ -58,7 +58,7 @@ class exact_printer {
  private:
   [[nodiscard]] std::string number(const rational& x) const { return short_words(x, digits_); }
 
-  /// The sum of the loads on deflections at the end of a step, from 1; 0 for step 0.
+  /// The sum of the loads on deflections at the end of `step`, which counts from 1; 0 for step 0.
   [[nodiscard]] rational total_load(std::size_t step) const {
     rational sum;
     if (step == 0) return sum;
@@ -103,7 +103,8 @@ class exact_printer {
     }
   }
 
-  /// Prints the rigid-body motion as the deflections of its nodes.
+  /// Prints the proof that a step has no equilibrium: the rigid-body motion, as the deflections of nodes, and
+  /// the work of the load.
   void print_mechanism(const mechanism_proof& proof) {
     const auto at = std::ranges::find(r_.path.steps, path_status::mechanism, &exact_step_end::status);
     const std::string where =

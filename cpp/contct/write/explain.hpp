@@ -18,7 +18,7 @@ struct explained_kernels {
   const problem& what;             ///< must outlive the outputs
   std::vector<std::string> names;  ///< one kernel or two
   int real_bytes;
-  int pair;  ///< the only pair to explain, from 1; 0: all pairs
+  int pair;  ///< the pair to explain, from 1; 0: all pairs
   load_path loads{what};
 
   [[nodiscard]] bool wants(const explained_pair& p) const { return pair == 0 || pair == p.pair + 1; }
@@ -26,7 +26,7 @@ struct explained_kernels {
 
 /// A sentence about a line of fortran/contct.f.
 struct sentence {
-  listing_line at;  ///< its number is 0 if there is no line
+  listing_line at;  ///< no_line if the sentence is about no line
   std::string words;
   std::string equation{};  ///< equation of the paper: "(4)", "lemma 2"; may be empty
 };
@@ -40,16 +40,18 @@ inline constexpr listing_line no_line{0, {}};
 /// Returns "winner", "too early", ..
 [[nodiscard]] std::string_view name_of(why_toggled why);
 
-/// How the s of a pair is computed: the body of the DO 10 loop.
+/// Explains how the listing computes the s of a pair: the body of its DO 10 loop.
 [[nodiscard]] std::vector<sentence> scale_factor_story(const explained_pair& p);
 
-/// Which pair has the smallest s, and how much smaller it is than the next: from SMIN to the IF that returns.
+/// Explains which pair has the smallest s, and which pair is next: the IF after the DO 10 loop, which returns
+/// if no pair has an event.
 [[nodiscard]] std::vector<sentence> winner_story(const explained_call& c);
 
-/// Whether and why a pair is toggled: the body of the DO 30 loop. The call must have an event.
+/// Explains whether and why the listing toggles the ISEP of a pair: the body of its DO 30 loop. The call must
+/// have an event.
 [[nodiscard]] std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p);
 
-/// The difference in ULP between two numbers of kernels of `real_bytes`.
+/// The difference between `first` and `second` in ULP of a REAL of `real_bytes`.
 [[nodiscard]] std::uint64_t ulps_apart(double first, double second, int real_bytes);
 
 /// Returns "fortran and cpp are equal to the bit", or their difference in ULP.
@@ -57,11 +59,11 @@ inline constexpr listing_line no_line{0, {}};
 
 inline constexpr std::size_t most_told_in_full = 20;
 
-/// Formats increments one by one: lines of the listing in the left margin, equations of the paper at the
-/// right. In a summary each increment is one line, and memory does not grow with their number.
+/// Formats increments one by one: line numbers of the listing on the left, equation numbers of the paper on
+/// the right. In a summary, each increment is one line. Memory does not grow with the number of increments.
 class explain_text {
  public:
-  /// Without `all`, a run of more than most_told_in_full increments becomes a summary.
+  /// Without `all`, the text of a run of more than most_told_in_full increments is a summary.
   explain_text(explained_kernels of, const terminal& t, bool all = true);
 
   /// Adds an increment; returns the text that can be printed now.
@@ -75,7 +77,7 @@ class explain_text {
   terminal terminal_;
   bool all_;
   std::size_t increments_ = 0;
-  std::string in_full_;  // kept until the number of increments is known
+  std::string in_full_;  // the increments in full, kept while a summary is still possible
   std::string summary_;  // lines of the summary that are not printed yet
 };
 

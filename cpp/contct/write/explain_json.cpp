@@ -21,7 +21,7 @@ json story_json(const std::vector<sentence>& story) {
   });
 }
 
-/// The IFs that were reached, in the order of the listing, each with its margin.
+/// The IFs of the listing that the call reached for this pair, in order, each with its margin in ULP.
 json branches_json(const explained_pair& p) {
   json list = json::array();
   for (std::size_t b = 0; b < branch_names.size(); ++b) {
@@ -33,7 +33,8 @@ json branches_json(const explained_pair& p) {
   return list;
 }
 
-/// A number of both kernels, with their difference in ULP.
+/// A number of each kernel, with the difference in ULP. `second` is null if there is only one kernel, or no
+/// answer.
 json both_json(const explained_kernels& of, double first, const double* second) {
   json out = {{of.names[0], hexfloat(first)}};
   if (second == nullptr) return out;

@@ -8,12 +8,12 @@
 namespace contct {
 namespace {
 
-/// A number with nine digits, to be compared by eye; its bits are given elsewhere.
+/// A number with nine digits.
 std::string number(double x) {
   return fmt::format("{:.9g}", x);
 }
 
-/// A share of a load in per cent; a share below 1 is not rounded to 100 %.
+/// A share of a load in per cent. A share below 1 is never rounded to 100 %.
 std::string per_cent(double share) {
   const std::string text = fmt::format("{:.4g}", 100.0 * share);
   return share < 1.0 && text == "100" ? "nearly 100 %" : text + " %";

@@ -56,7 +56,8 @@ class increment_printer {
     for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
-  /// Adds a sentence as "  38  s = GAP / d* = 0.25.     (4)", with the statement if it fits.
+  /// Adds a sentence as "  38  s = GAP / d* = 0.25.     (4)". On a wide terminal, adds the statement of the
+  /// line before the sentence.
   void say(const sentence& t, bool loud = false) {
     constexpr int margin = 6;
     constexpr int statement_width = 49;
@@ -157,7 +158,7 @@ class increment_printer {
   std::string out_;
 };
 
-/// Returns "1, 3": the pairs that were toggled for this reason.
+/// Returns the pairs that were toggled for the reason `why`: "1, 3".
 std::string pairs_toggled(const explained_call& c, why_toggled why) {
   std::vector<int> pairs;
   for (const explained_pair& p : c.pairs)
@@ -165,7 +166,8 @@ std::string pairs_toggled(const explained_call& c, why_toggled why) {
   return fmt::format("{}", fmt::join(pairs, ", "));
 }
 
-/// Returns "make 1, break 3", "too early: 3": the events of an increment, and its wrongly toggled pairs.
+/// Returns the events of an increment, "make 1, break 3", and the pairs that were toggled wrongly, "too
+/// early: 3".
 std::vector<std::string> summary_words(const explained_increment& i) {
   constexpr std::size_t most_named = 12;
   const std::span<const event> events = i.what.events;
@@ -186,7 +188,7 @@ std::string summary_head(const terminal& t, const std::string& title) {
          painted(t, paint::strong, fmt::format("{:>6}  {:<9}  {}", "incr", "share", "events")) + "\n";
 }
 
-/// One increment of a summary: its share of the step, its events, and the pairs toggled too early.
+/// One increment of a summary: number, share of the step, and summary_words.
 std::string summary_line(const terminal& t, const explained_increment& i) {
   constexpr int indent = 6 + 2 + 9 + 2;
   std::string text;

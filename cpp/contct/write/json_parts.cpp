@@ -46,7 +46,7 @@ void put_kind(json& out, const plate& p) {
   if (p.E != 0) out.update({{"E", p.E}, {"thickness", p.thickness}});
 }
 
-/// For a matrix whose dofs have no places, only their labels.
+/// Adds the dofs of a matrix, with their labels and, if positions are known, with node and direction.
 void put_kind(json& out, const assembled& a) {
   out["kind"] = "matrix";
   out["matrix"] = a.name;
@@ -151,7 +151,7 @@ void put_values(json& entry, const std::vector<double>& polynomial) {
   entry[constant ? "value" : "polynomial"] = constant ? json(polynomial[0]) : json(polynomial);
 }
 
-/// Adds a load to the lists of loads, in the form of the problem file.
+/// Adds a load between nodes to the lists of loads in `out`, in the form of the problem file.
 void put_placed(json& out, const model& m, const placed_load& p) {
   const std::vector<double> values = values_of(p);
   if (p.what == load_kind::point || p.what == load_kind::moment) {
@@ -276,7 +276,7 @@ json structure_json(const problem& p) {
 
 namespace {
 
-/// Each number as a pair of doubles whose sum it is.
+/// Each number as a list of two doubles, of which the number is the sum.
 json sums(const std::vector<double_double>& all) {
   return list_of(all, [](const double_double& x) -> json { return {x.hi, x.lo}; });
 }

@@ -16,7 +16,8 @@ extern const std::string_view report_html, report_css, result_js, picture_js, re
 
 namespace {
 
-/// The result as text of an HTML script element. It has no "<", so its strings cannot act as markup.
+/// The result as the text of an HTML script element. The text has no "<", so strings of the result cannot act
+/// as markup.
 std::string script_text(const run_result& r) {
   std::string text;
   output_file out(&text);
@@ -31,7 +32,7 @@ std::string script_text(const run_result& r) {
   }
 }
 
-/// The only section of the parallel edition, which is an HTML page.
+/// The section element of the parallel edition, which is a whole HTML page.
 std::string_view edition_section() {
   constexpr std::string_view last = "</section>\n";
   const std::size_t from = parallel_edition_html.find("<section");

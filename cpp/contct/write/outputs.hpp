@@ -1,5 +1,5 @@
-// Writes the outputs of a run: the table of the terminal, an HTML page, tables for spreadsheets and data
-// frames, and grids for ParaView; and those of exact paths.
+// Writes the outputs of a run: the table of the terminal, an HTML page, CSV files, and grids for ParaView.
+// Also writes an exact path as text and as JSON.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,19 @@
 
 namespace contct {
 
-/// The result as one HTML page without other files. The page contains the result and draws it, and contains
-/// the parallel edition of the two kernels, folded.
+/// Returns the result as an HTML page that needs no other file. The page draws the structure, shows the
+/// result in tables, and contains the parallel edition of the two kernels, folded.
 [[nodiscard]] std::string run_page(const run_result& r);
 
-/// A state as an unstructured grid in VTK's XML format: lines or quadrilaterals, and a vertex for each pair,
-/// in the undeformed structure. Beams lie along x, plates in x and y, and z is up. In cells of pairs "state"
-/// is 0 (separated), 1 (in contact) or 2 (at its face); in cells of elements "state" is -1 and "pair" 0. A
-/// matrix is drawn if its nodes have places: its edges as lines, without pairs at dofs that have no place.
+/// A state as an unstructured grid in VTK's XML format: a line or quadrilateral for each element, and a
+/// vertex for each pair (a line for a pair between two nodes), in the undeformed structure. Beams lie along
+/// x, plates in x and y, and z is up. In cells of pairs "state" is 0 (separated), 1 (in contact) or 2 (at its
+/// face); in cells of elements "state" is -1 and "pair" 0. A matrix has cells only if the positions of nodes
+/// are known: a line for each edge, and no cell for a pair at a dof without a position.
 [[nodiscard]] std::string vtu_of_state(const problem& p, const structure_state& s);
 
-/// A collection of `count` files of states; "time" counts from 0. `stem`: see name_of_state.
+/// A VTK collection of `count` files of states, which ParaView shows as a series; "timestep" counts from 0.
+/// `stem`: see name_of_state.
 [[nodiscard]] std::string pvd_of_states(const std::string& stem, std::size_t count);
 
 /// Returns "out.007.vtu" for the stem "out" and number 7.
@@ -39,13 +41,14 @@ namespace contct {
 /// state of a fallback. `pairs` may be null.
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs);
 
-/// Writes the states at the ends of steps in the same format. Beams: both ends of each element, and the
-/// places inside it where w, moment or shear is extreme; if section moduli are known, the stress. Plates:
-/// each node; if the thickness is known, the largest von Mises stress of the elements at the node.
+/// Writes the states at the ends of steps in the format of write_csv. Beams: a row for both ends of each
+/// element, and for the places inside an element where w, moment or shear is extreme; with stress, if section
+/// moduli are known. Plates: a row for each node; with the largest von Mises stress of the elements at the
+/// node, if the thickness is known. Matrices: a row for each dof.
 void write_states_csv(const run_result& r, output_file& out);
 
 /// Writes the least and the largest w, moment and shear along a beam over the states of the envelope, with
-/// their steps: x, w_min, w_min_step, w_max, w_max_step, .. For plates and matrices only the headings.
+/// their steps: x, w_min, w_min_step, w_max, w_max_step, .. For plates and matrices writes only the headings.
 void write_envelope_csv(const run_result& r, output_file& out);
 
 /// Writes and finishes all requested outputs of a run.
@@ -56,11 +59,12 @@ struct run_table {
   std::string text;                 ///< the rows
   std::vector<std::string> legend;  ///< the meanings of columns and words, to be printed below the table
 };
-/// `detail`: includes every event, and all numbers at the end of each step.
+/// Makes the table of `r`. `detail`: the table includes every event, and all numbers at the end of each step.
 [[nodiscard]] run_table table_of(const run_result& r, const terminal& t, bool detail);
 
 /// An exact path as text: events with their shares and loads, the ends of the steps, and the kernels. A
-/// number is a fraction if that has at most `digits` digits, otherwise a decimal of `digits` digits.
+/// number is written as a fraction if the fraction has at most `digits` digits, otherwise as a decimal of
+/// `digits` digits.
 [[nodiscard]] std::string exact_text(const exact_run& r, int digits, const terminal& t);
 
 /// Writes an exact path as JSON, format "contct-exact-1". Every number is a string "p/q" or "p".

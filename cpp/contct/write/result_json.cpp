@@ -42,7 +42,7 @@ json extremes_json(const model& m, const std::vector<value_range>& ranges) {
   return out;
 }
 
-/// Adds to `entry` the step and increment that had the value.
+/// Adds to `entry` the step and increment of the value `at`.
 template <class Value>
 json timed(json entry, const envelope::reached<Value>& at) {
   entry.update({{"step", at.step}, {"increment", at.increment}});
@@ -90,7 +90,7 @@ json piece_json(const element_line& line) {
           {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
 }
 
-/// `m` is null if another part of the file has the places.
+/// An element with its results and, unless `m` is null, the coordinates of its nodes.
 json element_json(const model* m, const step_results& results, std::size_t e) {
   json entry = {{"element", e + 1}};
   if (m != nullptr) {
@@ -107,7 +107,7 @@ json element_json(const model* m, const step_results& results, std::size_t e) {
   return entry;
 }
 
-/// The errors of a state; with that of stresses if there are any.
+/// The bounds on the errors of a state, including that of stresses if stresses are known.
 json errors_json(const problem& p, const std::optional<certificate>& c, const step_results& read) {
   json out = error_json(p, c);
   if (read.stresses.names.empty()) return out;
@@ -148,8 +148,8 @@ json rule_1989_json(const run_result& r) {
           {"wrong_steps", wrong}};
 }
 
-/// The combinations, from 0, whose states the page leaves out if there are too many for a page. It keeps
-/// those that the envelope names or that failed, and every n-th of the others.
+/// The combinations, from 0, whose states the page leaves out; empty if the page has room for all. The page
+/// keeps the combinations that the envelope names or that failed, and every n-th of the others.
 std::set<std::size_t> ends_left_out(const run_result& r) {
   const std::vector<step_record>& steps = r.record.steps;
   const std::size_t room = std::clamp<std::size_t>(2'000'000 / bytes_of_state(r.what), 4, most_pictures);
@@ -170,7 +170,8 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
   return out;
 }
 
-/// The states within steps that are written: every n-th, together about `most_bytes` at most.
+/// The states within steps that are written: every n-th state, so that all together have about `most_bytes`
+/// or less.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
   std::vector<path_moment> within = moments_of(r);
   std::erase_if(within, [](const path_moment& m) { return m.is_end; });
@@ -237,7 +238,8 @@ class result_writer {
     return results_of(r_.what, loads_.at(s.step, s.fraction), s);
   }
 
-  /// `read` and `s` must outlive these lists. Places of elements are only included at ends of steps.
+  /// The lists of pairs, reactions and elements in state `s` with the results `read`, which must both outlive
+  /// the lists. Coordinates of elements are included only at ends of steps.
   [[nodiscard]] std::vector<json_document::list> lists(const step_results& read, const structure_state& s,
                                                        bool is_end = false) const {
     const problem& p = r_.what;
@@ -391,7 +393,7 @@ class result_writer {
   const run_result& r_;
   result_parts parts_;
   load_path loads_{r_.what};
-  std::set<std::size_t> left_out_;  // steps, from 0, of which the page has only the extremes
+  std::set<std::size_t> left_out_;  // steps, from 0, whose states the page leaves out
   std::map<const increment_record*, path_moment> within_;
   std::optional<path_states> states_;  // empty unless states were recorded
   json_document document_;

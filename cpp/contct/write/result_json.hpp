@@ -1,4 +1,5 @@
-// Writes the result of a run as JSON, format "contct-result-1", with functions that other JSON files use too.
+// Writes the result of a run as JSON, format "contct-result-1". The other JSON outputs use the functions of
+// this file too.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@
 
 namespace contct {
 
-/// A list of entry(element) for each element of `range`. Only callers of this function need the JSON library.
+/// A list of entry(element) for each element of `range`. This is a template so that only its callers include
+/// the JSON library.
 template <class Json = nlohmann::ordered_json, class Range, class Entry>
 [[nodiscard]] Json list_of(const Range& range, Entry entry) {
   Json list = Json::array();
@@ -24,27 +26,27 @@ template <class Json = nlohmann::ordered_json, class Range, class Entry>
   return list;
 }
 
-/// A JSON object with one growing array, of which only the present element is in memory. Each member of the
-/// object and of the elements has a line of its own, indented by depth, and so has each element of a list.
+/// Writes a JSON object with one long array, of which only one element at a time is in memory. Each member of
+/// the object, each member of an element and each entry of a list is on a separate line, indented by depth.
 class json_document {
  public:
   using json = nlohmann::ordered_json;
 
-  /// A list that replaces the value of the member `name`: entry(i) for each i below `count`.
+  /// A list, written as the value of the member `name`: entry(i) for each i from 0 to count - 1.
   struct list {
     std::string_view name;
     std::size_t count;
     std::function<json(std::size_t)> entry;
   };
 
-  /// Writes the beginning of the object with these members, then that of the array `name`. `out` must outlive
-  /// this object.
+  /// Writes the beginning of the object with `members`, then the beginning of the array `name`. `out` must
+  /// outlive this object.
   json_document(output_file& out, const json& members, std::string_view name);
 
-  /// Writes an element of the array, an object.
+  /// Writes an element of the array: an object with `members`, some of which have their values in `lists`.
   void add(const json& members, const std::vector<list>& lists);
 
-  /// Writes the end of the array, these members and the end of the object, and finishes the file.
+  /// Writes the end of the array, then `members` and the end of the object, and finishes the file.
   void finish(const json& members, const std::vector<list>& lists = {});
 
  private:
@@ -54,13 +56,14 @@ class json_document {
   std::string_view before_;  // written before the next element
 };
 
-/// The numbers of `from_0`, counted from 1.
+/// The numbers in `from_0`, each plus 1.
 [[nodiscard]] nlohmann::ordered_json numbered(const std::vector<int>& from_0);
 
 /// The unit labels of a problem; null if it has none.
 [[nodiscard]] nlohmann::ordered_json units_json(const unit_labels& units);
 
-/// { "w", .. }: the proved bounds on the errors of the numbers of a step; null for kinds without a proof.
+/// { "w": .., "force": .. }: the proved bound on the errors of each kind of number at the end of a step; null
+/// for a kind without a proof.
 [[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
 
 /// The certificate of a step in result files; null if there is none.
@@ -76,17 +79,19 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 
-/// The number of nodes whose place is known; and the number (or name) and coordinates of such a node, from 0.
+/// placed_nodes_of: the number of nodes whose position is known. node_json: number (or name) and coordinates
+/// of such a node, from 0.
 [[nodiscard]] std::size_t placed_nodes_of(const model& m);
 [[nodiscard]] nlohmann::ordered_json node_json(const model& m, std::size_t node);
 
-/// The structure: places of nodes, stiffnesses, supports and pairs, in the order of their numbers.
+/// The structure: positions of nodes, stiffnesses, supports and pairs, each in the order of the numbers.
 [[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
 
-/// A support: its place, and its "dof".
+/// A support: its "node", and the name of its "dof".
 [[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
 
-/// Pair `i`, from 0; an event; a pair in a state. Results and exact paths have the same keys.
+/// The JSON of pair `i` (from 0), of an event, and of a pair in a state, with the same keys in results and
+/// exact paths.
 [[nodiscard]] nlohmann::ordered_json pair_json(const problem& p, std::size_t i);
 [[nodiscard]] nlohmann::ordered_json event_json(const problem& p, const event& e);
 [[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,
@@ -97,11 +102,12 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json reaction_json(const problem& p, std::size_t i,
                                                    const nlohmann::ordered_json& value);
 
-/// Adds a node, from 0, to `entry`: "node": 3, or "dof": "185.3" in a matrix.
+/// Adds a node, from 0, to `entry`: "node": 3, or "dof": "185.3" in a matrix, with "other" if `other` is not
+/// negative.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node, int other = -1);
 
-/// The proof of the bounds of a run, for independent checkers (--proof): format "contct-proof-2" of
-/// reference/proof-format.md. `judged` must have kept its proofs of `p`.
+/// The proof of the error bounds of a run, for independent checkers (--proof): format "contct-proof-2" of
+/// reference/proof-format.md. `judged` must have observed the run, with keep_proofs.
 [[nodiscard]] std::string proof_json(const problem& p, const certifier& judged);
 
 /// Writes a whole result, and finishes the file.

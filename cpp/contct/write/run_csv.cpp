@@ -14,7 +14,7 @@
 namespace contct {
 
 std::string csv_field(std::string_view raw) {
-  // Spreadsheets read a cell with these beginnings as a formula.
+  // Spreadsheets read a cell that begins with one of these as a formula.
   constexpr std::string_view beginnings[] = {"=",  "+",      "-",      "@",      "\t",
                                              "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20"};
   const std::string_view behind_blanks = raw.substr(std::min(raw.find_first_not_of(" \n"), raw.size()));
@@ -35,7 +35,7 @@ std::string row_of(const Fields&... fields) {
   return fmt::format("{}\r\n", fmt::join(std::forward_as_tuple(fields...), ","));
 }
 
-/// The row of a path_moment. The fields of an increment are empty if the step ended without one.
+/// The row of a path_moment. The fields of an increment are empty if the moment has no increment.
 std::string csv_row(const run_result& r, const load_path& loads, const path_moment& m,
                     const std::vector<pair_reading>& pairs, int watched, std::optional<double> w) {
   const increment_record* const i = m.increment;
@@ -58,13 +58,14 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
                 csv_field(r.what.steps[step - 1].name));
 }
 
-/// The readings of all pairs; within a step from the D of the path.
+/// The readings of all pairs at a moment: at the end of a step from the displacements, within a step from the
+/// D of the increment.
 std::vector<pair_reading> readings_at(const problem& p, const load& l, const path_moment& m) {
   const std::vector<contact_pair> now = pairs_under(p, l);
   std::vector<pair_reading> all;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
     const contact_pair& at = now[i];
-    // D is relative to moving faces.
+    // The D of an increment is relative to moved faces.
     all.push_back(m.is_end ? reading_of(at, at.seen_in(m.step->end.displacement, dofs_per_node(p.geometry)),
                                         m.step->end.closed(i))
                            : reading_of(at, m.increment->d[i] + (at.face - p.pairs[i].face),
@@ -74,7 +75,7 @@ std::vector<pair_reading> readings_at(const problem& p, const load& l, const pat
   return all;
 }
 
-/// Only the ends of steps count.
+/// The node, from 0, with the largest deflection at the ends of steps.
 int node_that_deflects_most(const run_result& r) {
   double most = 0.0;
   int at = 0;
@@ -102,7 +103,7 @@ struct end_of_step {
   }
 };
 
-/// The heading of the last column; empty if stresses are unknown.
+/// A comma and the heading of the last column, stresses; empty if stresses are unknown.
 std::string_view stress_column(const beam& b) {
   return b.sections.empty() || b.sections.front().W == 0.0 ? "" : ",stress";
 }
@@ -142,7 +143,7 @@ std::string rows_of(const beam& b, const end_of_step& s) {
   return rows;
 }
 
-/// The largest value at each node, because its elements may differ there.
+/// The largest von Mises stress at each node, because the elements at a node have different stresses there.
 std::vector<double> von_mises_at_nodes(const model& m, const element_results& stresses) {
   std::vector<double> most(nodes(m));
   for (std::size_t e = 0; e < stresses.elements(); ++e)

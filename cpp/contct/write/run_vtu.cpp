@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_quad = 9;
 
-/// The nodes of each element, from 0; for a matrix those of its edges.
+/// The nodes, from 0, of each element; of a matrix, the nodes of each edge.
 std::vector<std::vector<int>> elements_of(const model& m) {
   std::vector<std::vector<int>> list;
   if (const auto* a = std::get_if<assembled>(&m.kind))
@@ -27,7 +27,7 @@ std::string section(std::string_view name, std::string_view attributes, std::str
   return fmt::format("      <{0}{1}>\n{2}      </{0}>\n", name, attributes, arrays);
 }
 
-/// An array of numbers at all points or cells.
+/// An array of numbers at all points or cells, `components` numbers at each.
 template <class Number>
 std::string data_array(std::string_view name, std::size_t components, const std::vector<Number>& values) {
   constexpr std::string_view type = std::is_same_v<Number, double> ? "Float64"
@@ -45,14 +45,14 @@ struct read_state {
   step_results read = results_of(what, load_path(what).at(state.step, state.fraction), state);
 };
 
-/// A pair (from 0) with a cell, its place, and the node of its other dof (-1: none).
+/// A pair (from 0) that has a cell, the position of its dof, and the node of its other dof (-1: none).
 struct pair_cell {
   std::size_t pair;
   placed_dof at;
   int other = -1;
 };
 
-/// All pairs, except those of a matrix whose dof has no place.
+/// All pairs, except pairs at a dof of a matrix without a position.
 std::vector<pair_cell> pair_cells(const problem& p) {
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
   std::vector<pair_cell> list;
@@ -89,7 +89,7 @@ std::vector<double> reactions_at_dofs(const read_state& r) {
   return at;
 }
 
-/// The arrays at points, and attributes that name the array to show first.
+/// The arrays at points, and the attributes that name the arrays to show first.
 struct point_arrays {
   std::string_view attributes;
   std::string arrays;
@@ -133,7 +133,7 @@ point_arrays point_data(const read_state& r) {
   return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
 
-/// The arrays at cells, elements first, then pairs. Arrays of pairs have one constant for all elements;
+/// The arrays at cells: first elements, then pairs. Arrays about pairs have one constant for all elements;
 /// arrays of element results have zeros for pairs.
 std::string cell_data(const read_state& r, std::size_t elements, const std::vector<pair_cell>& cells) {
   const auto column = [&](const char* name, auto of_elements, auto of_pair) {
@@ -166,7 +166,7 @@ std::string cell_data(const read_state& r, std::size_t elements, const std::vect
   return arrays;
 }
 
-/// The nodes of each cell: elements, then pairs.
+/// The XML of all cells, from the nodes of each cell, and of the cell types.
 std::string cells_of(const std::vector<std::vector<int>>& cells) {
   std::vector<int> connectivity;
   std::vector<int> offsets;

@@ -18,20 +18,20 @@ namespace contct {
 
 namespace {
 
-// The columns increment, share and s of every row, each with the blanks after it.
+// The widths of the columns increment, share and s, each with the blanks after it.
 constexpr int fixed_width = 6 + 2 + 9 + 2 + 9 + 2;
 constexpr int kernels_width = 7 + 2;  // only with two or more kernels, or both rules
 constexpr int load_width_at_most = 24;
 constexpr int load_width_at_least = 12;
 constexpr int events_width_at_least = 22;
 constexpr std::size_t most_events_shown = 12;
-/// A run of more steps has its extremes in separate tables below the steps.
+/// A run of more steps than this has its extremes in separate tables below the steps.
 constexpr std::size_t few_steps = 6;
-/// If there are more combinations, each has one row instead of one for each increment.
+/// If there are more combinations than this, each combination has only one row, not one for each increment.
 constexpr std::size_t most_combinations_in_full = 12;
 constexpr std::size_t name_width_at_most = 24;
 
-/// Returns "node 3 below" for a pair, from 0.
+/// Returns "node 3 below" for pair `pair`, which counts from 0.
 std::string face_words(const problem& p, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
   return fmt::format("{} {}", place_words(p.geometry, at.node), surface_name(at.surface));
@@ -42,7 +42,7 @@ std::string event_words(const problem& p, change what, int pair) {
   return fmt::format("{} {}: {}", change_name(what), pair + 1, face_words(p, pair));
 }
 
-/// The columns that the longest event of a problem takes.
+/// The number of characters of the longest event of a problem.
 int widest_event(const problem& p) {
   std::size_t widest = events_width_at_least;
   for (std::size_t i = 0; i < p.pairs.size(); ++i)
@@ -50,17 +50,19 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// The largest size of each quantity so far, by name. Values that are only its rounding are printed as 0.
+/// The largest magnitude of each quantity so far, by name. A value that is only rounding of this magnitude is
+/// printed as 0.
 using sizes_so_far = std::map<std::string, double, std::less<>>;
 
-/// `value`, or 0 if it is only the rounding of larger values of this name.
+/// Returns `value`, or 0 if `value` is only rounding of the larger values of this name. Updates `sizes`.
 double without_rounding(std::string_view name, double value, sizes_so_far& sizes) {
   double& size = sizes[std::string(name)];
   size = std::max(size, std::abs(value));
   return std::abs(value) <= 1e-12 * size ? 0.0 : value;
 }
 
-/// The moments with the largest value; null if the structure has no moments.
+/// The range of the moment, on a plate of mx, my or mxy, with the largest magnitude; null if the structure
+/// has no moments.
 const value_range* bending(const std::vector<value_range>& ranges) {
   const value_range* most = nullptr;
   for (const value_range& r : ranges) {
@@ -141,7 +143,7 @@ std::vector<std::string> sum_lines(const problem& p, const load& acting, const s
   return lines;
 }
 
-/// Returns " 2.5" or " 2.5, 1", the place of a node of a beam or plate, for the end of a row.
+/// Returns the coordinates of a node of a beam or plate for the end of a row: " 2.5" or " 2.5, 1".
 std::string place_column(const model& m, int node) {
   if (std::holds_alternative<assembled>(m.kind)) return "";
   const place at = place_of_node(m, node);
@@ -190,7 +192,8 @@ std::string detail_tables(const problem& p, const structure_state& s, const step
   return text;
 }
 
-/// Returns "1989: make 3 at 0.51", "1989: no make 3".
+/// Returns the events that differ under the 1989 rule. "1989: make 3 at 0.51": pair 3 makes contact at share
+/// 0.51 of the step. "1989: no make 3": pair 3 does not make contact in this step.
 std::vector<std::string> words_of_1989(const row_of_1989& row) {
   std::vector<std::string> words;
   for (const other_event& e : row.otherwise) {
@@ -241,7 +244,7 @@ class table_printer {
     return run_.beside ? "1989" : run_.compared ? "kernels" : "";
   }
 
-  /// Prints a step; increments up to `first_load` share one row.
+  /// Prints a step. Increments at the beginning of the step (see first_load) share one row.
   void print_step(std::size_t number) {
     const step_record& s = run_.record.steps[number];
     const increments all = s.increments;
@@ -258,8 +261,8 @@ class table_printer {
     print_end(s, run_.judged.steps()[number]);
   }
 
-  /// Merges the increments from `i` on that have no load between them into one row, in a run of both rules,
-  /// because only rounding decides which of their pairs comes first. Moves `i` past them.
+  /// In a run of both rules, merges the increments from `i` on that have no load between them into one row,
+  /// because only rounding decides which of their pairs comes first. Moves `i` past these increments.
   [[nodiscard]] increment_record ties_from(increments all, std::size_t& i) const {
     constexpr double no_share = 1e-12;
     increment_record row = all[i++];
@@ -286,7 +289,8 @@ class table_printer {
     return events;
   }
 
-  /// Prints the increments at the beginning of a step; a single one with few events like any other.
+  /// Prints the increments at the beginning of a step as one row with the numbers of makes and breaks. A
+  /// single increment with at most 3 events has the usual row.
   void print_first_load(increments begun, const row_of_1989& other) {
     std::set<int> makes;
     std::set<int> breaks;
@@ -314,7 +318,7 @@ class table_printer {
     return line.erase(line.find_last_not_of(' ') + 1);
   }
 
-  /// The differences of the 1989 rule in these increments of a step.
+  /// The differences of the 1989 path in `count` increments of a step, from increment `first`.
   [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const {
     row_of_1989 all;
     if (!run_.beside) return all;
@@ -325,7 +329,8 @@ class table_printer {
     return all;
   }
 
-  /// The cell about the kernels, of seven columns; empty without that column.
+  /// The text of a row in the column "1989" or "kernels"; empty if there is no such column. A painted text is
+  /// padded to the width of the column here.
   [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const {
     if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
     if (!run_.compared) return "";
@@ -428,7 +433,8 @@ class table_printer {
     }
   }
 
-  /// Prints the least and largest values of all combinations, one line each, with their combinations.
+  /// Prints the least and the largest value of each quantity over all combinations, with the combination that
+  /// has it.
   void print_envelope() {
     const envelope e = envelope_of(run_);
     std::string lines;
@@ -472,12 +478,13 @@ class table_printer {
   const terminal& terminal_;
   bool detail_;
   bool whole_ends_;
-  int load_width_ = 0;                     // 0: there is no room for loads
+  int load_width_ = 0;                     // 0: there is no room for a column of loads
   int indent_ = 0;                         // indent of the events
   bool events_below_ = false;              // on a narrow terminal events have separate lines
-  bool headed_ = false, snapped_ = false;  // a heading, a snap was printed
+  bool headed_ = false, snapped_ = false;  // true: a heading, a snap was printed
   sizes_so_far sizes_;
-  /// For each quantity, by its index in step_results::ranges: steps and their ranges.
+  /// By the index of a quantity in step_results::ranges: the number of each step, and the range of the
+  /// quantity.
   std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;
   std::string text_;
 };

@@ -13,15 +13,16 @@
 namespace contct {
 namespace {
 
-/// The number of correct digits at a relative error. Beyond ten digits it depends on the LAPACK in use.
+/// The number of correct digits at a relative error, in words; at most "10 digits or more", because further
+/// digits depend on the LAPACK in use.
 std::string digits_words(double error) {
   constexpr int enough = 10;
   const int digits = error > 0.0 ? static_cast<int>(-std::log10(error)) : enough;
   return digits >= enough ? fmt::format("{} digits or more", enough) : fmt::format("{} digits", digits);
 }
 
-/// The event that was farthest from the face of its pair, up to the end of a step, in words; empty if all
-/// were at their faces up to the rounding of the step's deflections.
+/// The event that was farthest from the face of its pair, up to the end of a step, in words; empty if every
+/// pair was at its face except for the rounding of deflections.
 std::string worst_until(int step, const certificate& c, const problem& p, const early_toggles& early) {
   const double deflection = c.allowed[quantity::w].value_or(0.0) / certified_share;
   const early_toggle* worst = nullptr;
@@ -36,7 +37,7 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
       worst->distance, unit_words(p, "w"), percent_words(worst->share));
 }
 
-/// Shortens the list: there may be hundreds of combinations.
+/// Keeps the first 12 lines, because there may be hundreds of combinations.
 std::vector<std::string> first_of(std::vector<std::string> lines) {
   constexpr std::size_t most = 12;
   if (lines.size() <= most) return lines;
@@ -156,7 +157,7 @@ std::string mechanism_words(const problem& p, const path_end& end) {
          " separated, the structure became a mechanism";
 }
 
-/// The reason why nothing holds the structure, if it is not proved that there is no equilibrium.
+/// The reason why nothing holds the structure, for a path that ended although there may be an equilibrium.
 std::string loose_words(const problem& p, const path_end& end) {
   if (!end.pairs.empty())
     return "when " + words_of_pairs(p, end.pairs) + " separated, nothing held the structure";
@@ -166,7 +167,7 @@ std::string loose_words(const problem& p, const path_end& end) {
              : "the supports and the pairs in contact do not hold the structure";
 }
 
-/// Whether an equilibrium exists that the path did not reach, and which rule reaches it.
+/// Tells whether the load has an equilibrium, which the path did not reach, and which rule reaches it.
 std::string verdict_words(const path_end& end, bool is_answer) {
   if (!end.has_equilibrium)
     return ". Whether there is an equilibrium under the load of this step is not decided";
@@ -284,7 +285,7 @@ std::string digit_warning(std::span<const step_record> steps) {
   int fewest = 5;  // a state with 5 digits needs no warning
   const step_record* worst = nullptr;
   for (const step_record& s : steps) {
-    // Refined states and those of the exact path do not lose digits.
+    // Refined states and states of the exact path do not lose digits.
     if (s.end.numbers || s.from_exact_path || digits_left(s.rcond) >= fewest) continue;
     fewest = digits_left(s.rcond);
     worst = &s;
@@ -301,8 +302,8 @@ std::string digit_warning(std::span<const step_record> steps) {
 
 namespace {
 
-/// Advice on the pair that is stiffest relative to the structure, if rounding of w may change its force by
-/// more than the force itself; otherwise empty.
+/// Advice on the pair that is stiffest relative to the structure, if rounding of w may change the force of
+/// this pair by more than the force itself; otherwise empty.
 std::string stiffness_advice(const run_result& r) {
   constexpr double rigid = 1e8;  // relative stiffness above which digits hardly change
   constexpr double too_stiff = 1e12;
@@ -333,7 +334,7 @@ std::vector<std::string> complaints_of(const run_result& r) {
     lines.push_back(of_stiffness);
     return lines;
   }
-  // If no bounds are proved, the corrected rule may have none either.
+  // If a step has no proved bounds, the corrected rule may have no bounds either.
   const bool is_bounded =
       std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });
   if (!lines.empty() && is_bounded && !r.kernels.empty() &&
@@ -402,7 +403,7 @@ std::string wrong_words(const run_result& r, const state_difference& d) {
       name_of_kind(d.what), d.at, d.value, unit, d.right, unit, size_words(r, d));
 }
 
-/// The words for states that agree, with their largest difference; `all` is not empty.
+/// The words for states that agree, with the largest of the differences `all`, which is not empty.
 std::string agreement_words(const run_result& r, std::span<const state_difference> all) {
   constexpr double ten_digits = 1e-10;  // smaller differences depend on the LAPACK in use
   const auto worst = std::ranges::max_element(all, {}, &state_difference::share);

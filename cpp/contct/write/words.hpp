@@ -1,4 +1,4 @@
-// Words for statuses, events, certificates and the end of a run, the same in every output.
+// Words for statuses, events, certificates and the end of a run, which are the same in every output.
 #pragma once
 
 #include <fmt/format.h>
@@ -48,57 +48,61 @@ constexpr std::string_view end_reason(path_status status) {
   return reasons[static_cast<std::size_t>(status)];
 }
 
-/// A share in at most nine columns, with as many digits as fit. A share below 1 is never shown as 1, which
-/// means the whole load, but as "1-3e-09".
+/// A share in at most nine characters, with as many digits as fit. A share below 1 is never rounded to 1, the
+/// whole load, but written as "1-3e-09".
 [[nodiscard]] std::string share_words(double x);
 
-/// "7 digits": the proved digits of every number of a state. From 10 digits on "10+ digits", because further
-/// digits depend on the LAPACK in use.
+/// Returns the number of digits that are proved for every number of a state: "7 digits". From 10 digits on
+/// "10+ digits", because further digits depend on the LAPACK in use.
 [[nodiscard]] std::string digits_words(const certificate& c);
 
-/// "step 3", or "combination \"ULS 1\"" if steps start from zero. `step` counts from 1.
+/// Returns "step 3", or "combination \"ULS 1\"" if steps start from zero. `step` counts from 1.
 [[nodiscard]] std::string step_words(const problem& p, int step);
 
-/// One line for a whole run, in parts: the run is certified and how closely, or the first step that is not
-/// certified. A run that is not `solved` is not certified; its certified steps are named.
+/// One line for a whole run, in parts. It tells that the run is certified and with how many digits, or which
+/// step is the first that is not certified. A run that is not `solved` is not certified; the line then names
+/// its certified steps.
 [[nodiscard]] std::vector<std::string> certificate_summary(const run_result& r, bool solved);
 
-/// One line for every step that is not certified: the error, its size, and the earlier increment in which a
-/// pair made or broke contact farthest from its face.
+/// One line for every step that is not certified: the error and the allowed error, the pair that pulls most,
+/// and the increment up to this step in which a pair made or broke contact farthest from its face. Of many
+/// combinations only the first ones.
 [[nodiscard]] std::vector<std::string> certificate_complaints(const run_result& r);
 
-/// The reason why a path ended early: step, share of the step, and the pairs involved; empty if it did not.
-/// `is_answer`: the path is the answer of the run; then the text recommends the corrected rule if the 1989
-/// rule missed an equilibrium.
+/// The reason why a path ended early: step, share of the step, and the pairs involved; empty if the path is
+/// solved. `is_answer`: the path is the answer of the run, so that the text recommends the corrected rule if
+/// the 1989 rule missed an equilibrium.
 [[nodiscard]] std::string end_words(const problem& p, const path_end& end, bool is_answer = true);
 
-/// For a run of both rules: whether the 1989 rule reaches the states of the answer, and one line for each
-/// wrong state. Empty for other runs.
+/// For a run of both rules: lines that tell how the 1989 path ended early, which of its states are wrong (the
+/// first ones, a line each), or that its states agree with the answer. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
 
-/// One line of end_words for every step that was not solved; of many lines only the first ones.
+/// The end_words of every step that was not solved, a line each; of many lines only the first ones.
 [[nodiscard]] std::vector<std::string> end_lines(const problem& p, const path_end& end);
 
-/// A warning if the end of a step has too few reliable digits; otherwise empty.
+/// A warning if the state at the end of a step has fewer than 5 reliable digits; otherwise empty.
 [[nodiscard]] std::string digit_warning(std::span<const step_record> steps);
 
-/// A warning, with a remedy, if a beam is beyond a face between two pairs; otherwise empty.
+/// A warning, with a remedy, if a beam passes through a face between two pairs; otherwise empty.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
 
 /// A warning if the largest stress or moment of a plate is at a point load or a [[contact]] pair; otherwise
 /// empty.
 [[nodiscard]] std::string concentration_warning(const problem& p, std::span<const step_record> steps);
 
-/// The warnings of the problem, without file and line, and those of the states of the run.
+/// The warnings of the problem, without file and line, and the warnings about the states of the run.
 [[nodiscard]] std::vector<std::string> warnings_of(const run_result& r);
 
-/// The changes if the element size is halved, in parts; empty if this was not requested or not solved.
+/// The changes of the results if the element size is halved, one part for each kind of number; empty if
+/// r.refined is empty.
 [[nodiscard]] std::vector<std::string> refinement_words(const run_result& r);
 
-/// The errors at ends of steps and, if the 1989 rule leads, the command for the corrected rule.
+/// The certificate_complaints and advice: to reduce the stiffness of a pair, or, if the 1989 rule leads, the
+/// command for the corrected rule.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
-/// `complaints_of`, the reason for the end of the path, and the warnings of the states.
+/// The lines of complaints_of, the reason why the path ended early, and the warnings about the states.
 [[nodiscard]] std::vector<std::string> end_messages(const run_result& r);
 
 }  // namespace contct

@@ -1,17 +1,17 @@
-// Draws the structure in one state of a result: moved nodes, with pairs, supports and loads. Below a beam are its
-// moments and shears; a plate has the colours of a quantity. The playground uses this file too.
+// Draws the structure in one state of a result: moved nodes, with pairs, supports and loads; below a beam, moments and
+// shears; on a plate, a quantity in colours. The playground uses this file too.
 "use strict";
 
 // ---- words and numbers ----
 
 const minus = (text) => text.replace(/-/g, "\u2212");
 const digits = (x, count) => minus(String(Number(x.toPrecision(count))));
-// Seven digits; the whole number is in the title and in data-value.
+// Seven digits. Cells of tables have the whole number in their title and in data-value.
 const short = (x) => (x === null || x === undefined ? "–" : digits(x, 7));
 const rough = (x) => digits(x, 4);
 const counted = (n, what) => `${n.toLocaleString("en")} ${what}${n === 1 ? "" : "s"}`;
 const sentence = (text) => text[0].toUpperCase() + text.slice(1) + ".";
-// The name of what moves: "deflection w of node 3", "displacement of dof 6.y".
+// The word for a displacement: "deflection" of a node, or "displacement" of a dof of a matrix.
 const moves = () => (ofMatrix ? "displacement" : "deflection");
 const unitOf = () => (ofMatrix ? "dof" : "node");
 const placed = (name) => `${unitOf()} ${name}`;
@@ -31,13 +31,13 @@ function unit(quantity) {
 }
 const inUnit = (name, quantity) => name + (unit(quantity) ? ` [${unit(quantity)}]` : "");
 
-// The place of an extreme value: a node, or a place between two nodes of a beam.
+// The place of an extreme value in words: a node or dof, or the x between two nodes of a beam.
 function placeOf(v) {
   if (v.dof !== undefined) return placed(v.dof);
   const node = structure.nodes.find((n) => n.x === v.x && (v.y === undefined || n.y === v.y));
   return node === undefined ? `x = ${rough(v.x)}` : placed(node.node);
 }
-// The larger of both values by magnitude, followed by the other one if their signs differ.
+// The one of `min` and `max` with the larger magnitude, followed by the other one if their signs differ.
 function toldOf({ min, max }) {
   const [first, second] = -min.value > max.value ? [min, max] : [max, min];
   return second.value * first.value < -1e-9 * first.value ** 2 ? [first, second] : [first];
@@ -77,9 +77,10 @@ function stateWords(f) {
 
 // ---- a selection of many things ----
 
-const cuts = new Set();  // sentences about what the page leaves out
+const cuts = new Set();  // sentences that tell what the page leaves out
 
-// `count` evenly chosen numbers from 0 to `all` - 1, with the first and the last; all if there are at most `count`.
+// Chooses `count` numbers evenly from 0 to `all` - 1, including the first and the last; every number if there are at
+// most `count`.
 const evenly = (all, count) => Array.from({ length: Math.min(all, count) }, (_, i) => (all <= count ? i : Math.floor((i * (all - 1)) / (count - 1))));
 
 function some(what, all, most) {
@@ -114,25 +115,25 @@ function canvas(holder, width, height, title) {
   return root;
 }
 
-// On paper, pictures have a fixed width at which their words are as large as the text.
+// On paper, pictures have a fixed width, at which words in pictures are as large as the text of the page.
 let printing = false;
 const widthOf = (holder) => (printing ? 940 : Math.max(320, holder.clientWidth));
 
-// The largest of `leading` times a power of ten that is not above x.
+// The largest number not above x that is one of `leading` times a power of ten.
 function roundDown(x, leading = [1, 2, 5]) {
   const power = 10 ** Math.floor(Math.log10(x));
   return Number((Math.max(...leading.filter((d) => d * power <= x * (1 + 1e-12)), 1) * power).toPrecision(3));
 }
-// The least of 1, 2 or 5 times a power of ten that is not below x.
+// The least number not below x that is 1, 2 or 5 times a power of ten.
 function roundUp(x) {
   const power = 10 ** Math.floor(Math.log10(x));
   return Number(([1, 2, 5, 10].find((d) => d * power >= x * (1 - 1e-12)) * power).toPrecision(3));
 }
-// The magnification with which displacements of `most` fit into `room`.
+// A round magnification at which displacements up to `most` fit into `room`.
 const magnificationFor = (most, room) => (most > 0 && room > 0 ? roundDown(room / most, [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8]) : 1);
 const timesWords = (factor) => `× ${factor.toLocaleString("en", { maximumSignificantDigits: 3 })}`;
 
-// Round numbers from `from` to `to`: about `most`, but at least three.
+// About `most`, but at least three, round numbers from `from` to `to`.
 function ticks(from, to, most) {
   if (!(to > from) || !isFinite(to - from)) return [];
   const multiples = (step) => {
@@ -145,7 +146,7 @@ function ticks(from, to, most) {
   return multiples(step);
 }
 
-// Grid lines with their numbers on the left (scaleUp) and at the bottom (scaleAlong).
+// Draws grid lines with their numbers on the left (scaleUp) or at the bottom (scaleAlong).
 function scaleUp(root, values, Y, left, right, away = 16) {
   for (const v of values) {
     root.append(line(left, Y(v), right, Y(v), v === 0 ? "zero" : "grid"),
@@ -177,7 +178,8 @@ function pairMark(look, x, y, r, closed = false) {
   return shape(`M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, closed ? "pair-face in-contact" : "pair-face");
 }
 
-// Returns a function that writes a word if its place in the picture, to the right of `left`, is free.
+// Returns a function that writes words at a point of the picture, unless other words are there already. The function
+// moves words that would begin left of `left` to the right, and omits words at the upper and lower edges.
 function wordsInFreePlaces(root, width, height, left = 2) {
   const boxes = [];
   return (at, y, words, kind) => {
@@ -194,10 +196,11 @@ function wordsInFreePlaces(root, width, height, left = 2) {
 
 // ---- pairs, supports and loads ----
 //
-// `on` gives their places on the page. spot(p): the place of the moved node. along(p): the positive direction of the
-// dof, of length 1; null if it has no direction on the page. pixels(p): pixels for a displacement of 1 in that
-// direction. say: see wordsInFreePlaces. r, half: sizes of marks and of half a face. limit: the largest distance at
-// which a face is drawn from its undeformed node.
+// The argument `on` tells where and how large pairs, supports and loads are drawn; p is one of them. on.spot(p): the
+// point of the moved node on the page. on.along(p): the positive direction of the dof, of length 1; null if the dof has
+// no direction on the page. on.pixels(p): pixels for a displacement of 1 in that direction. on.say: see
+// wordsInFreePlaces. on.r: size of a mark. on.half: half the length of a face. on.limit: the largest distance at which
+// a face is drawn from its undeformed node.
 
 let drawnPairs = [], drawnSupports = [];
 const pairsOf = (f) => drawnPairs.map((i) => f.pairs[i]).filter((p) => p.at >= 0);
@@ -220,9 +223,9 @@ function drawPairs(root, pairs, on) {
   root.append(...marks);
 }
 
-// Draws the face of a pair across the direction of its dof, at distance c from the undeformed node, hatched on the far
-// side; dashed if it is too far away to be drawn there. A face in contact is drawn at the node, with a line for its
-// spring from the undeformed place, and an arrow for the contact force.
+// Draws the face of a pair across the direction of its dof, at its distance from the undeformed node, hatched on the
+// far side; nearer and dashed if this distance is above on.limit. A face in contact is drawn at the moved node, with a
+// line for its spring from the undeformed face, and an arrow for the contact force.
 function drawFace(root, p, [x, y], t, on, numbered) {
   const node = on.pixels(p) * p.w;
   const along = on.pixels(p) * p.face;
@@ -250,7 +253,7 @@ function supportMark([x, y], t, spring) {
   return shape(`M${at(2, 0)}L${at(4, 5)}L${at(8, -5)}L${at(12, 5)}L${at(16, -5)}L${at(18, 0)}M${at(18, 8)}L${at(18, -8)}`, "thin");
 }
 
-// A support without a direction on the page, such as that of a slope, is a box around its node.
+// A support without a direction on the page, such as a support of a slope, is drawn as a box around its node.
 function drawSupports(root, f, on) {
   for (const s of drawnSupports.filter(({ at }) => at >= 0)) {
     const [[x, y], t] = [on.spot(s), on.along(s)];
@@ -323,7 +326,8 @@ function drawLineLoad(root, f, { X, Y, ends }) {
   }
 }
 
-// Draws the scale, title and values `told` of a strip below the beam; returns its vertical scale.
+// Draws scale and title of a strip, which is a diagram along the beam, and the values `told`. Returns the vertical
+// scale.
 function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high], told) {
   const height = 126;
   const Y = (v) => top + 24 + ((high - v) / (high - low || 1)) * (height - 34);
@@ -344,7 +348,7 @@ function drawPressure(root, f, page, top) {
   root.append(path([[points[0][0], Y(0)], ...points, [points[points.length - 1][0], Y(0)]], "pressure-area", "Z"), path(points, "pressure"));
 }
 
-// Draws a quantity along the beam that may jump at the nodes.
+// Draws a strip with moment or shear, which may jump at the nodes.
 function drawStrip(root, f, page, top, name, title) {
   const { X, ends: [x0, x1] } = page;
   const range = f.extremes[name] || { min: { value: 0, x: x0 }, max: { value: 0, x: x0 } };
@@ -354,7 +358,7 @@ function drawStrip(root, f, page, top, name, title) {
     const here = [X(xAt([e, a])), Y(forceAt(f, name, [e, a]))];
     return i === 0 || a !== 0 ? [here] : [[here[0], Y(forceAt(f, name, [e - 1, 1]))], here];
   });
-  // Jumps inside elements, and the extremes, may be between these places.
+  // Jumps inside elements, and extremes, may be between these points.
   const jumps = besidePieces(f, name);
   const known = new Set([...structure.nodes.map((n) => n.x), ...jumps.map(([x]) => x)]);
   for (const [at, value] of [...jumps, ...[range.min, range.max].filter((v) => !known.has(v.x)).map((v) => [v.x, v.value])]) {
@@ -382,7 +386,7 @@ function drawBeam(root, f, page, isSketch) {
   if (hasBed()) drawPressure(root, f, page, bottom + 316);
 }
 
-// Writes the values of distributed loads at the middle of each.
+// Writes the value of each constant distributed load at its middle.
 function sayLineLoads(f, { X, Y }, say) {
   const { nodes } = structure;
   for (const { value, elements, from, to } of (f.load.uniform || []).filter((part) => part.value)) {
@@ -409,7 +413,7 @@ function fieldsOf() {
   });
 }
 
-// A quantity at each node: the mean of the moments of its elements, or the pressure of its beds.
+// A quantity at each node: w, the mean of a moment in the elements at the node, or the pressure of the beds.
 function atNodes(f, name) {
   if (name === "w") return structure.nodes.map((_, i) => f.u[3 * i]);
   const [sum, met] = [0, 0].map(() => structure.nodes.map(() => 0));
@@ -423,7 +427,8 @@ function atNodes(f, name) {
   return sum.map((s, i) => (met[i] > 0 ? (name === "pressure" ? s : s / met[i]) : 0));
 }
 
-// The colour of a level, from dark brown (lowest) to pale (highest). Brightness increases steadily, for grey prints.
+// The colour of band `i`, from dark brown (lowest values) to pale (highest). Brightness increases steadily, for grey
+// prints.
 function bandColour(i) {
   const share = field.bands > 1 ? i / (field.bands - 1) : 0.5;
   const stops = [[132, 74, 28], [186, 118, 58], [219, 165, 104], [238, 209, 163], [252, 246, 230]];
@@ -432,7 +437,7 @@ function bandColour(i) {
   return `rgb(${stops[k].map((c, j) => Math.round(c + (stops[k + 1][j] - c) * (at - k))).join(",")})`;
 }
 
-// Colours each cell of the drawn grid in small parts of one colour, by bilinear interpolation.
+// Colours each cell of the drawn grid in small parts, each in the colour of the bilinearly interpolated value.
 function drawColours(root, f, spots) {
   const [columns, rows] = scene.lines;
   const values = atNodes(f, field.name);
@@ -471,8 +476,8 @@ const views = [
   { words: "oblique, z up", right: [0.8944, 0.4472, 0], up: [-0.1826, 0.3651, 0.9129] },
 ];
 let view = 0;
-let scene = null;  // common to the pictures of all states; null if no node has a place
-let held = null;   // the frame to keep while the user of the playground drags something
+let scene = null;  // what the pictures of all states have in common; null if no position is known
+let held = null;   // the frame of the scene to keep while the user of the playground drags something
 
 function sceneOf() {
   const at = structure.nodes.map(({ x, y = 0, z = 0 }) => [x, y, z]);
@@ -504,7 +509,8 @@ function edgesBetween([columns, rows]) {
     ...(i > 0 ? [[node(j, i - 1), node(j, i)]] : []), ...(j > 0 ? [[node(j - 1, i), node(j, i)]] : [])]));
 }
 
-// If there are too many edges, only those with the fewest elements, which are the outer edges of a solid.
+// The edges to draw: if there are more than `most`, the edges of the fewest elements, which are the outer edges of a
+// solid.
 function drawnEdges(most = 20_000) {
   const { edges } = structure;
   if (edges.length <= most) return edges;
@@ -514,7 +520,8 @@ function drawnEdges(most = 20_000) {
   return order.slice(0, most).map(([e]) => e);
 }
 
-// The view along an axis in which all nodes have the same coordinate and no dof; otherwise oblique.
+// The view along an axis on which all nodes have the same coordinate and no dof; without such an axis, the oblique
+// view.
 function fittingView() {
   const flat = (axis) => scene.at.every((at, i) => scene.along[i][axis] < 0 && at[axis] === scene.at[0][axis]);
   const found = [2, 1, 0].findIndex(flat);
@@ -530,8 +537,8 @@ function projected(at) {
 const movedTo = (f, i, times) => scene.at[i].map((x, axis) => x + (scene.along[i][axis] < 0 ? 0 : times * f.u[scene.along[i][axis]]));
 const faceAt = (p, times) => scene.at[p.at].map((x, axis) => x + (axis === p.direction - 1 ? times * p.face : 0));
 
-// Finds the magnification of displacements and the box around the structure, common to all states. Faces much farther
-// away than the structure moves are outside the box. `kept`: the magnification during a drag.
+// Finds the magnification of displacements and the box around the structure in all states. Faces much farther away than
+// the structure moves are outside the box. `kept`: the magnification to keep during a drag.
 function frameScene(kept) {
   const was = scene.drawn.map((i) => projected(scene.at[i]));
   const size = Math.max(...[0, 1].map((k) => { const [low, high] = spread(was.map((at) => at[k])); return high - low; }));
@@ -547,7 +554,8 @@ function frameScene(kept) {
   return { times, size, most, box };
 }
 
-// Leaves room for numbers beside the structure, and for loads and contact forces above and below it.
+// Finds the scales of a picture of this width. Leaves room for numbers beside the structure, and for loads and contact
+// forces above and below it.
 function pageOf(width) {
   const { box: [x0, x1, y0, y1], times } = scene;
   const [left, right, top] = [74, 30, 100];
@@ -558,7 +566,8 @@ function pageOf(width) {
   return { width, scale, X, Y: (w) => height(times * w), height, ends: [x0, x1], heights: [y0, y1], bottom: height(y0) + 96, spot: ([x, y]) => [X(x), height(y)] };
 }
 
-// The projection of a direction as a vector of length 1, and its length; null for rotations and normals of the page.
+// Projects the axis of a direction onto the page: t, the projection at length 1, and its true length; null for
+// rotations and for an axis normal to the page.
 function onPage(direction) {
   if (direction < 1 || direction > 3) return null;
   const { right, up } = views[view];
@@ -604,7 +613,7 @@ function marksOn(root, page, spots, f) {
 
 let page = null;  // the page of the last picture
 
-// Draws a state; a sketch shows only the undeformed structure with supports, pairs and loads.
+// Draws state `f`. A sketch shows only the structure with supports, pairs and loads, without diagrams and colours.
 function drawPicture(f, holder, isSketch = false) {
   if (scene === null) return;
   page = pageOf(widthOf(holder));
@@ -631,8 +640,8 @@ function drawPicture(f, holder, isSketch = false) {
   if (colours) drawScaleOfColours(root, 62, bottom + 40, width - 86);
 }
 
-// A picture as a separate SVG file, with the style rules of pictures and the light colours. Variables are replaced,
-// because not every SVG program supports them.
+// A picture as the text of an SVG file, with the style rules of pictures and the light colours. CSS variables are
+// replaced by their values, because not every SVG program supports variables.
 function fileOf(picture) {
   const copy = picture.cloneNode(true);
   const [root, ...rules] = [...document.styleSheets].flatMap((s) => [...s.cssRules]).filter((r) => /^(:root|svg)/.test(r.selectorText));
@@ -647,7 +656,7 @@ function savePicture() {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-// Prepares what the pictures of all states have in common, after a result was read.
+// Prepares what the pictures of all states have in common. Needs read() before.
 function preparePicture() {
   cuts.clear();
   drawnPairs = some("pairs", places.pairs.length, isBeam() ? 300 : 1000);

@@ -3,18 +3,18 @@
 
 const known = { fortran: "FORTRAN", cpp: "C++", "fortran-r4": "FORTRAN (4-byte REAL)", "cpp-r4": "C++ (4-byte REAL)" };
 const kernelNames = () => result.kernels.map((name) => known[name] || name);
-const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // both rules: the 1989 kernels
+const calledNames = () => kernelNames().slice(result.rule_1989 ? 1 : 0); // for both rules: only the 1989 kernels
 const where = (f) => (f.step === 0 ? "Start" : f.number === 0 ? `${f.step}, end` : `${f.step}.${f.number}`);
 
 // ---- load against deflection ----
 
-let byForce = true;  // true: the axis is the sum of loads; false: the number of steps
-let followed = null; // the dof of the chart: the deflection that moves most
+let byForce = true;  // true: the vertical axis is the sum of loads; false: the number of steps
+let followed = null; // the dof of the chart: that with the largest deflection
 
 const sumOf = (f) => f.load.force ?? f.load.sum ?? 0;
 const measure = (f) => (byForce ? sumOf(f) : f.step === 0 ? 0 : f.step - 1 + f.fraction);
 
-// The deflections. In a matrix the dofs that are known to be lengths, or all dofs if none is known.
+// The dofs that are deflections. In a matrix: dofs of pairs and dofs along an axis; all dofs if there are no such dofs.
 function deflections() {
   const paired = new Set(places.pairs.map((p) => p.u));
   const all = places.dofs.map((d, u) => ({ ...d, u }));
@@ -54,7 +54,7 @@ function drawChart(f) {
   root.append(svg("circle", { cx: x, cy: y, r: 9, class: "here" }));
 }
 
-// The path, or one path for each combination; each begins with the unloaded structure.
+// The lines of the chart: one for the path, or one for each combination. Each line begins with the unloaded structure.
 const tracks = () => (!startsFromZero() ? [frames]
   : [...new Set(frames.slice(1).map((f) => f.step))].map((step) => [frames[0], ...frames.filter((f) => f.step === step)]));
 
@@ -73,13 +73,13 @@ function chartMark(f, x, y) {
 
 // ---- sections and tables ----
 
-// Fills a section of the page; a section without content is hidden.
+// Fills a section of the page, or hides the section if there is no content.
 function fill(id, heading, words, ...content) {
   byId(id).replaceChildren(element("h2", { id: `${id}-heading` }, heading), element("p", { class: "quiet" }, words), ...content);
   byId(id).hidden = content.length === 0;
 }
 
-// A cell for a text, a number, an element, or a list of { number, at: place }; a dash for null.
+// A cell for a text, a number, an element, or a list of { number, at: place }; for null, a cell with a dash.
 function cellOf(value, words) {
   const numeral = (tag, x) => element(tag, { "data-value": String(x), title: String(x) }, short(x));
   if (typeof value === "number") return numeral("td", value);
@@ -87,9 +87,9 @@ function cellOf(value, words) {
   return element("td", {}, ...value.flatMap(({ number, at }) => [numeral("span", number), ...(at ? [element("small", {}, at)] : [])]));
 }
 
-// A table. Texts and their headings are left-aligned; the first cell of a row is its heading. If there are more than
-// `most` rows, it keeps the first ones, or those with the largest `sizeOf`; the title and the end of the page say which
-// rows are missing.
+// A table. Columns of texts are left-aligned; the first cell of a row is its heading. If there are more than `most`
+// rows, the table keeps the first rows, or the rows with the largest `sizeOf`. The title of the table and the end of
+// the page tell which rows it keeps.
 function tableOf(title, names, rows, most = Infinity, sizeOf = null) {
   if (rows.length === 0) return [];
   const how = `${sizeOf ? "largest" : "first"} ${most} of ${rows.length}`;
@@ -162,10 +162,11 @@ const fibre = (name) => (name === "stress" ? "Stress, lower fibre (upper: other 
 const quantityHead = (name) => inUnit(fibre(name) ?? (/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
-const mostReactions = 1000;  // there are more if every node has a spring
+const mostReactions = 1000;  // a problem with a spring at every node may have more
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
-// The ends of at most `most` steps, in order: those with the largest values relative to the largest of their quantity.
+// At most `most` of `steps`, in order: the steps whose ends have the largest values, each relative to the largest value
+// of the quantity in all steps.
 function endsOf(what, most, steps = result.steps) {
   if (steps.length <= most) return steps;
   cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
@@ -203,7 +204,7 @@ function endTables() {
 const pairCells = (p) => [String(p.pair), ...placeCells(p), p.surface];
 const forceOrGap = (p) => (p.state === "separated" ? [{ number: p.gap, at: "gap" }] : p.force);
 
-// Tables with the ends of steps as columns, six in each table.
+// Tables with a column for the end of each step, six steps in each table.
 function besideEachOther(steps, title, names, begins, read, most = Infinity) {
   const tables = [];
   for (let from = 0; from < steps.length; from += 6) {
@@ -274,7 +275,7 @@ function structureRows() {
     ...(E ? [[inUnit("Young's modulus E", "stress"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
 }
 
-// Returns "1.35 G + 1.5 Q"; a train also has its place.
+// Returns the terms of a combination: "1.35 G + 1.5 Q". The term of a train also has the position of the train.
 const termWords = ({ terms = {}, train }) => [...Object.entries(terms), ...(train ? [[`${train.name} at ${short(train.at)}`, train.factor]] : [])]
   .map(([name, factor]) => `${short(factor)} ${name}`).join(" + ");
 
@@ -294,10 +295,11 @@ const inputTables = () => [
 const modulus = (p) => p.stiffness / p.bed;
 const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 
-// Returns "1 to 9, 12".
+// Returns a list of ascending numbers in words: "1 to 9, 12".
 const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
 
-// Merges `fewest` or more entries that differ only by place. A row is [first entry, cells of places, all entries].
+// Merges entries with equal `keyOf`, which differ only by place, into one row if there are `fewest` or more, but not in
+// a matrix. A row is [first entry, cells of places, all entries].
 function gathered(list, keyOf, fewest = 13) {
   const groups = new Map();
   for (const one of list) groups.set(keyOf(one), [...(groups.get(keyOf(one)) || []), one]);
@@ -317,7 +319,7 @@ function loadRows(s) {
   return rows.length > 0 ? rows : [[stepName(s), "resultant of all loads", "", sumOf(s)]];
 }
 
-// The elements of a load in words; in a beam with their places.
+// The elements of a load in words; in a beam with the x at both ends.
 function elementsWords(elements) {
   if (elements === "all") return "all elements";
   const numbers = Array.isArray(elements) ? numbersWords(elements) : elements.replace("..", " to ");
@@ -358,7 +360,8 @@ function showHead() {
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
 }
 
-// Puts the title into the CSS rule of the margin boxes of printed pages, which cannot contain text of the page.
+// Puts the title into a CSS rule for the upper margin of printed pages, because a margin cannot show elements of the
+// page.
 function showTitleOnSheets(title) {
   const inCss = title.replace(/[^\p{L}\p{N} .,:;()+-]/gu, (c) => `\\${c.codePointAt(0).toString(16)} `);
   byId("sheets")?.remove();
@@ -440,7 +443,7 @@ function showLegend() {
   byId("picture-words").textContent = pictureWords[scene ? structure.kind : "none"];
 }
 
-// Shows the choice of the quantity of a plate.
+// Shows the control that chooses the quantity of a plate.
 function offerFields() {
   byId("field-label").hidden = byId("field").hidden = fields.length === 0;
   byId("field").replaceChildren(...fields.map(({ name, words }) => element("option", { value: name }, words)));
@@ -452,7 +455,7 @@ function offerFields() {
 
 let current = 0;
 
-// Called after a state is drawn; the playground adds handles to the picture.
+// Called after a state is drawn. The playground replaces this function by one that adds handles to the picture.
 let afterDrawing = () => {};
 
 function draw() {
@@ -491,7 +494,8 @@ function listen() {
   addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
 }
 
-// Prepares the printed page: input with a sketch, final state, and ends of steps, for a plate in each quantity.
+// Prepares the page for printing: puts the input with a sketch first, and adds pictures of the ends of steps, for a
+// plate one picture for each quantity.
 function drawSheets() {
   byId("structure").before(byId("input"));
   if (scene === null) return;
@@ -516,7 +520,8 @@ function drawSheets() {
 // The number of the state with the largest deflection.
 const mostMoved = () => frames.reduce((best, f, i) => (Math.abs(mostOf(f).value) > Math.abs(mostOf(frames[best]).value) ? i : best), frames.length - 1);
 
-// Draws a result at this state of its path. showRest adds the parts that only a report has.
+// Shows a result at state number `state`, by default the state with the largest deflection. showRest adds the parts
+// that only a report has.
 function load(given, state = null) {
   read(given);
   preparePicture();

@@ -1,5 +1,5 @@
-// Reads a result in the format contct-result-1 with structure and states, for a page that draws it. All numbers come
-// from the result, except the places of pairs and whether they are at their faces.
+// Reads a result in the format contct-result-1 with structure and states, for a page that draws the result. All numbers
+// come from the result; only positions of pairs, and whether pairs are at their faces, are found here.
 "use strict";
 
 const byId = (id) => document.getElementById(id);
@@ -11,10 +11,11 @@ function element(name, attributes = {}, ...children) {
   return e;
 }
 
-// The result, and what read() derives from it: dofs, pairs and supports with their places, and the states of the path.
+// The result, and what read() derives from the result: dofs, pairs and supports with their positions, and the states of
+// the path (frames).
 let result, structure, places, frames, increments, ofMatrix;
 
-// The dofs of each node with their directions: 1 to 3 along x, y and z, 4 to 6 about these axes. A beam has w along y.
+// The direction of each dof of a node: 1 to 3 along x, y and z, 4 to 6 about these axes. The w of a beam is along y.
 const dofsOfNode = { beam: { w: 2, theta: 6 }, plate: { w: 3, wx: 5, wy: 4 } };
 
 function read(given) {
@@ -40,7 +41,7 @@ function dofsOf() {
   return structure.nodes.flatMap((n, at) => own.map(([dof, direction]) => ({ name: n.node, dof, at, direction })));
 }
 
-// `at`: the node, from 0; -1 if the dof has no place. `u`: the dof, from 0.
+// All dofs, pairs and supports. `at`: the node, from 0; -1 if the dof has no position. `u`: the dof, from 0.
 function placesOf() {
   const dofs = dofsOf();
   const numbers = new Map(dofs.map((d, u) => [ofMatrix ? d.name : `${d.name} ${d.dof}`, u]));
@@ -49,7 +50,7 @@ function placesOf() {
     const { x = null, y = null } = structure.nodes[dofs[u].at] || {};
     return { ...entry, ...dofs[u], u, x, y };
   };
-  // The dof that carries the face of a pair, and its node; -1: none.
+  // The dof that carries the face of a pair, and the node of this dof; -1: none.
   const otherOf = ({ other }) => (other === undefined ? { otherU: -1, otherAt: -1 } : { otherU: numbers.get(other), otherAt: dofs[numbers.get(other)].at });
   return {
     dofs, locate,
@@ -58,10 +59,10 @@ function placesOf() {
   };
 }
 
-// True if the step ends with its increment `n`, from 0: both have the same state.
+// True if the end of the step and its increment `n`, from 0, have the same state.
 const endsAt = ({ increments: all, fraction, ended_by }, n) => n >= 0 && n === all.length - 1 && all[n].fraction === fraction && ended_by !== "oracle";
 
-// All states: the unloaded structure, and every state of the path in the result.
+// All states that the result contains: the unloaded structure, states within steps, and ends of steps.
 function framesOf() {
   const found = [];
   const add = (state, how) => found.push({
@@ -104,7 +105,7 @@ function pieceAt(f, e, x) {
   const { moment, shear, pieces } = f.elements[e];
   if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
   const [w0, t0, w1, ofNode] = f.u.slice(2 * e, 2 * e + 4);
-  // The slope left of a hinge, which is not that of the node, follows from the moments.
+  // The slope on the left of a hinge is not the slope of the node; it follows from moments and shears.
   const h = structure.nodes[e + 1].x - structure.nodes[e].x;
   const turned = (h * ((moment[0] + moment[1]) / 2 + (h * (shear[0] - shear[1])) / 12)) / structure.EI[e];
   const t1 = structure.hinges?.includes(e + 2) ? t0 + turned : ofNode;
@@ -122,7 +123,8 @@ function deflectionAt(f, x, e = elementAt(x)) {
   return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
 }
 
-// Moment or shear of a beam, by the polynomials through the ends of element e; the shear is the slope of the moment.
+// Moment or shear of a beam at a share of element e. The moment is the cubic with the moments and shears at the ends as
+// values and slopes; the shear is the slope of this cubic.
 function forceAt(f, name, [e, share]) {
   const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
   const x = from + share * (to - from);
@@ -132,18 +134,18 @@ function forceAt(f, name, [e, share]) {
   return a === 0 ? v0 : a === 1 ? v1 : (6 * a * (1 - a) * (m1 - m0)) / h + v0 * (1 - 4 * a + 3 * a * a) + v1 * (3 * a * a - 2 * a);
 }
 
-// Values on both sides of places inside elements where loads begin, end or act: [x, value].
+// The values [x, value] on both sides of each place inside an element where a load begins, ends or acts.
 const besidePieces = (f, name) => f.elements.flatMap(({ pieces = [] }) =>
   pieces.slice(1).flatMap((p, i) => [[p.x[0], pieces[i][name][1]], [p.x[0], p[name][0]]]));
 
-// Concentrated loads of a state: their dof, or x between two nodes, and their value.
+// The concentrated loads of a state: value, and dof of a node or x between two nodes.
 const pointsOf = (f) => (f.load.point || []).map((p) => {
   const dof = Object.keys(p).find((key) => !["node", "dof", "x"].includes(key));
   if ("x" in p) return { dof, x: p.x, at: 0, between: true, direction: dofsOfNode.beam[dof], value: p[dof] };
   return { ...places.locate(p, dof), value: p[dof] };
 });
 
-// Returns a test whether an element is in "all", "2..9", or a list of elements.
+// Returns a function that tells whether an element, from 1, is in `elements`: "all", "2..9", or a list.
 function numbersIn(elements) {
   if (elements === "all") return () => true;
   if (Array.isArray(elements)) return (e) => elements.includes(e);
@@ -151,7 +153,7 @@ function numbersIn(elements) {
   return (e) => e >= first && e <= last;
 }
 
-// The distributed load of a beam as a function of element e and x; null if there is none.
+// The distributed load of a beam as a function of element e, from 0, and x; null if there is no such load.
 function lineLoadOf(f) {
   const parts = (f.load.uniform || []).map((part) => ({ ...part, has: part.elements ? numbersIn(part.elements) : (e, x) => part.from <= x && x <= part.to }));
   if (parts.length === 0) return null;
@@ -159,14 +161,14 @@ function lineLoadOf(f) {
     .reduce((sum, { value, polynomial = [value] }) => sum + polynomial.reduceRight((y, a) => y * x + a, 0), 0);
 }
 
-// The runs of equal values in a list, as [first, last].
+// The runs of equal values in a list, as indices [first, last].
 function runsOf(values) {
   const runs = [];
   values.forEach((v, i) => (i > 0 && v === values[i - 1] ? (runs[runs.length - 1][1] = i) : runs.push([i, i])));
   return runs;
 }
 
-// The least and the largest number of a list; [0, 0] if it has none.
+// The least and the largest finite number of a list; [0, 0] if the list has no finite number.
 function spread(values) {
   let [low, high] = [Infinity, -Infinity];
   for (const v of values) {
@@ -177,8 +179,8 @@ function spread(values) {
   return low > high ? [0, 0] : [low, high];
 }
 
-// The largest absolute value of `values` in all states.
+// The largest magnitude of the numbers `values(f)` over all states f.
 const largest = (values) => frames.reduce((most, f) => values(f).reduce((m, x) => Math.max(m, Math.abs(x)), most), 0);
 
-// The least and the largest value of a quantity in all states, and 0.
+// The range of a quantity over all states, widened to contain 0.
 const rangeOf = (name) => spread([0, ...frames.flatMap((f) => (name in f.extremes ? [f.extremes[name].min.value, f.extremes[name].max.value] : []))]);
