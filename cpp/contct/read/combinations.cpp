@@ -53,7 +53,6 @@ class combination_reader {
     put(t, std::move(l));
   }
 
-  /// Reads a train and makes a step for each of its positions.
   void read_train(const toml_value& t) {
     t.allow_only({"name", "axles", "from", "to", "by", "terms", "factor"});
     const auto* const b = std::get_if<beam>(&model_.kind);

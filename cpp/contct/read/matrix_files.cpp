@@ -18,7 +18,6 @@
 namespace contct {
 namespace {
 
-/// The largest numbers of rows and of entries that a file may declare.
 constexpr std::int64_t most_rows = std::numeric_limits<int>::max() - 1;
 constexpr std::int64_t most_entries = most_rows;
 

@@ -69,8 +69,8 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   return any;
 }
 
-/// Makes edges from `pairs` of node indices, one edge for each two nodes. Its `elements` tells how often the
-/// two nodes occur in `pairs`.
+/// Makes edges from `pairs` of node indices, one edge for each two nodes. The `elements` of an edge tell how
+/// often its two nodes occur in `pairs`.
 std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   std::sort(pairs.begin(), pairs.end());
   std::vector<mesh_edge> edges;
@@ -183,7 +183,6 @@ class inp_reader {
  public:
   inp_reader(std::string_view text, std::string_view file) : lines_(text, file) {}
 
-  /// Returns the nodes, the edges, and notes on parts that are not drawn.
   placed_nodes read() {
     while (next_line()) {
       if (line_.front() == '*') {

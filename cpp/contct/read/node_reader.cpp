@@ -17,7 +17,6 @@ std::string_view list_words(std::string_view key) {
   return key == "x" ? "a number, or a list of numbers" : "a list of labels";
 }
 
-/// The node at the grid point [x, y] of a plate.
 int grid_point(const plate& p, const toml_value& named) {
   const std::vector<toml_value> point = named.entries(point_words, 2, 2);
   constexpr std::string_view remedy = "grid lines are set by x and y, or elements, in [plate]";

@@ -38,7 +38,6 @@ struct coordinate_row {
   void refuse_outside(const toml_value& named, double x) const;
 };
 
-/// The coordinates of a beam's nodes.
 [[nodiscard]] inline coordinate_row nodes_along(std::span<const double> x) {
   return {x, "node", "element_size in [beam] puts a node at every x that the file names"};
 }

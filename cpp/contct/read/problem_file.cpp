@@ -72,7 +72,6 @@ class problem_reader {
     return node * nodes_->dof_names().size() + dof;
   }
 
-  /// True if a support fixes the node's deflection.
   [[nodiscard]] bool fixed_in_w(int node) const { return fixed_[dof_of(node, 0)] != 0; }
 
   void read_units(const toml_value& t) {
@@ -272,7 +271,8 @@ class problem_reader {
     std::string warning;
     for (int e = 0; e < b.elements(); ++e) {
       if (is_on_bed[e] == 0 || is_on_bed[e + 1] == 0) continue;
-      const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // no underflow to 0
+      const double most =
+          std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // roots first: no underflow to 0
       if (b.length_of(e) <= worst * most) continue;
       worst = b.length_of(e) / most;
       warning = fmt::format(

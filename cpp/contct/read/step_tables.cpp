@@ -88,7 +88,7 @@ class step_reader {
     for (std::size_t dof = 0; dof < values.size(); ++dof) {
       if (values[dof] != 0.0) l.points.push_back({static_cast<int>(dof), 0, values[dof]});
     }
-    for (std::string& w : rounded)  // other steps may name the same file
+    for (std::string& w : rounded)  // once, even if several steps name the same file
       if (std::ranges::find(warnings_, w) == warnings_.end()) warnings_.push_back(std::move(w));
   }
 
@@ -324,7 +324,7 @@ class step_reader {
 }  // namespace
 
 void refuse_endless_sums(const toml_value& t, const model& m, const load& l) {
-  std::vector<double> sums(dofs(m), 0.0);  // in doubles, as the path adds them up
+  std::vector<double> sums(dofs(m), 0.0);  // in doubles, as the path adds loads up
   add_consistent_loads(m, l, sums);
   const resultant r = resultant_of(m, l);
   sums.push_back(r.force);

@@ -79,7 +79,8 @@ class toml_value {
   /// has: true if this table has the key. []: the value of the key. Both need a value that is a table.
   [[nodiscard]] bool has(std::string_view key) const { return node_->as_table()->contains(key); }
   [[nodiscard]] toml_value operator[](std::string_view key) const;
-  /// allow_only refuses all other keys. refuse_beside refuses `others` in a table with the keys in `beside`.
+  /// allow_only refuses keys that are not in `keys`. refuse_beside refuses the keys `others`, because the
+  /// table also has the keys in `beside`, as the caller has checked.
   void allow_only(const std::vector<std::string_view>& keys) const;
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;

@@ -80,7 +80,7 @@ request::request(const char* text, std::initializer_list<std::string_view> known
       return true;
     });
   } catch (const nlohmann::json::exception& e) {
-    constexpr std::size_t longest = 300;  // of the message, because it quotes the options
+    constexpr std::size_t longest = 300;  // bytes of e.what(), which quotes the options
     throw std::invalid_argument(
         fmt::format("options: found no JSON: {}; allowed: an object", printable(e.what(), longest)));
   }

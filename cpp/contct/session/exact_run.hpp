@@ -1,4 +1,5 @@
-// The exact path of a problem, compared with kernels. Problems that take too much time or memory are refused.
+// Follows the exact path of a problem, and compares the paths of kernels with the exact path. Refuses
+// problems that would take too much time or memory.
 #pragma once
 
 #include <string>

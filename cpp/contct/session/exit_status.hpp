@@ -25,7 +25,6 @@ constexpr exit_status status_of(path_status status, bool kernels_agree = true) {
   return statuses[static_cast<int>(status)];  // in the order of path_status
 }
 
-/// The name of `status` in results.
 constexpr std::string_view status_name(path_status status, bool kernels_agree = true) {
   if (!kernels_agree) return "kernels-disagree";
   if (status == path_status::solved) return "solved";

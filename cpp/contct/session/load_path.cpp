@@ -12,7 +12,7 @@
 namespace contct {
 namespace {
 
-/// The number of parts of a load; each element of a scattered list is one part.
+/// The number of parts of a load; each element of a list that is not consecutive is one part.
 std::size_t parts_of(const load& l) {
   std::size_t parts = l.points.size() + l.settlements.size() + l.placed.size() + l.moves.size();
   for (const distributed_load& d : l.distributed)
@@ -38,7 +38,6 @@ load_words motion_words(const model& m, const std::string& verb, const std::vect
   return {verb + name, amount(g), " at " + place_words(m, g.node)};
 }
 
-/// The words for a single load placed by coordinates.
 load_words words_for(const model& m, const placed_load& p) {
   const double value = values_of(p)[0];
   if (p.what == load_kind::point || p.what == load_kind::moment)

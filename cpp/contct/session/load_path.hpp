@@ -25,8 +25,8 @@ class load_path {
   [[nodiscard]] bool has_many_parts(int step) const;
 
   /// The load in words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load, with at
-  /// most six digits. If the words are longer than `width` characters, only the number; if the number is
-  /// longer, "".
+  /// most six digits. If the words are longer than `width` characters, leaves out the place, then the kind of
+  /// load; returns "" if even the number is too long.
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:

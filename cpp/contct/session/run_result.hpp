@@ -26,7 +26,7 @@ namespace contct {
 struct structure_state {
   int step = 0;                             ///< from 1; 0: before the first step
   int number = 0;                           ///< increment in the step, from 1; 0: the step ended without one
-  double fraction = 0.0;                    ///< share of the step's load consumed
+  double fraction = 0.0;                    ///< share of the step's load applied
   std::vector<double> displacement = {};    ///< [dofs]
   std::vector<int> isep = {};               ///< [pairs]
   std::vector<double> pair_forces = {};     ///< empty: computed from `displacement` [pairs]

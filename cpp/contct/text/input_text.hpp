@@ -82,7 +82,6 @@ class field_lines : public text_lines {
  public:
   using text_lines::text_lines;
 
-  /// Goes to the next line that is not blank; false if there is none.
   bool next();
 
   [[nodiscard]] std::size_t fields() const { return fields_.size(); }

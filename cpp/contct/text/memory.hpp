@@ -1,4 +1,3 @@
-// The memory limit, and sizes in words.
 #pragma once
 
 #include <cstdint>

@@ -64,8 +64,8 @@ struct reader_gone : output_error {
   using output_error::output_error;
 };
 
-/// Prints `raw` to standard output, escaped by `terminal_text`; on a terminal, colour codes are kept. Throws
-/// nothing: if printing fails, flush_standard_output throws later.
+/// Prints `raw` to standard output, escaped by `terminal_text`; on a terminal, colour codes are kept. If
+/// printing fails, flush_standard_output throws later.
 void print_text(std::string_view raw);
 
 /// Flushes standard output. Throws output_error if anything printed so far could not be written; reader_gone

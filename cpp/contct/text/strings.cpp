@@ -72,7 +72,7 @@ bool continues_character(char c) {
 /// The least number of edits from one word to another (Damerau-Levenshtein). An edit inserts, deletes or
 /// replaces a character, or swaps two neighbours.
 int edits_between(const std::string& a, const std::string& b) {
-  // edits[i][j]: from the first i characters of a to the first j characters of b.
+  // edits[i][j]: the edits from the first i characters of a to the first j characters of b.
   std::vector<std::vector<int>> edits(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = static_cast<int>(i);
   for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = static_cast<int>(j);
@@ -132,7 +132,7 @@ std::string terminal_text(std::string_view text) {
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::size_t end = std::min(text.size(), longest);
-  constexpr std::size_t most_back = 3;  // bytes of a UTF-8 character after its first
+  constexpr std::size_t most_back = 3;  // bytes of a UTF-8 character after its first byte
   for (std::size_t i = 0; i < most_back && end > 0 && end < text.size() && continues_character(text[end]);
        ++i)
     --end;

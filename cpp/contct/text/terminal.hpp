@@ -7,7 +7,6 @@
 
 namespace contct {
 
-/// How to print to standard output.
 struct terminal {
   int width = 80;      ///< columns
   bool color = false;  ///< true: print ANSI colours

@@ -37,7 +37,6 @@ inline constexpr listing_line no_line{0, {}};
 [[nodiscard]] inline std::string_view kind_name(const explained_pair& p) {
   return kind_name(p.way, p.isep_before == separated);
 }
-/// Returns "winner", "too early", ..
 [[nodiscard]] std::string_view name_of(why_toggled why);
 
 /// Explains how the listing computes the s of a pair: the body of its DO 10 loop.

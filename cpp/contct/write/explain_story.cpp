@@ -8,7 +8,6 @@
 namespace contct {
 namespace {
 
-/// A number with nine digits.
 std::string number(double x) {
   return fmt::format("{:.9g}", x);
 }

@@ -54,7 +54,7 @@ void write_envelope_csv(const run_result& r, output_file& out);
 /// Writes and finishes all requested outputs of a run.
 void write_outputs(const run& r);
 
-/// The table of a run for the terminal, with one row for each increment.
+/// The table of a run for the terminal: a row for each increment, or for each combination if there are many.
 struct run_table {
   std::string text;                 ///< the rows
   std::vector<std::string> legend;  ///< the meanings of columns and words, to be printed below the table

@@ -137,7 +137,7 @@ std::string rows_of(const beam& b, const end_of_step& s) {
       for (const double t : extreme_places(at)) add_inside(e, at, at.left + t * at.h, t);
       if (&at != &pieces.back()) add_inside(e, at, at.right, 1.0);
     }
-    // The slope of a node with a hinge is that on its right.
+    // At a hinge, s.u has the slope on the right of the node; here the slope on the left is needed.
     add_end(e, 1, b.has_hinge(e + 1) ? polynomial_at(pieces.back().slope, 1.0) : s.u(2 * e + 3));
   }
   return rows;

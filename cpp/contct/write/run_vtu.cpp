@@ -188,7 +188,7 @@ std::string field_data(const problem& p, const structure_state& s) {
         type, name, value);
   };
   std::string name;
-  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // VTK stores a text as its bytes, and 0
+  if (s.step > 0 && p.steps[s.step - 1].from_zero) {  // in VTK, a text is its bytes, then 0
     for (const char c : p.steps[s.step - 1].name) name += fmt::format("{} ", static_cast<unsigned char>(c));
     name = one("name", "String", name + "0");
   }

@@ -75,7 +75,7 @@ const value_range* bending(const std::vector<value_range>& ranges) {
 }
 
 /// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
-/// `width` columns if that is 60 or more. `all`: also shears, moved faces, and the other extremes.
+/// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and the other extremes.
 std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
                                        sizes_so_far& sizes, bool all) {
   std::vector<std::string> lines;

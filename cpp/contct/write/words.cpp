@@ -367,7 +367,7 @@ std::vector<std::string> end_messages(const run_result& r) {
 std::vector<std::string> warnings_of(const run_result& r) {
   std::vector<std::string> lines = r.what.warnings;
   const std::string begin = (r.file == "-" ? "standard input" : r.file) + ":";
-  for (std::string& line : lines)  // a result does not depend on the folder of its problem
+  for (std::string& line : lines)  // so that results do not depend on the problem's folder
     if (line.starts_with(begin)) line.erase(0, line.find(": ", begin.size()) + 2);
   std::ranges::move(state_warnings(r), std::back_inserter(lines));
   return lines;

@@ -60,7 +60,7 @@ function allEventWords(events, most = 8) {
   return named.join("; ");
 }
 
-// A state in words. Screen readers read it aloud when it changes.
+// A state in words. Screen readers read the words aloud when the state changes.
 function stateWords(f) {
   const [open, closed, atFace] = ["o", "c", "f"].map((look) => f.pairs.filter((p) => p.look === look).length);
   const place = f.step === 0 ? "Before any load."
@@ -115,7 +115,8 @@ function canvas(holder, width, height, title) {
   return root;
 }
 
-// On paper, pictures have a fixed width, at which words in pictures are as large as the text of the page.
+// True while the page is printed. On paper, pictures have a fixed width, at which words in pictures are as large as the
+// text of the page.
 let printing = false;
 const widthOf = (holder) => (printing ? 940 : Math.max(320, holder.clientWidth));
 
@@ -338,7 +339,6 @@ function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high]
   return Y;
 }
 
-// Draws the pressure of beds on a beam, at each node.
 function drawPressure(root, f, page, top) {
   const at = atNodes(f, "pressure");
   const nodes = structure.nodes.map(({ x }, i) => ({ x, value: at[i] }));
@@ -509,8 +509,8 @@ function edgesBetween([columns, rows]) {
     ...(i > 0 ? [[node(j, i - 1), node(j, i)]] : []), ...(j > 0 ? [[node(j - 1, i), node(j, i)]] : [])]));
 }
 
-// The edges to draw: if there are more than `most`, the edges of the fewest elements, which are the outer edges of a
-// solid.
+// The edges to draw: if there are more than `most`, the edges that belong to the fewest elements, which are the outer
+// edges of a solid.
 function drawnEdges(most = 20_000) {
   const { edges } = structure;
   if (edges.length <= most) return edges;
@@ -528,7 +528,7 @@ function fittingView() {
   return found < 0 ? 3 : found;
 }
 
-// The coordinates of a place on the page, to the right and up, in units of length.
+// Projects a point in space onto the page. Returns its coordinates to the right and up, in units of length.
 function projected(at) {
   const { right, up } = views[view];
   return [right, up].map((to) => to[0] * at[0] + to[1] * at[1] + to[2] * at[2]);

@@ -32,7 +32,6 @@ const stepName = (s) => (s.name ? `${s.step}, ${s.name}` : String(s.step));
 const nameOfStep = (number) => stepName(result.steps.find((s) => s.step === number) ?? { step: number });
 const startsFromZero = () => result.steps.some((s) => s.start === "zero");
 
-// The name of a node, or of a dof in a matrix.
 const nameOf = (entry) => entry.node ?? entry.dof;
 
 function dofsOf() {
@@ -100,7 +99,7 @@ const elementAt = (x) => Math.max(0, Math.min(structure.nodes.length - 2, struct
 
 const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
 
-// Element e of a beam, or its piece at x if loads begin, end or act inside the element.
+// Element e of a beam, or the piece of the element that contains x if loads begin, end or act inside the element.
 function pieceAt(f, e, x) {
   const { moment, shear, pieces } = f.elements[e];
   if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
