@@ -150,8 +150,7 @@ class combination_reader {
   std::set<std::string> names_;  // names of combinations and trains
 };
 
-/// Refuses a document that has steps together with combinations or trains, and a document that has cases but
-/// no combinations and no trains.
+/// Refuses [[step]] beside [[combination]] or [[train]], and [[case]] without [[combination]] and [[train]].
 void refuse_mixed(const toml_value& top) {
   constexpr const char* allowed =
       "[[step]]s, each going on from the one before, or [[combination]]s and [[train]]s of [[case]]s, each "

@@ -192,8 +192,7 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   return matrix;
 }
 
-/// Calls read(i) for each line i, from 0, after the line with the size. Refuses a file with more or fewer
-/// than `said` such lines, the number that the line with the size declares.
+/// Calls read(i) for each line i, from 0, after the line with the size, which declares `said` such lines.
 template <class Read>
 void read_lines(field_lines& lines, int said, std::string_view kind, const Read& read) {
   const std::int64_t size_line = lines.line();
@@ -211,8 +210,7 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
 /// The line of the file in which each name occurs.
 using line_numbers = std::unordered_map<std::string_view, std::int64_t>;
 
-/// Refuses `name` if an earlier line has it; otherwise adds it to `line_of`. `what`: the kind of name, for
-/// messages.
+/// Refuses `name` if an earlier line has it; otherwise adds it to `line_of`.
 void refuse_again(const field_lines& lines, std::string_view what, std::string_view name,
                   line_numbers& line_of) {
   const auto [before, is_new] = line_of.try_emplace(name, lines.line());

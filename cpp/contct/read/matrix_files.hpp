@@ -34,8 +34,8 @@ inline constexpr std::size_t largest_matrix_file = 16384;
 [[nodiscard]] std::vector<double> parse_vector(std::string_view text, std::string_view file, int rows,
                                                std::vector<std::string>* warnings = nullptr);
 
-/// Parses labels of dofs, one a line, in the order of the rows of the matrix. Throws input_error if a label
-/// contains blanks or occurs twice.
+/// Parses labels of dofs, one a line, in the order of the rows of the matrix. Throws input_error for a label
+/// that contains blanks or occurs twice.
 [[nodiscard]] std::vector<std::string> parse_labels(std::string_view text, std::string_view file);
 
 /// Parses a node a line, "name x y" in all lines or "name x y z" in all lines; a missing z is 0. A field that

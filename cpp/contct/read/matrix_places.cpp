@@ -26,8 +26,7 @@ int direction_of(std::string_view name) {
   return name == "r" ? 6 : 0;
 }
 
-/// Finds node and direction in a label: node "185" and direction 3 in "185.3". Empty if the node or the
-/// direction is unknown.
+/// Finds node "185" and direction 3 in the label "185.3"; empty if the node or the direction is unknown.
 placed_dof place_of_label(std::string_view label, const std::unordered_map<std::string_view, int>& nodes) {
   const std::size_t dot = label.rfind('.');
   if (dot == std::string_view::npos) return {};
@@ -69,8 +68,7 @@ bool place_dofs(const assembled& a, placed_nodes& places) {
   return any;
 }
 
-/// Makes edges from `pairs` of node indices, one edge for each two nodes. The `elements` of an edge tell how
-/// often its two nodes occur in `pairs`.
+/// Makes one edge of all equal node pairs in `pairs`; the edge's `elements` is the number of these pairs.
 std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   std::sort(pairs.begin(), pairs.end());
   std::vector<mesh_edge> edges;
@@ -81,9 +79,8 @@ std::vector<mesh_edge> edges_of(std::vector<std::pair<int, int>> pairs) {
   return edges;
 }
 
-/// Adds an edge between any two nodes that the matrix couples. Adds no edge if there would be more than 3 for
-/// each node, as in a solid or a plate, whose couplings are not members. A space frame has at most 3 edges
-/// for each node, a plane frame 2.
+/// Adds an edge between any two nodes that the matrix couples; none if there are more than 3 edges for each
+/// node, as in a solid or a plate, whose couplings are not members. A frame has at most 3.
 void add_coupling_edges(const assembled& a, placed_nodes& places) {
   constexpr std::size_t most_couplings_of_a_node = 3;
   std::vector<std::pair<int, int>> couples;
@@ -252,8 +249,7 @@ class inp_reader {
       lines_.refuse(fmt::format("node {} again, at another place", number), "each node at one place");
   }
 
-  /// Reads a line of an element. The nodes of an element may be on several lines; the type gives their
-  /// number.
+  /// Reads a line with nodes of an element, which may have several lines; the type gives the number of nodes.
   void read_solid() {
     const std::vector<std::string_view> fields = fields_of(line_);
     std::size_t i = 0;

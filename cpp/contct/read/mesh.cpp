@@ -15,8 +15,7 @@ double rounding_of(std::span<const double> among) {
          std::max(std::abs(among.front()), std::abs(among.back()));
 }
 
-/// The values of every key x of the document except that of [beam], and the ends of the pieces of EI or
-/// section.
+/// The values of every key x, except that of [beam], and the ends of the pieces of EI or section.
 std::vector<double> named_coordinates(const toml_value& beam, const toml_value& top) {
   std::vector<double> named;
   const auto take = [&named](const toml_value& t, const char* key) {

@@ -193,8 +193,8 @@ void read_material(const toml_value& t, plate& p) {
              "D = E t^3 / 12 (1 - nu^2) within the range of double precision");
 }
 
-/// Refuses an element of a plate whose stiffness is out of the range of doubles: checks D b / a^3 for the
-/// sides a and b in both orders, and the stiffnesses of slopes and twist.
+/// Refuses an element of a plate whose stiffness is out of the range of doubles: D b / a^3 along x or y, or
+/// that of slopes or twist.
 void check_elements(const toml_value& t, const plate& p) {
   const auto sound = [&](double a, double b) {
     const double along = p.D * b / a / a / a;
@@ -241,9 +241,8 @@ std::string read_storage(const toml_value& t) {
   return storage;
 }
 
-/// Chooses the storage of K before memory is allocated: that of the key storage; otherwise a band, unless
-/// CHOLMOD is built in and the band is too large or sparse factors take far less memory. Refuses a matrix
-/// that needs more than memory_limit.
+/// Chooses the storage of K, before memory is allocated: without the key storage, a band, unless CHOLMOD is
+/// built in and the band is too large or sparse factors take far less. Refuses more than memory_limit.
 void choose_storage(const toml_value& t, assembled& a) {
   constexpr std::int64_t small_band = std::int64_t{256} << 20;
   constexpr std::int64_t far_less = 4;
@@ -287,8 +286,7 @@ void finish(const toml_value& t, assembled& a) {
   choose_storage(t, a);
 }
 
-/// Refuses a file of nodes if no label names one of its nodes, because the file then belongs to another
-/// structure.
+/// Refuses a file of nodes if no label names one of its nodes: the file is of another structure.
 void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
   if (a.places.known()) return;
   named.refuse(fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),

@@ -42,8 +42,7 @@ struct coordinate_row {
   return {x, "node", "element_size in [beam] puts a node at every x that the file names"};
 }
 
-/// True if the value of `key`, EI or section, in the table `beam` is a list of pieces, each with its end
-/// `to`.
+/// True if `key` (EI or section) of the table [beam] is a list of pieces, each with its end `to`.
 [[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
 
 /// Coordinates, and the runs of equal parts that the line consists of.
@@ -56,8 +55,8 @@ struct mesh_line {
 [[nodiscard]] mesh_line even_line(double length, int elements);
 
 /// Makes the nodes of a beam whose table has element_size: at the ascending coordinates `ends`; between the
-/// ends, at the values of the keys x of the document `top` and at the ends of pieces; and between two
-/// neighbours of these nodes, more nodes at equal distances of at most element_size.
+/// ends, at the values of the keys x of the document `top` and at the ends of pieces of EI or section; and
+/// between two neighbours of these nodes, more nodes at equal distances of at most element_size.
 [[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
@@ -72,23 +71,19 @@ class node_reader {
 
   [[nodiscard]] bool named_in(const toml_value& t) const { return t.has(key_in(t)); }
 
-  /// The nodes that a table names, from 0, in the order of the table; at least one. Refuses a node named
-  /// twice.
+  /// The nodes that a table names, from 0, in its order; at least one. Refuses a node that is named twice.
   [[nodiscard]] std::vector<int> read(const toml_value& t) const;
 
   [[nodiscard]] const model& structure() const { return structure_; }
   [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
 
-  /// The dofs of a matrix, from 0, whose labels are in the value `named` [count]. The value has one label for
-  /// all `count` pairs, or one for each pair.
+  /// The dofs of a matrix, from 0, that `named` lists by label [count]: one for all pairs, or one for each.
   [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;
 
-  /// The dofs of a node, from 0, whose names are keys of a table. Refuses a table without such a key,
-  /// described by `found`.
+  /// The dofs of a node, from 0, whose names are keys of a table. Refuses a table without such a key.
   [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
 
-  /// Refuses the value `named`, which is for dof `dof` of `node`, if this dof is theta at a hinge, where the
-  /// beam has two slopes.
+  /// Refuses the value `named` if `dof` of `node` is theta at a hinge, where the beam has two slopes.
   void refuse_hinge(const toml_value& named, int node, int dof) const;
 
   [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }

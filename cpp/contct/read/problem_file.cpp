@@ -84,8 +84,7 @@ class problem_reader {
     problem_.units = {label("length"), label("force")};
   }
 
-  /// Reads a hinge. Refuses a hinge at an end of the beam, where the moment is 0 without a hinge unless a
-  /// support fixes theta.
+  /// Reads a hinge. Refuses a hinge at an end of the beam: no moment acts there unless a support holds theta.
   void read_hinge(const toml_value& t) {
     beam* const b = std::get_if<beam>(&problem_.geometry.kind);
     if (b == nullptr) t.refuse("this without a beam", "a [[hinge]] of a [beam]");
@@ -235,8 +234,7 @@ class problem_reader {
     return values;
   }
 
-  /// Reads a bed: adds a pair at every node of the bed that can deflect. The stiffness of a pair is the
-  /// modulus times the tributary length or area of its node.
+  /// Adds a pair at every node of a bed that can deflect: stiffness = modulus * tributary length or area.
   void read_bed(const toml_value& t) {
     t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
@@ -271,8 +269,7 @@ class problem_reader {
     std::string warning;
     for (int e = 0; e < b.elements(); ++e) {
       if (is_on_bed[e] == 0 || is_on_bed[e + 1] == 0) continue;
-      const double most =
-          std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // roots first: no underflow to 0
+      const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // cannot underflow
       if (b.length_of(e) <= worst * most) continue;
       worst = b.length_of(e) / most;
       warning = fmt::format(

@@ -12,8 +12,7 @@ namespace contct {
 
 /// Reads and checks the problem in the file at `path`; "-" is standard input. Throws input_error if anything
 /// in the file is not allowed. A number means the shortest decimal that reads as its double;
-/// problem::warnings names numbers that are written differently. `allowed`: where other files may be that the
-/// problem file names.
+/// problem::warnings names other numbers. `allowed`: where the files may be that the problem file names.
 [[nodiscard]] problem read_problem(const std::string& path, reach allowed = reach::own_folder);
 
 /// Reads and checks the problem in `text`, as read_problem does; `file` is the name of the text in messages.

@@ -120,8 +120,7 @@ class step_reader {
     }
   }
 
-  /// Adds the self-weight, which is the weight per volume times area or thickness: one load for each run of
-  /// elements of equal weight.
+  /// Adds weight per volume times area or thickness: one load for each run of elements of equal weight.
   void read_self_weight(const toml_value& t, load& l) const {
     const std::optional<bool> acts = t.required("true or false").value_exact<bool>();
     if (!acts) t.refuse("true or false");
@@ -198,8 +197,7 @@ class step_reader {
     refuse_reversed(t[t.has("to") ? "to" : "from"], p.from, p.to);
   }
 
-  /// Reads `from` and `to` on a plate, two corners of a rectangle. A missing `from` is the first corner of
-  /// the plate, a missing `to` the last corner.
+  /// Reads `from` and `to` on a plate, two corners of a rectangle, by default corners of the plate.
   static void read_rectangle(const toml_value& t, const plate& of, placed_load& p) {
     const auto read = [&](const char* key, double x, double y) -> std::array<double, 2> {
       if (!t.has(key)) return {x, y};
@@ -223,8 +221,7 @@ class step_reader {
     double x = 0.0;
   };
 
-  /// The places that a table names, each once. `between_nodes`: places between the nodes of a beam are
-  /// allowed.
+  /// The places that a table names, each once; with `between_nodes`, also places between the nodes of a beam.
   [[nodiscard]] std::vector<named_place> read_places(const toml_value& t, bool between_nodes) const {
     std::vector<named_place> all;
     const beam* const b = between_nodes && t.has("x") ? of_beam() : nullptr;
@@ -260,8 +257,7 @@ class step_reader {
     }
   }
 
-  /// Refuses a settlement of a dof that no support fixes. The base of an elastic support cannot be moved
-  /// either.
+  /// Refuses a settlement of a dof that no support fixes, even if a support holds the dof by a spring.
   void refuse_unfixed(const toml_value& t, int node, int dof) const {
     const std::string_view name = nodes_.dof_names()[dof];
     const hold here = held_[node * nodes_.dof_names().size() + dof];

@@ -76,8 +76,7 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-/// A hint that quotes are missing, as in "title = Crane" and "Q pos. 1 = 1.5"; empty if no quotes seem to be
-/// missing. `column`: where parsing failed, from 1.
+/// A hint that quotes may be missing, as in "title = Crane". `column`: where parsing failed, from 1.
 std::string_view quotes_hint(std::string_view line, std::size_t column, std::string_view description) {
   if (description.find("expected '='") != std::string_view::npos)
     return line.find('=', column) == std::string_view::npos ? "" : " (a name with blanks stands in quotes)";
@@ -307,7 +306,7 @@ class text_walk {
     if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   }
 
-  /// The literal that begins at this line and column. They must not be before those of an earlier call.
+  /// The literal that begins at this line and column, which must not be before those of an earlier call.
   [[nodiscard]] std::string_view number_at(int line, int column) {
     constexpr std::string_view of_numbers = "0123456789+-._eExXoObBabcdfABCDF";
     for (; line_ < line; ++line_, column_ = 1) rest_.remove_prefix(rest_.find('\n') + 1);

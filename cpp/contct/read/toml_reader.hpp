@@ -60,8 +60,7 @@ class toml_value {
   [[nodiscard]] std::vector<toml_value> each(std::string_view allowed) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(const real_range& range, std::size_t least) const;
-  /// Reads one number for all `things`, or an array of `count` numbers, one for each. Returns 1 or `count`
-  /// numbers.
+  /// One number for all `things`, or an array of `count` numbers, one for each thing.
   [[nodiscard]] std::vector<double> reals_for(const real_range& range, std::size_t count,
                                               std::string_view things) const;
   /// Numbers of nodes or elements: [1, 3, 5], "2..20" or "all". In the file, the numbers are from 1 to
@@ -76,11 +75,10 @@ class toml_value {
     return node_ == nullptr ? std::vector<toml_value>{} : tables();
   }
 
-  /// has: true if this table has the key. []: the value of the key. Both need a value that is a table.
+  /// has: true if this table has the key. []: the value of the key, which may be missing.
   [[nodiscard]] bool has(std::string_view key) const { return node_->as_table()->contains(key); }
   [[nodiscard]] toml_value operator[](std::string_view key) const;
-  /// allow_only refuses keys that are not in `keys`. refuse_beside refuses the keys `others`, because the
-  /// table also has the keys in `beside`, as the caller has checked.
+  /// allow_only refuses keys not in `keys`. refuse_beside refuses `others` in a table that also has `beside`.
   void allow_only(const std::vector<std::string_view>& keys) const;
   void refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                      std::string_view allowed) const;
@@ -101,7 +99,7 @@ class toml_value {
   [[noreturn]] void refuse(std::string_view allowed) const { refuse(found(), allowed); }
 
  private:
-  /// A value inside this value. If it is missing (null), it gets the position of this value.
+  /// A value inside this value. A missing inner value (null) gets the position of this value.
   [[nodiscard]] toml_value inner(const toml::node* node, std::string name) const {
     toml_value v = *this;
     v.node_ = node;

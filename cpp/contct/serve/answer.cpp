@@ -24,8 +24,7 @@ std::string as_json(const std::string& text) {
   return json_text(json(text));
 }
 
-/// The error as JSON. File, line and column are taken from the start of the message: "pb.toml:12:3: ..", or
-/// "pb.toml:12: ..".
+/// The error as JSON, with the file, line and (if given) column that begin its message: "pb.toml:12:3: ..".
 std::string error_json(std::string_view message) {
   json error = {{"message", message}, {"file", nullptr}, {"line", nullptr}, {"column", nullptr}};
   const auto number_at = [message](std::size_t from) {  // the number before a colon; 0 if there is none
@@ -45,8 +44,7 @@ std::string error_json(std::string_view message) {
   return json_text(error);
 }
 
-/// The answer as text. Inserts the text of the result without parsing it, because parsing would take longer
-/// than the path.
+/// The answer as text. The result is not parsed again, because parsing would take longer than the path.
 std::string text_of(const served_answer& a, const std::optional<std::string>& error) {
   const auto exit = error ? exit_status::bad_input : a.exit;
   std::string text =
@@ -61,8 +59,7 @@ std::string text_of(const served_answer& a, const std::optional<std::string>& er
   return text + "}";
 }
 
-/// Refuses options that are nested more than 16 deep: a message that quotes a refused value writes it by
-/// recursion, which could overflow the stack.
+/// Refuses deep nesting: messages quote refused values by recursion, which could overflow the stack.
 void refuse_deep(int depth) {
   constexpr int deepest = 16;
   if (depth > deepest)

@@ -1,5 +1,4 @@
-// Parses the options of the functions of serve.h, and writes the answers. Options and answers are JSON
-// objects.
+// Parses the options of the functions of serve.h, and writes their answers, which are JSON objects too.
 #pragma once
 
 #include <deque>
@@ -60,13 +59,12 @@ class request {
   nlohmann::json options_ = nlohmann::json::object();
 };
 
-/// The lock for all uses of kernels, because unit 26 belongs to the whole process. The lock is recursive: if
-/// a kernel of the caller calls the library and requests another kernel, the call is refused and does not
-/// hang.
+/// The lock for all uses of kernels, because unit 26 belongs to the whole process. The lock is recursive: a
+/// call from inside a kernel of the caller is refused and does not hang.
 [[nodiscard]] std::recursive_mutex& turn();
 
-/// Calls `find` and returns the answer that `find` filled in, or the error that it threw, as text from
-/// malloc; null if there is no memory.
+/// Returns the answer that `find` fills in, or the error that it throws, as text from malloc; null without
+/// memory.
 [[nodiscard]] char* answered(const std::function<void(served_answer&)>& find) noexcept;
 
 }  // namespace contct

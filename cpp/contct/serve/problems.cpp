@@ -93,8 +93,7 @@ void run_path(const char* text, const char* options, served_answer& a) {
   a.tell(end_messages(run.result));
 }
 
-/// Adds to `out` every number of the problem file with its place, and the pairs with the keys of their faces
-/// and stiffnesses.
+/// Adds every number of the problem file with its place, and the pairs with the keys of their numbers.
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
   const toml::table document = parse_toml(text, file);
   json& numbers = out["numbers"] = json::array();
@@ -187,8 +186,7 @@ struct given_states {
   std::vector<std::vector<int>> isep;             // [states][pairs]
 };
 
-/// The statuses if the request lists none [pairs]: a pair is in contact if the structure touches its face or
-/// is beyond it.
+/// The statuses [pairs] if the request has none: a pair at its face, or beyond it, is in contact.
 std::vector<int> statuses_at(const problem& p, const load& l, const linear_structure& s,
                              std::span<const double> displacement) {
   std::vector<int> isep(p.pairs.size(), separated);

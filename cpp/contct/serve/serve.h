@@ -76,12 +76,10 @@ CONTCT_SERVE_EXPORT char* contct_check(const char* problem, const char* options)
  *   "kernels"  kernels whose paths are compared with the exact path; without this option, none */
 CONTCT_SERVE_EXPORT char* contct_exact(const char* problem, const char* options);
 
-/* contct explain: follows a path and explains the effect of each line of the listing. "result" is what
- * contct explain --json writes.
+/* contct explain: explains the lines of the listing. "result" is what contct explain --json writes.
  *   "kernels"          ["fortran", "cpp"]; one or two kernels of the 1989 rule
  *   "engine"           "refactor"
- *   "step", "increment"  the number, from 1, of the only step and of the only increment in a step to explain;
- *                        without these options, all are explained */
+ *   "step", "increment"  the only step, and the only increment in a step, to explain, from 1; default: all */
 CONTCT_SERVE_EXPORT char* contct_explain(const char* problem, const char* options);
 
 /* Bounds the errors of given states. "result" is that of contct_run without increments: `w`, `pairs`,
@@ -109,8 +107,7 @@ typedef void contct_kernel_function(const double dd[], const double dtest[], con
  * it with a leading kernel. "result" is what contct fuzz --json writes; "exit" is 1 if the two differ.
  *   "leader"  "fortran"
  *   "name"    "function": the name of the caller's kernel
- *   "calls", "problems", "seed"
- *             20000, 40, 1989: as --calls, --problems and --seed of contct fuzz */
+ *   "calls"   20000; "problems" 40; "seed" 1989: as --calls, --problems and --seed of contct fuzz */
 CONTCT_SERVE_EXPORT char* contct_judge(contct_kernel_function* kernel, const char* options);
 
 /* contct replay: sends the calls of a trace to a kernel. "result": { "kernel", "calls", "values_compared",

@@ -22,8 +22,7 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
                     file, dofs(p.geometry), most_exact_dofs));
 }
 
-/// Returns what `find` returns. An exception of `find` becomes std::invalid_argument, whose message begins
-/// with `name`.
+/// Returns what `find` returns. Its exceptions become std::invalid_argument, with `name` before the message.
 template <class Find>
 auto naming(const std::string& name, const Find& find) {
   try {

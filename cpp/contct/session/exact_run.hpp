@@ -1,5 +1,4 @@
-// Follows the exact path of a problem, and compares the paths of kernels with the exact path. Refuses
-// problems that would take too much time or memory.
+// Follows the exact path of a problem, and compares the paths of kernels with the exact path.
 #pragma once
 
 #include <string>
@@ -26,10 +25,9 @@ struct exact_run {
   std::vector<kernel_digits> kernels;  ///< in the order of exact_request::kernels
 };
 
-/// Follows the exact path of `p`, then the path of each kernel to compare. `tell` is called before every
-/// increment of the exact path; `shown` observes the paths of the kernels; `tell` and `shown` may be null.
-/// Throws std::invalid_argument, naming the file, if the problem is too large, a matrix is not positive
-/// semidefinite, or numbers become too long.
+/// Follows the exact path of `p`, then that of each kernel. `tell` is called before every increment of the
+/// exact path, `shown` observes the kernels; both may be null. Throws std::invalid_argument, naming the file,
+/// if the problem is too large, a matrix is not positive semidefinite, or numbers become too long.
 [[nodiscard]] exact_run run_exactly(const problem& p, const exact_request& wanted,
                                     const exact_progress& tell = nullptr, observer* shown = nullptr);
 

@@ -27,8 +27,7 @@ struct load_words {
   std::string after{};
 };
 
-/// The words for a load of only settlements or only moves of faces; if there are several, for the largest
-/// one.
+/// The words for a load of only settlements or only moves of faces: for the largest of several.
 load_words motion_words(const model& m, const std::string& verb, const std::vector<nodal_value>& all) {
   const auto amount = [](const nodal_value& g) { return product_of<double>(g.value, g.factor); };
   const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });

@@ -20,13 +20,11 @@ class load_path {
   /// The resultant of that load. A sum that is only rounding is 0. `step` is at least 1.
   [[nodiscard]] resultant resultant_at(int step, double fraction) const;
 
-  /// True if the load at the start or the end of the step has more than 32 parts. A distributed load on
-  /// elements that are not consecutive counts as one part for each element.
+  /// True if the load at either end of the step has over 32 parts. Scattered elements are separate parts.
   [[nodiscard]] bool has_many_parts(int step) const;
 
   /// The load in words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load, with at
-  /// most six digits. If the words are longer than `width` characters, leaves out the place, then the kind of
-  /// load; returns "" if even the number is too long.
+  /// most six digits. Only the number, or "", if the words do not fit into `width` characters.
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:

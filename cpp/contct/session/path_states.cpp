@@ -77,8 +77,7 @@ void path_states::begin_step(int step) {
   if (total_load_.from_zero(step)) std::ranges::fill(before_, 0.0);
 }
 
-/// Factors K with the springs of all pairs at the first call. False if K has no factor, because supports and
-/// all pairs together do not hold the structure.
+/// Factors K with the springs of all pairs, once. False if supports and all pairs do not hold the structure.
 bool path_states::can_be_solved() {
   if (stiffness_ || unsolvable_) return !unsolvable_;
   unsolvable_ = !structure_.is_held(structure_.held_by([](std::size_t) { return true; }));

@@ -18,12 +18,10 @@ struct path_moment {
   int at;                             ///< number of increments since the start of the path
 };
 
-/// Lists the states in the order of the path. The last increment of a step and the end of the step are one
-/// entry, unless a fallback ended the step.
+/// The states of a path in order. A step's last increment and end are one entry, unless a fallback ended it.
 [[nodiscard]] std::vector<path_moment> moments_of(const run_result& r);
 
-/// Increments that end at this share of a step or before count as its beginning, in which pairs separate from
-/// faces that they only touched.
+/// Increments up to this share of a step are its beginning, where pairs separate that only touch their faces.
 inline constexpr double first_load = 1e-12;
 /// Removes all but the last of the increments at the beginning of each step (see first_load).
 [[nodiscard]] std::vector<path_moment> without_first_moves(std::vector<path_moment> all);
@@ -41,8 +39,7 @@ class path_states {
   /// `r` must outlive this object.
   explicit path_states(const run_result& r);
 
-  /// The state at a moment. Within a step, its displacement is empty if supports and all pairs together do
-  /// not hold the structure.
+  /// The state at `m`. Within a step, it has no displacement if supports and pairs cannot hold the structure.
   [[nodiscard]] structure_state at(const path_moment& m);
 
  private:
@@ -61,16 +58,14 @@ class path_states {
 
 inline constexpr std::size_t most_pictures = 120;
 
-/// The states within steps on a page have at most this number of bytes in total; if one state is larger, the
-/// page has none.
+/// The most bytes of all states within steps on a page; the page has no such states if one has more bytes.
 inline constexpr std::size_t most_bytes_of_page = 6'000'000;
 
 /// The approximate size of a state as text.
 [[nodiscard]] std::size_t bytes_of_state(const problem& p);
 
-/// The states for pictures: the unloaded structure, then states along the path; at most `most` in total. The
-/// limit is lower, but never below 4, if the states would contain more than `most_numbers` displacements in
-/// total.
+/// The states for pictures: the unloaded structure, then states along the path, at most `most`. Five states
+/// or more have at most `most_numbers` displacements in total.
 [[nodiscard]] std::vector<structure_state> pictures_of(const run_result& r, std::size_t most = most_pictures,
                                                        std::size_t most_numbers = 16'000'000);
 

@@ -10,8 +10,7 @@
 namespace contct {
 namespace {
 
-/// Converts numbers of nodes and elements, from 0, between a mesh and the mesh of half the element size. A
-/// plate is numbered row by row.
+/// Converts node and element numbers, from 0, between a coarse mesh and the mesh of half the element size.
 struct halved_grid {
   explicit halved_grid(const model& m)
       : columns(std::holds_alternative<plate>(m.kind) ? std::get<plate>(m.kind).columns() : nodes(m)),
@@ -20,8 +19,7 @@ struct halved_grid {
   [[nodiscard]] int node(int coarse) const {
     return 2 * (coarse / columns) * fine_columns() + 2 * (coarse % columns);
   }
-  /// The nodes of the coarse mesh around a node of the fine mesh: 2 if the node halves an edge, 4 if it is
-  /// inside an element, otherwise only the node itself.
+  /// The coarse nodes around a fine node: 2 on an edge, 4 inside an element, otherwise the node itself.
   [[nodiscard]] std::vector<int> around(int fine) const {
     const int i = fine % fine_columns();
     const int j = fine / fine_columns();
@@ -43,8 +41,7 @@ struct halved_grid {
   int columns, rows;
 };
 
-/// Halves every interval of the coordinates `x`. The two halves are recorded as a run of equal elements,
-/// because the middle in `x` is rounded.
+/// Halves every interval of `x`, and records the halves as equal elements, because the middle is rounded.
 void halve(std::vector<double>& x, std::vector<even_run>& runs) {
   for (std::size_t i = 1; i < x.size() && (i > 1 || runs.empty()); ++i) runs.push_back({x[i], 1});
   for (even_run& run : runs) run.elements *= 2;
@@ -104,8 +101,7 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
   }
 }
 
-/// Adds bed `b` of `p` to the finer problem. The face of a new node is the mean of the faces around the node,
-/// or the value of the bed's polynomial.
+/// Adds bed `b` of `p` to the finer problem. New faces are means of neighbours, or the polynomial's values.
 void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& fine) {
   std::map<int, double> faces;
   for (std::size_t i = 0; i < b.share.size(); ++i)

@@ -13,8 +13,7 @@
 namespace contct {
 namespace {
 
-/// The name of the engine for the 1989 path: the requested engine; otherwise that of 1989, one factorisation
-/// at each increment, if calls are kept or it takes about 0.1 s or less; otherwise the fastest engine.
+/// The requested engine; by default that of 1989, unless it takes over 0.1 s and no calls are kept.
 std::string engine_beside(const run_result& answer, const run_request& wanted, bool calls_are_kept,
                           const kernel_facts& leader) {
   constexpr double most_work = 1e8;       // multiplications in about 0.1 s
@@ -30,8 +29,7 @@ std::string engine_beside(const run_result& answer, const run_request& wanted, b
   return is_short ? "refactor" : std::string(quickest_engine(s));
 }
 
-/// Removes the first event of `from` that equals `e` and, if `at` is given, happens at share `at`. Returns
-/// the share of the removed event; empty if there is none.
+/// Removes event `e` (at share `at`, if given) from `from`. Returns its share; empty if it is not found.
 std::optional<double> take_event(std::vector<timed_event>& from, const event& e, std::optional<double> at) {
   const auto found = std::find_if(from.begin(), from.end(), [&](const timed_event& t) {
     return t.what == e && (!at || std::abs(t.fraction - *at) <= same_share);
@@ -42,9 +40,8 @@ std::optional<double> take_event(std::vector<timed_event>& from, const event& e,
   return share;
 }
 
-/// Compares a step with `others`, the events of the 1989 path in this step. Removes from `others` the events
-/// that both paths have. Assigns each remaining event to the first increment of the answer that ends at or
-/// after the event. `limit`: the share of the step at which the 1989 path ended.
+/// Compares a step with `others`, the events of the 1989 path up to share `limit`, where that path ended.
+/// Removes events of both paths from `others`; lists each other event at the next increment of the answer.
 std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_event>& others, double limit) {
   std::vector<row_of_1989> rows(answer.increments.size());
   std::vector<std::pair<row_of_1989*, event>> alone;

@@ -26,8 +26,7 @@ struct row_of_1989 {
   bool reached = true;                      ///< false: the 1989 path ended before this increment
 };
 
-/// The number at the end of a step in which the 1989 rule and the answer differ most, relative to the largest
-/// number of the same kind (see allowed_errors).
+/// The number in which the end of a step by the 1989 rule differs most from the answer.
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< kind of the number
@@ -53,9 +52,8 @@ struct rule_1989 {
 /// Two shares of a step are the same if they differ by at most this number.
 inline constexpr double same_share = 1e-6;
 
-/// Follows the path of the 1989 rule for the problem of `answer`, and compares the path with `answer`. The
-/// observers `shown` observe the path. `calls_are_kept`: the calls are written to files, so the default
-/// engine is that of 1989, even if it is slow.
+/// Follows the path of the 1989 rule, and compares it with `answer`. `shown` observe the path.
+/// `calls_are_kept`: calls are written to files, so the default engine is that of 1989, however slow.
 [[nodiscard]] std::shared_ptr<const rule_1989> follow_rule_1989(const run_result& answer,
                                                                 const run_request& wanted,
                                                                 bool calls_are_kept, recorded_parts parts,

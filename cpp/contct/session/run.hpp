@@ -56,12 +56,10 @@ class run {
   /// The observers `shown`, which show the progress, are called after the comparison and the certificate.
   void go(const run_outputs& outputs, const std::vector<observer*>& shown = {});
 
-  /// Finds the ends of the steps with half the element size, and sets result.refined if both meshes are
-  /// solved. Throws std::invalid_argument as refined does.
+  /// Finds the ends of the steps with half the element size, and sets result.refined. Throws as refined does.
   void refine();
 
-  /// Follows the path of kernel `name`, and adds the comparison with the leader's path to the result. Needs
-  /// go() with wanted.free_run before.
+  /// After a go() in free run: follows the path of kernel `name`, and compares it with the leader's path.
   const compared_path& follow_alone(const std::string& name);
 
   /// The exit status without --strict.

@@ -74,8 +74,7 @@ class run_recorder final : public observer {
  public:
   static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< calls, pairs, bytes
 
-  /// `compared` compares the kernels; null for a single kernel. It must outlive this object, and must observe
-  /// each call before this object.
+  /// `compared`, null for a single kernel, must outlive this object and observe each call before this object.
   explicit run_recorder(const lockstep* compared = nullptr, recorded_parts parts = {})
       : compared_(compared), parts_(parts) {}
 
@@ -162,14 +161,13 @@ template <class Comparing>
 
 /// Returns the problem with every element of a beam divided in two, or of a plate in four. Loads, supports
 /// and [[contact]] keep their places. A new node is on a bed if each of its neighbours is on the bed or fixed
-/// in w, and at least one neighbour is on the bed. On a plate, a dof of a new node is fixed if the dof is
-/// fixed at all neighbours; its settlement is the mean of the neighbours' settlements. Throws
-/// std::invalid_argument for a matrix.
+/// in w, and at least one neighbour is on the bed. On a plate, a dof of a new node is fixed if it is fixed at
+/// all neighbours, and settles by their mean. Throws std::invalid_argument for a matrix.
 [[nodiscard]] problem refined(const problem& p);
 
-/// Compares the results of two meshes, which must both be solved. Returns the largest difference in any step
-/// for each kind of number: the extremes ("w", "moment", "shear", "mx", ..), the contact forces of
-/// [[contact]] ("force"), the "pressure" of beds and the reactions of a beam ("reaction").
+/// Returns the largest difference, in any step, of each kind of number of two solved meshes: the extremes
+/// ("w", "moment", "shear", "mx", ..), the contact forces of [[contact]] ("force"), the "pressure" of beds
+/// and the reactions of a beam ("reaction").
 [[nodiscard]] std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine);
 
 }  // namespace contct

@@ -258,8 +258,7 @@ envelope_curves begun(const beam& b) {
   return all;
 }
 
-/// Widens the curves by one state. Values at the ends of an element are the known ones, without the rounding
-/// of its polynomials.
+/// Widens the curves by one state. Values at ends of elements are not taken from polynomials, which round.
 void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s) {
   const int parts = parts_of(b);
   std::size_t place = 0;

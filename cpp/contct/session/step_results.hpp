@@ -17,9 +17,8 @@ namespace contct {
 /// `node` counts from 0; `u`: displacements [dofs].
 [[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
 
-/// The nodes whose displacement is a deflection, from 0: all nodes of a beam or plate. In a matrix, where
-/// each dof is a node: the dofs of pairs and, if places are known, the dofs along an axis; all dofs if there
-/// are no pairs and no places.
+/// The nodes whose displacement is a deflection, from 0: all nodes of a beam or plate. In a matrix the dofs
+/// of pairs and, if known, the dofs along an axis; all dofs if both are missing.
 [[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
 
 /// The name of a node in tables: its number, from 1, or its label in a matrix.
@@ -43,8 +42,7 @@ struct pair_reading {
   pair_state look;
   double face;  ///< the position of the face, with its move
 };
-/// The reading of pair `p` at deflection `w`. The face of `p` must be at its moved position (see
-/// pairs_under).
+/// The reading of pair `p`, with its face already moved (pairs_under), at deflection `w`.
 [[nodiscard]] pair_reading reading_of(const contact_pair& p, double w, bool closed);
 
 /// The results of one state. Pairs, supports and nodes count from 0.
@@ -54,8 +52,7 @@ struct step_results {
   element_results stresses;         ///< see stresses_of
   std::vector<double> reactions;    ///< [supports]
   std::vector<pair_reading> pairs;  ///< [pairs]
-  /// The pieces of each element (from 0) in which loads begin, end or act, or impose a curvature: see
-  /// beam_lines.
+  /// By element, from 0: its pieces, if loads begin, end, act or impose a curvature inside (see beam_lines).
   std::map<std::size_t, std::vector<element_line>> pieces = {};
 
   /// The pair with the largest contact force; empty if no pair has one.
@@ -68,8 +65,7 @@ struct step_results {
 [[nodiscard]] step_results numbers_of(const problem& p, const load& l, const structure_state& s);
 [[nodiscard]] step_results results_of(const problem& p, const load& l, const structure_state& s);
 
-/// The sums of the upward forces on a structure. In equilibrium the three sums add up to 0, except for
-/// rounding.
+/// The sums of the upward forces on a structure, which add up to 0 in equilibrium, except for rounding.
 struct force_balance {
   double loads, reactions, contact;
 };
@@ -94,8 +90,7 @@ struct penetration {
   double x = 0.0;                     ///< the position with the largest depth
   std::size_t first = 0, second = 0;  ///< the pairs, from 0
 };
-/// The deepest penetration of a beam at displacements `u` [dofs] under load `l`; empty if the depth is at
-/// most a thousandth of the largest deflection, and for other structures.
+/// The deepest penetration of a beam; empty if the depth is at most a thousandth of the largest deflection.
 [[nodiscard]] std::optional<penetration> deepest_penetration(const problem& p, const load& l,
                                                              std::span<const double> u);
 

@@ -65,8 +65,7 @@ class text_lines {
   [[nodiscard]] double real(std::string_view field, std::string_view what, bool fortran = false) const;
 
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
-  /// Refuses the present line if it has no line end: it may be truncated, and a truncated number may still
-  /// parse.
+  /// Refuses the present line if it has no line end: if it is truncated, its last number may still parse.
   void refuse_unended() const;
 
  private:

@@ -72,8 +72,7 @@ int copy_all(int from, int to) {
 
 }  // namespace
 
-/// Opens a file without a name in the folder of the target, so that a folder without write permission is
-/// refused at once.
+/// Opens a file without a name in the target's folder, so that an unwritable folder is refused at once.
 output_file::output_file(std::string path) : path_(std::move(path)) {
   if (is_standard_output()) {
     file_ = stdout;
@@ -122,8 +121,7 @@ void output_file::finish() {
 void output_file::give_name() const {
   const signals_wait until_named;
   std::error_code ignored;
-  // Before the copy is made, because an exception here (no memory) would leave the copy behind.
-  const bool replaces = fs::exists(target_, ignored);
+  const bool replaces = fs::exists(target_, ignored);  // before the copy exists, since this may throw
   std::string name;
   const int copy = open_beside(target_, name);
   if (copy < 0) fail(errno);

@@ -32,10 +32,9 @@ class output_error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that gets its name in `finish`; if the process ends before `finish`, no file remains. If the path
-/// is a symbolic link, its target is replaced. "-" is standard output. A path that exists but is not a
-/// regular file, such as a device, is written directly. The constructor, `write` and `finish` throw
-/// output_error.
+/// A file that gets its name in `finish`: if the process ends before `finish`, no file remains. Of a symbolic
+/// link, the target is replaced. "-" is standard output. A path that exists and is not a regular file, such
+/// as a device, is written directly. Constructor, `write` and `finish` throw output_error.
 class output_file {
  public:
   explicit output_file(std::string path);

@@ -36,8 +36,8 @@ bool is_obeyed(char32_t c) {
   return control || (c >= 0x202a && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
 }
 
-/// Replaces every character for which is_obeyed is true, except those in `kept`, and every byte that is not
-/// UTF-8 by `replacement(bytes)`.
+/// Replaces by `replacement(bytes)` every character of is_obeyed that is not in `kept`, and every byte that
+/// is not UTF-8.
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
   const auto plain = [](char c) { return c >= ' ' && c <= '~'; };

@@ -65,8 +65,7 @@ template <class Json>
 }
 
 /// Returns " (did you mean \"stiffness\"?)" with the word of `known` nearest to `found`; of equally near
-/// words, the first. Empty if even the nearest word needs more edits than a third of its letters (1 is always
-/// allowed). Case is ignored.
+/// words, the first. Empty if every word needs more edits than a third of its letters.
 [[nodiscard]] std::string did_you_mean(std::string_view found, std::span<const std::string> known);
 
 }  // namespace contct

@@ -103,8 +103,7 @@ class exact_printer {
     }
   }
 
-  /// Prints the proof that a step has no equilibrium: the rigid-body motion, as the deflections of nodes, and
-  /// the work of the load.
+  /// Prints the proof that a step has no equilibrium. The rigid-body motion is given by deflections of nodes.
   void print_mechanism(const mechanism_proof& proof) {
     const auto at = std::ranges::find(r_.path.steps, path_status::mechanism, &exact_step_end::status);
     const std::string where =

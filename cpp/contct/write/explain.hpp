@@ -42,12 +42,10 @@ inline constexpr listing_line no_line{0, {}};
 /// Explains how the listing computes the s of a pair: the body of its DO 10 loop.
 [[nodiscard]] std::vector<sentence> scale_factor_story(const explained_pair& p);
 
-/// Explains which pair has the smallest s, and which pair is next: the IF after the DO 10 loop, which returns
-/// if no pair has an event.
+/// Explains which pair has the smallest s, and which is next: the IF after the DO 10 loop.
 [[nodiscard]] std::vector<sentence> winner_story(const explained_call& c);
 
-/// Explains whether and why the listing toggles the ISEP of a pair: the body of its DO 30 loop. The call must
-/// have an event.
+/// Explains why the listing toggles the ISEP of a pair or not: its DO 30 loop. The call must have an event.
 [[nodiscard]] std::vector<sentence> toggle_story(const explained_call& c, const explained_pair& p);
 
 /// The difference between `first` and `second` in ULP of a REAL of `real_bytes`.

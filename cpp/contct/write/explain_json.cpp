@@ -33,8 +33,7 @@ json branches_json(const explained_pair& p) {
   return list;
 }
 
-/// A number of each kernel, with the difference in ULP. `second` is null if there is only one kernel, or no
-/// answer.
+/// A number of the kernels, with the difference in ULP; `second` is null without a second answer.
 json both_json(const explained_kernels& of, double first, const double* second) {
   json out = {{of.names[0], hexfloat(first)}};
   if (second == nullptr) return out;

@@ -56,8 +56,7 @@ class increment_printer {
     for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
-  /// Adds a sentence as "  38  s = GAP / d* = 0.25.     (4)". On a wide terminal, adds the statement of the
-  /// line before the sentence.
+  /// Adds a sentence as "  38  s = GAP / d* = 0.25.     (4)", with the statement on a wide terminal.
   void say(const sentence& t, bool loud = false) {
     constexpr int margin = 6;
     constexpr int statement_width = 49;
@@ -166,8 +165,7 @@ std::string pairs_toggled(const explained_call& c, why_toggled why) {
   return fmt::format("{}", fmt::join(pairs, ", "));
 }
 
-/// Returns the events of an increment, "make 1, break 3", and the pairs that were toggled wrongly, "too
-/// early: 3".
+/// Returns the events of an increment, "make 1, break 3", and wrongly toggled pairs, "too early: 3".
 std::vector<std::string> summary_words(const explained_increment& i) {
   constexpr std::size_t most_named = 12;
   const std::span<const event> events = i.what.events;

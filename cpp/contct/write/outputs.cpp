@@ -16,8 +16,7 @@ extern const std::string_view report_html, report_css, result_js, picture_js, re
 
 namespace {
 
-/// The result as the text of an HTML script element. The text has no "<", so strings of the result cannot act
-/// as markup.
+/// The result as text of an HTML script element: without "<", so that strings cannot act as markup.
 std::string script_text(const run_result& r) {
   std::string text;
   output_file out(&text);

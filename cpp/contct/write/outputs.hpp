@@ -18,15 +18,13 @@ namespace contct {
 /// result in tables, and contains the parallel edition of the two kernels, folded.
 [[nodiscard]] std::string run_page(const run_result& r);
 
-/// A state as an unstructured grid in VTK's XML format: a line or quadrilateral for each element, and a
-/// vertex for each pair (a line for a pair between two nodes), in the undeformed structure. Beams lie along
-/// x, plates in x and y, and z is up. In cells of pairs "state" is 0 (separated), 1 (in contact) or 2 (at its
-/// face); in cells of elements "state" is -1 and "pair" 0. A matrix has cells only if the positions of nodes
-/// are known: a line for each edge, and no cell for a pair at a dof without a position.
+/// A state as an unstructured grid in VTK's XML format: lines or quadrilaterals, and a vertex for each pair
+/// (a line between two dofs), in the undeformed structure. Beams lie along x, plates in x and y, and z is up.
+/// In cells of pairs "state" is 0 (separated), 1 (in contact) or 2 (at its face); in cells of elements
+/// "state" is -1 and "pair" 0. Of a matrix, edges and pairs have cells if their positions are known.
 [[nodiscard]] std::string vtu_of_state(const problem& p, const structure_state& s);
 
-/// A VTK collection of `count` files of states, which ParaView shows as a series; "timestep" counts from 0.
-/// `stem`: see name_of_state.
+/// A VTK collection of `count` files of states; "timestep" counts from 0. `stem`: see name_of_state.
 [[nodiscard]] std::string pvd_of_states(const std::string& stem, std::size_t count);
 
 /// Returns "out.007.vtu" for the stem "out" and number 7.
@@ -41,10 +39,9 @@ namespace contct {
 /// state of a fallback. `pairs` may be null.
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs);
 
-/// Writes the states at the ends of steps in the format of write_csv. Beams: a row for both ends of each
-/// element, and for the places inside an element where w, moment or shear is extreme; with stress, if section
-/// moduli are known. Plates: a row for each node; with the largest von Mises stress of the elements at the
-/// node, if the thickness is known. Matrices: a row for each dof.
+/// Writes the states at the ends of steps in the format of write_csv. Beams: the ends of each element, and
+/// the places inside where w, moment or shear is extreme; stress, if section moduli are known. Plates: nodes;
+/// if the thickness is known, the largest von Mises stress of the elements at a node. Matrices: dofs.
 void write_states_csv(const run_result& r, output_file& out);
 
 /// Writes the least and the largest w, moment and shear along a beam over the states of the envelope, with
@@ -63,8 +60,7 @@ struct run_table {
 [[nodiscard]] run_table table_of(const run_result& r, const terminal& t, bool detail);
 
 /// An exact path as text: events with their shares and loads, the ends of the steps, and the kernels. A
-/// number is written as a fraction if the fraction has at most `digits` digits, otherwise as a decimal of
-/// `digits` digits.
+/// fraction of more than `digits` digits is written as a decimal of `digits` digits.
 [[nodiscard]] std::string exact_text(const exact_run& r, int digits, const terminal& t);
 
 /// Writes an exact path as JSON, format "contct-exact-1". Every number is a string "p/q" or "p".

@@ -170,8 +170,7 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
   return out;
 }
 
-/// The states within steps that are written: every n-th state, so that all together have about `most_bytes`
-/// or less.
+/// The states within steps to be written: every n-th, so that all have about `most_bytes` or less in total.
 std::map<const increment_record*, path_moment> states_within(const run_result& r, std::size_t most_bytes) {
   std::vector<path_moment> within = moments_of(r);
   std::erase_if(within, [](const path_moment& m) { return m.is_end; });
@@ -238,8 +237,7 @@ class result_writer {
     return results_of(r_.what, loads_.at(s.step, s.fraction), s);
   }
 
-  /// The lists of pairs, reactions and elements in state `s` with the results `read`, which must both outlive
-  /// the lists. Coordinates of elements are included only at ends of steps.
+  /// The lists of a state; `read` and `s` must outlive the lists. Elements have coordinates only if `is_end`.
   [[nodiscard]] std::vector<json_document::list> lists(const step_results& read, const structure_state& s,
                                                        bool is_end = false) const {
     const problem& p = r_.what;

@@ -1,5 +1,4 @@
-// Writes the result of a run as JSON, format "contct-result-1". The other JSON outputs use the functions of
-// this file too.
+// Writes the result of a run as JSON, format "contct-result-1", and parts for other JSON outputs.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,7 @@
 
 namespace contct {
 
-/// A list of entry(element) for each element of `range`. This is a template so that only its callers include
-/// the JSON library.
+/// A list of entry(element) for each element of `range`. Only its callers must include the JSON library.
 template <class Json = nlohmann::ordered_json, class Range, class Entry>
 [[nodiscard]] Json list_of(const Range& range, Entry entry) {
   Json list = Json::array();
@@ -62,8 +60,7 @@ class json_document {
 /// The unit labels of a problem; null if it has none.
 [[nodiscard]] nlohmann::ordered_json units_json(const unit_labels& units);
 
-/// { "w": .., "force": .. }: the proved bound on the errors of each kind of number at the end of a step; null
-/// for a kind without a proof.
+/// The proved bounds on the errors at the end of a step, { "w": .., .. }; null for a kind without a proof.
 [[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
 
 /// The certificate of a step in result files; null if there is none.
@@ -79,8 +76,7 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 
-/// placed_nodes_of: the number of nodes whose position is known. node_json: number (or name) and coordinates
-/// of such a node, from 0.
+/// The number of nodes whose positions are known; and such a node, from 0, with name and coordinates.
 [[nodiscard]] std::size_t placed_nodes_of(const model& m);
 [[nodiscard]] nlohmann::ordered_json node_json(const model& m, std::size_t node);
 
@@ -90,8 +86,7 @@ class json_document {
 /// A support: its "node", and the name of its "dof".
 [[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
 
-/// The JSON of pair `i` (from 0), of an event, and of a pair in a state, with the same keys in results and
-/// exact paths.
+/// Pair `i` (from 0); an event; a pair in a state. The keys are the same in results and exact paths.
 [[nodiscard]] nlohmann::ordered_json pair_json(const problem& p, std::size_t i);
 [[nodiscard]] nlohmann::ordered_json event_json(const problem& p, const event& e);
 [[nodiscard]] nlohmann::ordered_json pair_state_json(const problem& p, std::size_t i, int isep,
@@ -102,8 +97,7 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json reaction_json(const problem& p, std::size_t i,
                                                    const nlohmann::ordered_json& value);
 
-/// Adds a node, from 0, to `entry`: "node": 3, or "dof": "185.3" in a matrix, with "other" if `other` is not
-/// negative.
+/// Adds a node, from 0, to `entry`: "node": 3, or "dof": "185.3" and "other" in a matrix.
 void put_place(nlohmann::ordered_json& entry, const model& m, int node, int other = -1);
 
 /// The proof of the error bounds of a run, for independent checkers (--proof): format "contct-proof-2" of

@@ -58,8 +58,7 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
                 csv_field(r.what.steps[step - 1].name));
 }
 
-/// The readings of all pairs at a moment: at the end of a step from the displacements, within a step from the
-/// D of the increment.
+/// The readings of all pairs, from the displacements at the end of a step, or from the D of an increment.
 std::vector<pair_reading> readings_at(const problem& p, const load& l, const path_moment& m) {
   const std::vector<contact_pair> now = pairs_under(p, l);
   std::vector<pair_reading> all;

@@ -50,8 +50,7 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// The largest magnitude of each quantity so far, by name. A value that is only rounding of this magnitude is
-/// printed as 0.
+/// The largest magnitude of each quantity so far, by name. Values that are only its rounding print as 0.
 using sizes_so_far = std::map<std::string, double, std::less<>>;
 
 /// Returns `value`, or 0 if `value` is only rounding of the larger values of this name. Updates `sizes`.
@@ -61,8 +60,7 @@ double without_rounding(std::string_view name, double value, sizes_so_far& sizes
   return std::abs(value) <= 1e-12 * size ? 0.0 : value;
 }
 
-/// The range of the moment, on a plate of mx, my or mxy, with the largest magnitude; null if the structure
-/// has no moments.
+/// The range of the moment (mx, my or mxy of a plate) with the largest magnitude; null without moments.
 const value_range* bending(const std::vector<value_range>& ranges) {
   const value_range* most = nullptr;
   for (const value_range& r : ranges) {
@@ -192,8 +190,7 @@ std::string detail_tables(const problem& p, const structure_state& s, const step
   return text;
 }
 
-/// Returns the events that differ under the 1989 rule. "1989: make 3 at 0.51": pair 3 makes contact at share
-/// 0.51 of the step. "1989: no make 3": pair 3 does not make contact in this step.
+/// Returns the events that differ: "1989: make 3 at 0.51" (share of the step), "1989: no make 3" (pair 3).
 std::vector<std::string> words_of_1989(const row_of_1989& row) {
   std::vector<std::string> words;
   for (const other_event& e : row.otherwise) {
@@ -289,8 +286,7 @@ class table_printer {
     return events;
   }
 
-  /// Prints the increments at the beginning of a step as one row with the numbers of makes and breaks. A
-  /// single increment with at most 3 events has the usual row.
+  /// Prints the increments at the beginning of a step as one row, with counts of events if there are many.
   void print_first_load(increments begun, const row_of_1989& other) {
     std::set<int> makes;
     std::set<int> breaks;
@@ -329,8 +325,7 @@ class table_printer {
     return all;
   }
 
-  /// The text of a row in the column "1989" or "kernels"; empty if there is no such column. A painted text is
-  /// padded to the width of the column here.
+  /// The text of a row in the column "1989" or "kernels", padded if painted; empty without such a column.
   [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const {
     if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
     if (!run_.compared) return "";
@@ -433,8 +428,7 @@ class table_printer {
     }
   }
 
-  /// Prints the least and the largest value of each quantity over all combinations, with the combination that
-  /// has it.
+  /// Prints the least and largest value of each quantity, each with its combination.
   void print_envelope() {
     const envelope e = envelope_of(run_);
     std::string lines;
@@ -483,8 +477,7 @@ class table_printer {
   bool events_below_ = false;              // on a narrow terminal events have separate lines
   bool headed_ = false, snapped_ = false;  // true: a heading, a snap was printed
   sizes_so_far sizes_;
-  /// By the index of a quantity in step_results::ranges: the number of each step, and the range of the
-  /// quantity.
+  /// By the index of a quantity in step_results::ranges: each step (from 1) with its range.
   std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;
   std::string text_;
 };

@@ -13,8 +13,7 @@
 namespace contct {
 namespace {
 
-/// The number of correct digits at a relative error, in words; at most "10 digits or more", because further
-/// digits depend on the LAPACK in use.
+/// The number of correct digits at a relative error, up to 10: further digits depend on the LAPACK in use.
 std::string digits_words(double error) {
   constexpr int enough = 10;
   const int digits = error > 0.0 ? static_cast<int>(-std::log10(error)) : enough;

@@ -59,14 +59,12 @@ constexpr std::string_view end_reason(path_status status) {
 /// Returns "step 3", or "combination \"ULS 1\"" if steps start from zero. `step` counts from 1.
 [[nodiscard]] std::string step_words(const problem& p, int step);
 
-/// One line for a whole run, in parts. It tells that the run is certified and with how many digits, or which
-/// step is the first that is not certified. A run that is not `solved` is not certified; the line then names
-/// its certified steps.
+/// One line for a whole run, in parts: that it is certified, with how many digits, or the first step that is
+/// not certified. A run that is not `solved` is not certified; its certified steps are named.
 [[nodiscard]] std::vector<std::string> certificate_summary(const run_result& r, bool solved);
 
-/// One line for every step that is not certified: the error and the allowed error, the pair that pulls most,
-/// and the increment up to this step in which a pair made or broke contact farthest from its face. Of many
-/// combinations only the first ones.
+/// One line for every step (the first ones of many combinations) that is not certified: the error, the pair
+/// that pulls most, and the increment so far in which a pair made or broke contact farthest from its face.
 [[nodiscard]] std::vector<std::string> certificate_complaints(const run_result& r);
 
 /// The reason why a path ended early: step, share of the step, and the pairs involved; empty if the path is
@@ -94,12 +92,10 @@ constexpr std::string_view end_reason(path_status status) {
 /// The warnings of the problem, without file and line, and the warnings about the states of the run.
 [[nodiscard]] std::vector<std::string> warnings_of(const run_result& r);
 
-/// The changes of the results if the element size is halved, one part for each kind of number; empty if
-/// r.refined is empty.
+/// The changes in r.refined in words, one part for each kind of number.
 [[nodiscard]] std::vector<std::string> refinement_words(const run_result& r);
 
-/// The certificate_complaints and advice: to reduce the stiffness of a pair, or, if the 1989 rule leads, the
-/// command for the corrected rule.
+/// certificate_complaints, with advice: a lower stiffness of a pair, or the command for the corrected rule.
 [[nodiscard]] std::vector<std::string> complaints_of(const run_result& r);
 
 /// The lines of complaints_of, the reason why the path ended early, and the warnings about the states.

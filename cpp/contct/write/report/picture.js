@@ -79,8 +79,7 @@ function stateWords(f) {
 
 const cuts = new Set();  // sentences that tell what the page leaves out
 
-// Chooses `count` numbers evenly from 0 to `all` - 1, including the first and the last; every number if there are at
-// most `count`.
+// `count` evenly chosen numbers from 0 to `all` - 1, with the first and the last; all if there are at most `count`.
 const evenly = (all, count) => Array.from({ length: Math.min(all, count) }, (_, i) => (all <= count ? i : Math.floor((i * (all - 1)) / (count - 1))));
 
 function some(what, all, most) {
@@ -115,8 +114,7 @@ function canvas(holder, width, height, title) {
   return root;
 }
 
-// True while the page is printed. On paper, pictures have a fixed width, at which words in pictures are as large as the
-// text of the page.
+// On paper, pictures have a fixed width, at which their words are as large as the text of the page.
 let printing = false;
 const widthOf = (holder) => (printing ? 940 : Math.max(320, holder.clientWidth));
 
@@ -327,8 +325,7 @@ function drawLineLoad(root, f, { X, Y, ends }) {
   }
 }
 
-// Draws scale and title of a strip, which is a diagram along the beam, and the values `told`. Returns the vertical
-// scale.
+// Draws scale, title and the values `told` of a strip, a diagram along the beam; returns the vertical scale.
 function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high], told) {
   const height = 126;
   const Y = (v) => top + 24 + ((high - v) / (high - low || 1)) * (height - 34);
@@ -427,8 +424,7 @@ function atNodes(f, name) {
   return sum.map((s, i) => (met[i] > 0 ? (name === "pressure" ? s : s / met[i]) : 0));
 }
 
-// The colour of band `i`, from dark brown (lowest values) to pale (highest). Brightness increases steadily, for grey
-// prints.
+// The colour of band `i`, from dark brown (lowest values) to pale. Brightness increases steadily, for grey prints.
 function bandColour(i) {
   const share = field.bands > 1 ? i / (field.bands - 1) : 0.5;
   const stops = [[132, 74, 28], [186, 118, 58], [219, 165, 104], [238, 209, 163], [252, 246, 230]];
@@ -509,8 +505,7 @@ function edgesBetween([columns, rows]) {
     ...(i > 0 ? [[node(j, i - 1), node(j, i)]] : []), ...(j > 0 ? [[node(j - 1, i), node(j, i)]] : [])]));
 }
 
-// The edges to draw: if there are more than `most`, the edges that belong to the fewest elements, which are the outer
-// edges of a solid.
+// The edges to draw: at most `most`, those of the fewest elements, which are the outer edges of a solid.
 function drawnEdges(most = 20_000) {
   const { edges } = structure;
   if (edges.length <= most) return edges;
@@ -520,8 +515,7 @@ function drawnEdges(most = 20_000) {
   return order.slice(0, most).map(([e]) => e);
 }
 
-// The view along an axis on which all nodes have the same coordinate and no dof; without such an axis, the oblique
-// view.
+// The view along an axis on which all nodes have the same coordinate and no dof; otherwise the oblique view.
 function fittingView() {
   const flat = (axis) => scene.at.every((at, i) => scene.along[i][axis] < 0 && at[axis] === scene.at[0][axis]);
   const found = [2, 1, 0].findIndex(flat);
@@ -554,8 +548,7 @@ function frameScene(kept) {
   return { times, size, most, box };
 }
 
-// Finds the scales of a picture of this width. Leaves room for numbers beside the structure, and for loads and contact
-// forces above and below it.
+// The scales of a picture, with room for numbers beside the structure, and for loads and forces above and below.
 function pageOf(width) {
   const { box: [x0, x1, y0, y1], times } = scene;
   const [left, right, top] = [74, 30, 100];
@@ -566,8 +559,7 @@ function pageOf(width) {
   return { width, scale, X, Y: (w) => height(times * w), height, ends: [x0, x1], heights: [y0, y1], bottom: height(y0) + 96, spot: ([x, y]) => [X(x), height(y)] };
 }
 
-// Projects the axis of a direction onto the page: t, the projection at length 1, and its true length; null for
-// rotations and for an axis normal to the page.
+// The projection of an axis, as a vector of length 1, and its length; null for rotations and normals of the page.
 function onPage(direction) {
   if (direction < 1 || direction > 3) return null;
   const { right, up } = views[view];

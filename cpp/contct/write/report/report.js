@@ -165,8 +165,7 @@ const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" 
 const mostReactions = 1000;  // a problem with a spring at every node may have more
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
-// At most `most` of `steps`, in order: the steps whose ends have the largest values, each relative to the largest value
-// of the quantity in all steps.
+// At most `most` of `steps`, in order: those with the largest values, relative to the largest value of a quantity.
 function endsOf(what, most, steps = result.steps) {
   if (steps.length <= most) return steps;
   cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
@@ -298,8 +297,7 @@ const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 // Returns a list of ascending numbers in words: "1 to 9, 12".
 const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
 
-// Merges entries with equal `keyOf`, which differ only by place, into one row if there are `fewest` or more, but not in
-// a matrix. A row is [first entry, cells of places, all entries].
+// Merges `fewest` or more entries that differ only by place. A row is [first entry, cells of places, all entries].
 function gathered(list, keyOf, fewest = 13) {
   const groups = new Map();
   for (const one of list) groups.set(keyOf(one), [...(groups.get(keyOf(one)) || []), one]);
@@ -360,8 +358,7 @@ function showHead() {
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
 }
 
-// Puts the title into a CSS rule for the upper margin of printed pages, because a margin cannot show elements of the
-// page.
+// Puts the title into the CSS rule for the margin of printed pages, because margins cannot contain elements.
 function showTitleOnSheets(title) {
   const inCss = title.replace(/[^\p{L}\p{N} .,:;()+-]/gu, (c) => `\\${c.codePointAt(0).toString(16)} `);
   byId("sheets")?.remove();
@@ -494,8 +491,7 @@ function listen() {
   addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
 }
 
-// Prepares the page for printing: puts the input with a sketch first, and adds pictures of the ends of steps, for a
-// plate one picture for each quantity.
+// Prepares the printed page: puts the input with a sketch first, and draws the ends of steps in each quantity.
 function drawSheets() {
   byId("structure").before(byId("input"));
   if (scene === null) return;
@@ -520,8 +516,7 @@ function drawSheets() {
 // The number of the state with the largest deflection.
 const mostMoved = () => frames.reduce((best, f, i) => (Math.abs(mostOf(f).value) > Math.abs(mostOf(frames[best]).value) ? i : best), frames.length - 1);
 
-// Shows a result at state number `state`, by default the state with the largest deflection. showRest adds the parts
-// that only a report has.
+// Shows a result at `state`, by default that with the largest deflection. showRest adds what only a report has.
 function load(given, state = null) {
   read(given);
   preparePicture();

@@ -11,8 +11,7 @@ function element(name, attributes = {}, ...children) {
   return e;
 }
 
-// The result, and what read() derives from the result: dofs, pairs and supports with their positions, and the states of
-// the path (frames).
+// The result, and what read() derives from it: dofs, pairs and supports with their positions, and states (frames).
 let result, structure, places, frames, increments, ofMatrix;
 
 // The direction of each dof of a node: 1 to 3 along x, y and z, 4 to 6 about these axes. The w of a beam is along y.
@@ -122,8 +121,7 @@ function deflectionAt(f, x, e = elementAt(x)) {
   return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
 }
 
-// Moment or shear of a beam at a share of element e. The moment is the cubic with the moments and shears at the ends as
-// values and slopes; the shear is the slope of this cubic.
+// Moment or shear of a beam in element e. The moment is the cubic through the moments and shears (slopes) of the ends.
 function forceAt(f, name, [e, share]) {
   const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
   const x = from + share * (to - from);
