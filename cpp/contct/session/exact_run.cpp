@@ -98,7 +98,7 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
 /// Follows the path with kernel `name` as `contct run` does, and compares its numbers with the exact ones.
 kernel_digits digits_of_kernel(const std::string& name, const problem& p, const linear_structure& s,
                                const exact_path& exactly, observer* shown) {
-  constexpr double rounding[] = {1e-9, 1e-4};  // rounding of shares in 8 and in 4 bytes
+  constexpr double rounding[] = {1e-9, 1e-4};  // rounding of shares, REAL of 8 or 4 bytes
   const std::unique_ptr<kernel> leader = make_kernel(name);
   digit_counter counter(p, exactly);
   std::vector<observer*> all = {&counter, shown};

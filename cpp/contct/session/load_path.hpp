@@ -28,7 +28,7 @@ class load_path {
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:
-  /// The step whose load acts at the start of `step`; 0 if none does.
+  /// The step whose load acts at the start of `step`; 0 if no load acts.
   [[nodiscard]] int step_before(int step) const { return problem_.steps[step - 1].from_zero ? 0 : step - 1; }
 
   const problem& problem_;

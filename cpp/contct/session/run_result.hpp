@@ -1,4 +1,4 @@
-// The result of a run: what is recorded during the run, and how it ended. All outputs are made from it.
+// The result of a run, from which all outputs are made: what was recorded, and how the run ended.
 #pragma once
 
 #include <fmt/format.h>
@@ -72,7 +72,8 @@ struct recorded_parts {
 
 class run_recorder final : public observer {
  public:
-  static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;  ///< calls, pairs, bytes
+  /// The most calls, pairs of a call, and bytes of unit 26 that are kept.
+  static constexpr std::size_t most_calls = 1200, most_ss = 8, most_log = 200'000;
 
   /// `compared`, null for a single kernel, must outlive this object and observe each call before this object.
   explicit run_recorder(const lockstep* compared = nullptr, recorded_parts parts = {})
@@ -128,7 +129,7 @@ struct run_result {
   early_toggles early;
   path_end end;
   std::string file;                  ///< the path of the problem file as given
-  std::vector<std::string> kernels;  ///< the leader first; for both rules, those of 1989 last
+  std::vector<std::string> kernels;  ///< the leader first; for both rules, the 1989 kernels last
   std::string engine;
   std::optional<lockstep_on_path> compared;  ///< empty: no kernel was compared call by call
   std::shared_ptr<const rule_1989> beside;   ///< null: not a run of both rules, or the answer is not_factored

@@ -55,7 +55,7 @@ struct step_results {
   /// By element, from 0: its pieces, if loads begin, end, act or impose a curvature inside (see beam_lines).
   std::map<std::size_t, std::vector<element_line>> pieces = {};
 
-  /// The pair with the largest contact force; empty if no pair has one.
+  /// The pair with the largest contact force; empty if no force is positive.
   [[nodiscard]] std::optional<std::size_t> hardest_pair() const;
   /// The support with the largest force; moments on supports do not count.
   [[nodiscard]] std::optional<std::size_t> hardest_support(const problem& p) const;

@@ -55,7 +55,7 @@ class text_lines {
 
   [[nodiscard]] std::string_view here() const { return here_; }  ///< the line without its end
   [[nodiscard]] std::string_view rest() const { return rest_; }  ///< the text after the line
-  [[nodiscard]] std::int64_t line() const { return line_; }      ///< counted from 1; 0 before the first
+  [[nodiscard]] std::int64_t line() const { return line_; }      ///< from 1; 0 before the first line
   [[nodiscard]] const std::string& file() const { return file_; }
 
   /// Returns `field` as a whole number, or as a finite real; a plus sign is allowed. Refuses any other field.

@@ -46,7 +46,7 @@ struct escape {
 /// A share in per cent: "3 %", "0.0001 %".
 [[nodiscard]] std::string percent_words(double share);
 
-/// `printable` in quotation marks.
+/// As `printable`, in quotation marks.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// Describes a field or a line of a file for a message. Quotes the beginning of a text that looks like

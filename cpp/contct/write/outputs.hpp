@@ -33,10 +33,10 @@ namespace contct {
 /// A field of a CSV file, quoted if necessary.
 [[nodiscard]] std::string csv_field(std::string_view raw);
 
-/// Writes the increments of a run whose recorder keeps states, in the format of RFC 4180 and with all digits,
-/// and finishes the files. `watched` is a node from 0, or -1 for the node with the largest deflection at the
-/// ends of steps. A row of kind "end" is a step that ended without an increment, one of kind "rescue" the
-/// state of a fallback. `pairs` may be null.
+/// Writes the increments of a run whose recorder keeps states, as CSV (RFC 4180) with all digits, and
+/// finishes the files. `watched` is a node from 0, or -1 for the node with the largest deflection at the ends
+/// of steps. A row of kind "end" is a step that ended without an increment, one of kind "rescue" the state of
+/// a fallback. `pairs` may be null.
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs);
 
 /// Writes the states at the ends of steps in the format of write_csv. Beams: the ends of each element, and

@@ -235,7 +235,7 @@ namespace {
 
 /// The concentrated force on `node` of a plate, in words; empty if there is none. Moments are infinite at
 /// such a node, except at a corner, where a force causes twisting moments of half its size. Pairs of beds do
-/// not count, because each represents an area.
+/// not count, because each pair represents an area.
 std::string concentrated_at(const problem& p, const load& l, const step_results& r, int node) {
   const auto& on = std::get<plate>(p.geometry.kind);
   const place at = place_of_node(p.geometry, node);

@@ -169,7 +169,7 @@ function arrow(x, y, dx, dy, kind) {
     shape(`M${x + dx} ${y + dy}L${bx - uy * 4} ${by + ux * 4}L${bx + uy * 4} ${by - ux * 4}Z`, "", { "stroke-width": 0 }));
 }
 
-// A separated pair is a ring, a pair in contact a square; a pair at its face is a diamond, filled if in contact.
+// Draws the mark of a pair: a ring if separated, a square if in contact; at its face a diamond, filled if in contact.
 function pairMark(look, x, y, r, closed = false) {
   if (look === "o") return svg("circle", { cx: x, cy: y, r, class: "pair-open" });
   if (look === "c") return svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "pair-closed" });
@@ -289,7 +289,7 @@ function drawPoints(root, f, on) {
 
 const isBeam = () => structure.kind === "beam";
 
-// Places along the beam: nodes and places between them, as [element, share].
+// Places along the beam, at nodes and between nodes, as [element, share of the element].
 function placesAlong() {
   const stations = scene.lines[0];
   const pieces = stations.length < structure.nodes.length ? 1 : Math.ceil(240 / stations.length);
@@ -568,7 +568,7 @@ function onPage(direction) {
   return length < 0.1 ? null : { t: [x / length, y / length], length };
 }
 
-// Equal small marks at many nodes, as one path.
+// Equal small marks at many nodes, as one SVG element.
 const marksAt = (numbers, spots, mark, kind) => shape(numbers.map((i) => `M${spots[i][0].toFixed(1)} ${spots[i][1].toFixed(1)}${mark}`).join(""), kind);
 
 function drawEdges(root, spots, kind) {
@@ -603,7 +603,7 @@ function marksOn(root, page, spots, f) {
   };
 }
 
-let page = null;  // the page of the last picture
+let page = null;  // the scales of the last picture (see pageOf)
 
 // Draws state `f`. A sketch shows only the structure with supports, pairs and loads, without diagrams and colours.
 function drawPicture(f, holder, isSketch = false) {
