@@ -27,7 +27,7 @@ inline constexpr int in_contact = -1;
 inline constexpr int face_above = 1;
 inline constexpr int face_below = -1;
 
-/// A change of a pair's status: it makes contact (advancing) or breaks contact (receding).
+/// A change of a pair's status: the pair makes contact (advancing) or breaks contact (receding).
 enum class change { make, break_ };
 
 struct event {
@@ -37,7 +37,7 @@ struct event {
   friend bool operator==(const event&, const event&) = default;
 };
 
-/// The branch of the listing's DO 10 loop that set the s of a pair.
+/// The branch of the listing's DO 10 loop that set the scale factor s of a pair.
 enum class listing_branch {
   no_response,       ///< d* = 0: s is 1, the mark for "no event"
   stationary,        ///< the pair is at its face and keeps its status: s is 1, the mark for "no event"
@@ -46,16 +46,16 @@ enum class listing_branch {
 };
 
 /// The arguments of CONTCT in the listing's order, and COMMON /DOF/.
-/// `nc` is cc.size(), the length of every array over pairs; it must be below 2^31 - 1. Every id[i] must
+/// `nc` = cc.size() is the length of every array over pairs, and must be below 2^31 - 1. Every id[i] must
 /// address a dof inside dd and dtest. The values of (id[i] - 1) * ndofpn + indof and of isep[i] * isurf[i]
-/// must fit in 32 bits. Neither the listing nor the kernels check this; refuse_beyond_limits does.
+/// must fit in 32 bits. refuse_beyond_limits checks these limits; the listing and the kernels do not.
 template <class Real>
 struct call {
   std::span<const Real> dd;     ///< DD: D, accumulated deflection [system dofs]
   std::span<const Real> dtest;  ///< DTEST: d*, response to the whole residual load [system dofs]
   std::span<const Real> cc;     ///< CC: c, position of each face [nc]
   std::span<Real> ss;           ///< SS: out: s, scale factor of each pair [nc]
-  Real smin;                    ///< SMIN: out: the smallest s; 1 means no event
+  Real smin;                    ///< SMIN: out: s of the next event, or 1 without an event
   std::span<const int> id;      ///< ID: node of each pair, from 1 [nc]
   std::span<int> isep;          ///< ISEP: in and out: +1 separated, -1 in contact [nc]
   std::span<const int> isurf;   ///< ISURF: +1 face above, -1 face below [nc]
@@ -66,13 +66,13 @@ struct call {
 
 /// A call and its answer, for comparisons, traces and the observers of a path.
 struct answered_call {
-  call<double> c;                             ///< inputs and outputs; c.isep is already toggled
+  call<double> c;                             ///< inputs and outputs; c.isep is ISEP after the call
   std::span<const int> isep_before;           ///< ISEP before the call [pairs]
-  std::optional<std::string_view> text = {};  ///< unit-26 text; nothing if the kernel has none
+  std::optional<std::string_view> text = {};  ///< unit-26 text; nothing if the kernel writes no text
   std::int64_t number = 0;                    ///< number of the call in its path or trace, from 1
 };
 
-/// The inputs of one call in owned arrays. dd and dtest may be longer than the dofs in use.
+/// The inputs of one call in owned arrays. dd and dtest may have dofs without a pair.
 template <class Real>
 struct call_inputs {
   std::vector<Real> dd, dtest;       ///< [dofs]
@@ -81,7 +81,7 @@ struct call_inputs {
   dof_layout dof;
 
   [[nodiscard]] std::size_t pairs() const { return cc.size(); }
-  /// The dof of pair `i`, from 0: its index in dd and dtest.
+  /// The index in dd and dtest of the dof of pair `i` (from 0).
   [[nodiscard]] std::size_t dof_of_pair(std::size_t i) const { return dof.dof_of(id[i]) - 1; }
 };
 
@@ -95,7 +95,8 @@ struct call_outputs {
   std::vector<int> isep;   ///< [pairs]
   std::string text;        ///< unit-26 text; empty if the kernel has none
 
-  /// A call with the inputs `in` and these outputs: SMIN and SS are not_an_answer, ISEP is in.isep.
+  /// Returns a call that reads `in` and writes to `ss` and `isep`. Before the call, SMIN and SS are
+  /// not_an_answer, and ISEP is in.isep.
   call<double> prepare(const call_inputs<double>& in) {
     ss.assign(in.pairs(), not_an_answer);
     isep = in.isep;
@@ -103,7 +104,8 @@ struct call_outputs {
   }
 };
 
-/// Calls then(call<float>&) with `c`, a call of a 4-byte kernel in double precision, rounded to float.
+/// Rounds the arrays and SMIN of `c` to float, and returns then(call<float>&). ID, ISEP and ISURF are those
+/// of `c`, so that `then` changes c.isep, but not c.ss or c.smin.
 template <class Then>
 auto as_float_call(const call<double>& c, Then then) {
   const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
@@ -115,8 +117,9 @@ auto as_float_call(const call<double>& c, Then then) {
   return then(narrow);
 }
 
-/// Throws std::invalid_argument if NC, a product ISEP * ISURF or a dof of `c` does not fit in 32 bits: the
-/// result of an overflow is undefined in FORTRAN and in C++. `isep` is ISEP before the call.
+/// Throws std::invalid_argument if a dof of `c` is outside DD or DTEST, or if NC, a product ISEP * ISURF or
+/// the computation of a dof exceeds 32 bits, because an overflow is undefined in FORTRAN and in C++. `isep`
+/// is ISEP before the call.
 void refuse_beyond_limits(const call<double>& c, std::span<const int> isep);
 
 }  // namespace contct

@@ -83,7 +83,7 @@ bool ready(int channel, short events, clock::time_point deadline) {
 /// The result of sending or receiving a message: complete, deadline missed, or channel closed.
 enum class sent { whole, late, gone };
 
-/// A child process and a channel to it. The child ends with this object or with the parent process.
+/// A child process and a channel to the child. The child ends with this object or with the parent process.
 class child_process {
  public:
   /// Forks. The child runs `body` with its end of the channel, and ends when `body` returns. No other file of
@@ -135,8 +135,8 @@ class child_process {
     }
   }
 
-  /// Ends the child. Returns "was ended by signal 11 (Segmentation fault)", "ended with status 2" or, if it
-  /// did not end by itself, `was_stopped`.
+  /// Ends the child. Returns "was ended by signal 11 (Segmentation fault)", "ended with status 2" or, if the
+  /// child did not end by itself, `was_stopped`.
   std::string end() {
     if (pid_ < 0) return was_stopped;
     if (channel_ >= 0) close(channel_);
@@ -173,8 +173,8 @@ bool is_whole_answer(std::string_view text) {
 /// A kernel in a child process. Calls and answers are trace text.
 class kernel_in_child final : public kernel {
  public:
-  /// The child runs `body`. If `loads` is true, it first loads a library and sends `ready_word` or an error
-  /// message; an error is thrown as std::invalid_argument.
+  /// The child runs `body`. If `loads` is true, `body` first loads a library and sends `ready_word` or an
+  /// error message; the constructor then throws the error message as std::invalid_argument.
   kernel_in_child(kernel_facts facts, std::function<void(int channel)> body, bool loads,
                   const outside_limits& limits)
       : facts_(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {
@@ -238,24 +238,27 @@ class kernel_in_child final : public kernel {
     throw kernel_failure("it " + words);
   }
 
-  /// Ends the child and throws the reason why a message was not sent or received completely.
+  /// Ends the child and throws kernel_failure with the reason why a message was not sent or received
+  /// completely.
   [[noreturn]] void fail_without_answer(sent how) {
     const std::string words = child_->end();
     if (how == sent::late)
       fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
     if (words == child_process::was_stopped)
-      fail("closed its end of the pipe", true);  // the child continued to run
+      fail("closed its end of the pipe", true);  // counts as a timeout: the child was still running
     fail(words);
   }
 
-  /// Refuses output before a call, because it would be read as the answer to the call.
+  /// Throws kernel_failure if the child wrote before a call: its text would be read as the answer to the
+  /// call.
   void refuse_stray_answer() {
     answered_.clear();
     if (child_->receive(answered_, clock::now()) == sent::whole) fail("answered without being called");
   }
 
   void read_answer(call<double>& c) {
-    if (answered_.starts_with(fault_word))  // ends the child, in which the fault may have other effects
+    // fail ends the child, because the fault may have other effects in the child's memory.
+    if (answered_.starts_with(fault_word))
       fail(answered_.substr(fault_word.size(), answered_.find('\n') - fault_word.size()));
     out_.ss.resize(c.ss.size());
     out_.isep.resize(c.ss.size());
@@ -287,7 +290,7 @@ class kernel_in_child final : public kernel {
 };
 
 /// Replaces the child by the command, with the channel as standard input and output. Without a shell, as in
-/// an empty container, executes the command's first word directly.
+/// an empty container, executes the command's first word directly, with the other words as arguments.
 void become(const std::string& command, int channel) {
   dup2(channel, STDIN_FILENO);
   dup2(channel, STDOUT_FILENO);
@@ -305,7 +308,7 @@ void become(const std::string& command, int channel) {
 
 using abi_function = decltype(&contct_kernel_abi);
 
-/// Makes the call and returns its answer as trace text.
+/// Makes the call `asked`, which is trace text, and returns the answer as trace text.
 std::string answer_to(std::string_view asked, kernel_procedure* ask) {
   recorded_call recorded;
   trace_reader(asked, "the call").next_inputs(recorded);
@@ -346,8 +349,8 @@ void host_plugin(const std::string& path, int channel) {
     return say(channel,
                "a static program loads no shared library; allowed: pipe:COMMAND, with a command that "
                "reference/adopt/pipe_main.c makes of the kernel's source");
-  fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
-  // dlopen searches a name without a slash only among the system's libraries.
+  fortran::forget_unit_26();  // unit 26 is the parent's file, and a FORTRAN plug-in may write to it
+  // "./" is added because dlopen searches a name without a slash only among the system's libraries.
   void* const library =
       dlopen((path.find('/') == std::string::npos ? "./" + path : path).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return say(channel, std::string("cannot be loaded: ") + dlerror());

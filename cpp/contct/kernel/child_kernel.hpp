@@ -13,7 +13,8 @@
 namespace contct {
 
 /// The time limit of an external kernel for one call, and the numbers of failures and of timeouts after which
-/// it is not called again. More failures than timeouts are allowed, because a crash costs only a millisecond.
+/// the kernel is not called again. More failures than timeouts are allowed, because a crash costs only a
+/// millisecond.
 struct outside_limits {
   std::chrono::milliseconds patience{10'000};
   int most_failures = 1000;
@@ -30,14 +31,15 @@ struct outside_limits {
 
 using kernel_procedure = decltype(contct_kernel);
 
-/// Throws std::invalid_argument if a function kernel may not have this name, such as that of another kernel.
+/// Throws std::invalid_argument if `name` is empty, is the name of a built-in kernel, or contains a colon, a
+/// comma or a quote.
 void refuse_name_of_function(const std::string& name);
 
-/// Calls `procedure` with copies of all arrays between guard bytes. If it changed an input or a guard byte,
-/// throws kernel_failure (for example "changed its input DD") and leaves `c` unchanged.
+/// Calls `procedure` with copies of all arrays between guard bytes. If `procedure` changes an input or a
+/// guard byte, throws kernel_failure (for example "changed its input DD") and leaves `c` unchanged.
 void put_guarded(call<double>& c, kernel_procedure* procedure);
 
-/// A kernel that makes each call by put_guarded.
+/// Makes a kernel that answers each call with `procedure`, by put_guarded.
 [[nodiscard]] std::unique_ptr<kernel> make_function_kernel(const std::string& name,
                                                            kernel_procedure* procedure);
 

@@ -1,4 +1,4 @@
-// Compiles the C++ kernels, one function for each precision, for the whole program.
+// Compiles C++ CONTCT for float and double, once for the whole program.
 #include "contct/kernel/contct.hpp"
 
 namespace contct {

@@ -1,7 +1,7 @@
-/* The 1989 code for C and C++, by the functions of fortran/contct_c.f90.
+/* Declares the functions of fortran/contct_c.f90, by which C and C++ call the 1989 code.
  *
  * COMMON /DOF/ and unit 26 belong to the whole process, so the caller must serialise all calls of these
- * functions. (In C++, contct/kernel/fortran.hpp does this with a lock.)
+ * functions. (In C++, contct/kernel/fortran.hpp serialises the calls with a lock.)
  *
  * Deflections, d* and faces are lengths, positive up, in one unit, which the caller chooses. The listing
  * treats a gap below 1e-10 of this unit as zero. */
@@ -14,9 +14,9 @@ extern "C" {
 
 /* One call of CONTCT computes the share of the remaining load up to the next event, and the pairs that make
  * or break contact there. The arguments are those of contct_kernel (contct/kernel/plugin.h) without ndof.
- * smin must not be null; other pointers may be null only if nc is 0. The answer is defined, and equal to that
- * of C++, if nc < 2^31 - 1 and the computation of isep[i] * isurf[i] and of (id[i] - 1) * ndofpn + indof fits
- * in 32 bits. */
+ * smin must not be null; other pointers may be null only if nc is 0. The answer is defined, and equal to the
+ * answer of C++ CONTCT, if nc < 2^31 - 1 and the computation of isep[i] * isurf[i] and of
+ * (id[i] - 1) * ndofpn + indof fits in 32 bits. */
 
 /* The listing as printed, with 4-byte REAL. */
 void contct_call_r4(const float* dd, const float* dtest, const float* cc, float* ss, float* smin,

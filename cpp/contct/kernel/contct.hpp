@@ -28,8 +28,8 @@ struct constants<double> {
   static constexpr double epsmul = .390625E-02;
 };
 
-/// Returns s of one pair, as the body of the listing's DO 10 does in steps 3 to 11 of the paper's algorithm.
-/// Arguments: deflection D, response d*, face c, ISEP and ISURF.
+/// Returns the scale factor s of one pair, computed as in the body of the listing's DO 10 loop (steps 3 to 11
+/// of the paper's algorithm). Arguments: deflection D, response d*, face c, ISEP and ISURF.
 template <class Real>
 [[nodiscard]] Real scale_factor(Real d, Real d_star, Real c, int i_sep, int i_surf) {
   const Real gap = c - d;                 // eq. 5, without its sign

@@ -6,7 +6,8 @@
 #include "contct/kernel/contct.hpp"
 
 // On x86 a call uses the widest vectors of the processor. Lanes are separate IEEE operations, so all widths
-// give equal bits. Sanitizers are not ready when the loader chooses the function.
+// give equal bits. Not with sanitizers, because they are not ready when the
+// loader chooses the function.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define CONTCT_WIDEST_VECTORS [[gnu::target_clones("avx512f", "avx2", "default")]]
@@ -17,13 +18,14 @@
 namespace contct {
 namespace {
 
-/// theta of the rule, as a share of the largest response |d*|. A separated pair with a smaller response
-/// towards its face is not approaching it: the response is rounding. A missed make costs this share in
-/// position. Pairs in contact have no threshold, because a missed break locks in a force.
+/// The threshold theta of the corrected rule, as a share of the largest response |d*| of all pairs. A smaller
+/// response of a separated pair towards its face counts as rounding, and gives no event. A make that is
+/// missed for this reason costs this share in position. Pairs in contact have no threshold, because a missed
+/// break would leave a wrong force.
 constexpr double quiet_share = 1e-10;
 
-/// The largest or smallest of `start` and number(i), i below `n`, as `take` selects. Eight independent chains
-/// are faster than one.
+/// Returns the largest or the smallest, as `take` selects, of `start` and number(0) to number(n - 1). Eight
+/// independent chains are faster than one.
 template <class Number, class Take>
 [[gnu::always_inline]] inline double folded(std::size_t n, double start, Number number, Take take) {
   std::array<double, 8> chains{};
@@ -36,9 +38,9 @@ template <class Number, class Take>
   return start;
 }
 
-/// Rules 1 and 2: sets s of each pair, or 1 if no event is ahead. `dof(i)` is the dof of pair i, from 0. A
-/// separate loop divides for every pair, because the compiler vectorises it, and an unneeded division costs
-/// less than a mispredicted branch.
+/// Rules 1 and 2: sets s of each pair, or 1 if no event is ahead. `dof(i)` is the dof of pair i, from 0. The
+/// divisions for all pairs are in a loop without branches, because the compiler vectorises such a loop, and
+/// an unneeded division costs less than a mispredicted branch.
 template <class Dof>
 [[gnu::always_inline]] inline void find_scale_factors(call<double>& c, Dof dof) {
   const std::size_t nc = c.cc.size();

@@ -32,20 +32,22 @@ struct compiled_listing {
 extern compiled_listing gfortran;
 extern compiled_listing flang, f2c;  // defined if CMake found these compilers
 
-/// The lock for COMMON /DOF/ and unit 26. Other code that is compiled from the listing must hold it too.
+/// The lock for COMMON /DOF/ and unit 26. Other code that is compiled from the listing must hold this lock
+/// too.
 [[nodiscard]] std::mutex& process_wide();
 
 /// One call of the listing: built as printed for float, with 8-byte REAL for double. A lock serialises calls,
-/// because COMMON /DOF/ and unit 26 belong to the whole process. The text goes to the open unit_26 object of
-/// the kernel; without one it is lost.
+/// because COMMON /DOF/ and unit 26 belong to the whole process. The unit-26 text goes to the open unit_26
+/// object of this build; without an open object, the text is lost.
 void contct(call<float>& c);
 void contct(call<double>& c, const compiled_listing& by = gfortran);
 
 /// In a child process: connects gfortran's unit 26 to the null device, instead of the parent's file.
 void forget_unit_26();
 
-/// Collects the listing's text on unit 26 in a file. A second object for the same run-time library throws
-/// std::logic_error. The file is unlinked at once, so that it vanishes with the process.
+/// Collects the listing's text on unit 26 in a file. The constructor throws std::logic_error if
+/// another object of the same run-time library exists. The file is unlinked at once, so that it vanishes with
+/// the process.
 class unit_26 {
  public:
   explicit unit_26(compiled_listing& of = gfortran);
@@ -57,14 +59,15 @@ class unit_26 {
   [[nodiscard]] std::string take();
 
  private:
-  // The file is emptied at this size. Emptying it after each call would cost several times the read.
+  // The size at which `take` empties the file [bytes]. Emptying the file after each call would take several
+  // times as long as reading it.
   static constexpr std::size_t enough_text = 1 << 20;
 
   void begin_anew();
 
   compiled_listing& listing_;
   int file_ = -1;
-  std::size_t taken_ = 0;  // number of bytes already returned
+  std::size_t taken_ = 0;  // number of bytes of the file that `take` has returned
 };
 
 }  // namespace contct::fortran

@@ -41,13 +41,13 @@ struct kernel_facts {
   bool text_by_meaning = false;  ///< the text may have .25 for 0.25, which counts as equal
 };
 
-/// The facts of an external kernel: the 1989 rule, 8-byte REAL, no text. `what` describes it in messages.
+/// The facts of an external kernel: the 1989 rule, 8-byte REAL, no text. `what` is shown as its language.
 [[nodiscard]] inline kernel_facts facts_of_outside(std::string name, std::string what) {
   return {std::move(name), 8, contact_rule::listing, std::move(what), "", "", false};
 }
 
-/// A kernel gave no answer: it crashed, exceeded the time limit, or wrote to forbidden memory. `answer` of an
-/// external kernel throws this, and can be called again.
+/// A kernel gave no valid answer: for example, it crashed, exceeded the time limit, or wrote to forbidden
+/// memory. Thrown by `answer` of an external kernel, which can be called again afterwards.
 class kernel_failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -8,7 +8,7 @@
 namespace contct {
 namespace {
 
-/// Appends `digits`, right-justified in a field of `width`; asterisks if they do not fit.
+/// Appends `digits`, right-justified in a field of `width`, or asterisks if the field is too narrow.
 void append_field(std::string_view digits, std::size_t width, std::string& text) {
   if (digits.size() > width) {
     text.append(width, '*');
@@ -27,7 +27,8 @@ void append_i3(int value, std::string& text) {
 /// Appends a positive number in the format Ew.d: 0.ddddE+ee, or 0.dddd-eee if the exponent has three digits.
 template <class Real>
 void append_e(Real value, int significant, std::size_t width, std::string& text) {
-  // d.ddde+ee; a locale may change the point. to_chars would add 110 kB of tables to the static program.
+  // Gives d.ddde+ee, in which a locale may change the point. std::to_chars would add 110 kB of tables to the
+  // static program.
   char scientific[48];
   const int length =
       std::snprintf(scientific, sizeof scientific, "%.*e", significant - 1, static_cast<double>(value));
@@ -37,7 +38,7 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   int exponent = 0;
   std::from_chars(all.data() + mark + 2, end, exponent);  // after the sign, because from_chars refuses '+'
   if (all[mark + 1] == '-') exponent = -exponent;
-  ++exponent;  // all digits are after the point here
+  ++exponent;  // because the result has all digits after the point
   const int size = std::abs(exponent);
 
   char digits[48] = "0.";

@@ -10,7 +10,7 @@
 namespace contct {
 namespace {
 
-/// A copy of an array, with guard bytes before and after it that no kernel may change.
+/// A copy of an array between guard bytes, which no kernel may change.
 template <class T>
 class fenced {
  public:
@@ -21,7 +21,8 @@ class fenced {
   }
   [[nodiscard]] T* data() { return copy_.data() + fence; }
 
-  /// Describes a forbidden change by the kernel; empty if the kernel made none.
+  /// Describes a forbidden change by the kernel: of guard bytes or, if `is_input`, of the array. Empty if the
+  /// kernel made no forbidden change.
   [[nodiscard]] std::string fault(bool is_input) {
     if (!is_intact(copy_.data())) return std::string("wrote before the start of ") + name_;
     if (!is_intact(data() + values_.size())) return std::string("wrote past the end of ") + name_;

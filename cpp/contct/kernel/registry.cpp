@@ -42,7 +42,7 @@ class corrected_kernel final : public built_in {
   void answer(call<double>& c) override { contct_corrected(c); }
 };
 
-/// Answers a call in 4-byte numbers.
+/// Answers `c` with `answer`, which takes a call<float>.
 template <class Answer>
 void answer_narrow(call<double>& c, Answer answer) {
   as_float_call(c, [&](call<float>& narrow) {
@@ -71,7 +71,7 @@ class cpp_kernel final : public built_in {
   std::vector<event> events_;
 };
 
-/// The 1989 code as one compiler builds it. Each object occupies unit 26 of the compiler's library.
+/// The 1989 code as one compiler builds it. Each object occupies unit 26 of the compiler's run-time library.
 class fortran_kernel final : public built_in {
  public:
   fortran_kernel(const kernel_facts& facts, fortran::compiled_listing& by)
@@ -138,7 +138,7 @@ const entry& built_in_named(std::string_view name) {
                               "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
 }
 
-/// The part of a name after `prefix`; nothing if the name does not start with it or has no such part.
+/// The part of `name` after `prefix`; nothing if `name` does not start with `prefix` or is equal to `prefix`.
 std::optional<std::string> after(std::string_view prefix, std::string_view name) {
   if (!name.starts_with(prefix) || name.size() == prefix.size()) return {};
   return std::string(name.substr(prefix.size()));

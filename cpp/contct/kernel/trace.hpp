@@ -16,8 +16,9 @@ namespace contct {
 /// The first line of every trace: the name and the date of the format.
 inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
 
-/// The header of a trace. Only kernels with the same `real_bytes` and `rule` can be compared with it. The
-/// name "f2c" in `kernel` makes text compared by meaning. The other fields are only documentation.
+/// The header of a trace. Only kernels with the same `real_bytes` and `rule` can be compared with the trace.
+/// If `kernel` is "f2c", unit-26 texts are compared by meaning (.25 equals 0.25). The other fields are only
+/// documentation.
 struct trace_header {
   std::vector<std::string> about;  ///< lines about the purpose of the trace
   std::string kernel;              ///< name of the kernel that answered
@@ -37,8 +38,8 @@ struct recorded_call {
   call_inputs<double> in;
   call_outputs out;
 
-  /// The call for comparisons. An empty text means that the kernel has none: kernels with text always write
-  /// some.
+  /// Returns the call for comparisons. The text is nothing if out.text is empty, because a kernel that writes
+  /// to unit 26 does so in every call.
   [[nodiscard]] answered_call answered() {
     return {{in.dd, in.dtest, in.cc, out.ss, out.smin, in.id, out.isep, in.isurf, in.dof},
             in.isep,
@@ -47,8 +48,8 @@ struct recorded_call {
   }
 };
 
-/// The header of a trace that a kernel with these facts answers in this process. `listing` is the checksum of
-/// the listing; `lapack` names the library whose solves gave the inputs.
+/// The header of a trace whose calls a kernel with these facts answers in this process. `listing` is the
+/// checksum of the listing; `lapack` names the library whose solves gave the inputs.
 [[nodiscard]] trace_header header_for(const kernel_facts& k, const std::string& listing,
                                       const std::string& lapack = "none");
 
@@ -73,11 +74,13 @@ class trace_reader {
   /// `text` must outlive this object. `name` is the file's name in messages.
   trace_reader(std::string_view text, std::string_view name) : lines_(text, name) {}
 
-  /// Reads the header. Call it once, before any other function.
+  /// Reads the header of a trace file. Must be called before any other function; messages to and from a pipe
+  /// kernel have no header.
   [[nodiscard]] trace_header read_header();
 
   /// Reads the next call with its answer; returns false at the end of the text. The numbers of calls must
-  /// rise. dd and dtest are NaN where the trace has no value, so that a kernel that reads them is noticed.
+  /// rise. dd and dtest are NaN where the trace has no value, so that a kernel that reads such a value is
+  /// noticed.
   bool next(recorded_call& c);
 
   /// Reads only inputs, up to "ask"; returns false at the end of the text.

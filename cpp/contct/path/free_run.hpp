@@ -1,4 +1,5 @@
-// Compares kernels in free run by events, shares of the step, and D.
+// Compares kernels in free run, in which each kernel follows its own path, by events, shares of the step,
+// and D.
 #pragma once
 
 #include <string>
@@ -32,14 +33,14 @@ class path_record final : public observer {
   path_end end;                                   ///< set by the caller
 };
 
-/// The difference of a kernel's own path from the leader's. s is not compared: as a small difference of
-/// nearby event loads, it loses digits even if the shares do not.
+/// The difference between the paths of the leader and of another kernel. The scale factors s are not
+/// compared: s is a small difference of nearby event loads, and loses digits even if the shares do not.
 struct free_run_difference {
   bool same_end = true;          ///< equal status and step at the ends of the paths
   bool same_events = true;       ///< equal makes and breaks in equal order
   std::string first_difference;  ///< words for the first difference of ends or events; empty if they agree
   double fraction = 0.0;         ///< largest difference of the share of the step at an event
-  double displacement = 0.0;     ///< largest difference of D, relative to the path's largest
+  double displacement = 0.0;     ///< largest difference of D, relative to the largest D of the path
   double bound = 0.0;            ///< the largest allowed `fraction` and `displacement`
 
   [[nodiscard]] bool within_bound() const {
@@ -50,10 +51,10 @@ struct free_run_difference {
 /// The bound for two kernels: 1e-9 if precision and rule are equal, otherwise 1e-4.
 [[nodiscard]] double free_run_bound(const kernel_facts& leader, const kernel_facts& other);
 
-/// Compares two recorded paths of one problem. A difference of deflections, the first of a node's
-/// `dofs_per_node` dofs, is relative to the largest deflection of the whole path, and a difference of
-/// rotations to the largest rotation. A single step may be unloaded, so that all its displacements are
-/// rounding.
+/// Compares two recorded paths of one problem. The first of a node's `dofs_per_node` dofs is a
+/// deflection, the others are rotations. A difference of deflections is relative to the largest deflection of
+/// the whole path, and a difference of rotations to the largest rotation. The largest value of a single step
+/// would not do: in an unloaded step, all displacements are rounding.
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 

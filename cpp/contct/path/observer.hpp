@@ -10,19 +10,20 @@ namespace contct {
 
 /// One increment of a step.
 struct increment {
-  int step;                        ///< from 1
-  int number;                      ///< within the step, from 1
-  double s;                        ///< s_min
-  double fraction;                 ///< share of the step's load applied so far
-  std::span<const event> events;   ///< sorted by pair
-  bool snaps = false;              ///< this is a rigid-body motion to the next face, at constant load
+  int step;                       ///< from 1
+  int number;                     ///< within the step, from 1
+  double s;                       ///< s_min
+  double fraction;                ///< share of the step's load applied so far
+  std::span<const event> events;  ///< sorted by pair
+  bool snaps = false;             ///< the increment is a rigid-body motion to the next face, at constant load
   std::span<const double> d = {};  ///< D at each pair after the increment [pairs]
   std::span<const int> isep = {};  ///< ISEP after the events [pairs]
-  /// The force of each spring on the structure, summed over increments by the 1989 rule; else 0 [pairs].
+  /// Under the 1989 rule, the force of each spring on the structure, summed over increments; otherwise 0
+  /// [pairs].
   std::span<const double> pair_force = {};
 };
 
-/// Numbers at the end of a step. They are more accurate than numbers computed from the rounded displacements.
+/// Results at the end of a step, more accurate than results computed from the rounded displacements.
 struct end_numbers {
   std::vector<double> pair_forces;     ///< see force_of [pairs]
   std::vector<double> reactions;       ///< see reactions in solve_problem.hpp [supports]
@@ -39,7 +40,7 @@ struct step_state {
   bool from_fallback = false;    ///< replaces the path's own state, which is missing or not proved
   bool from_reference = false;   ///< the state is that of the reference solution
   bool from_exact_path = false;  ///< the state is that of the exact path
-  const end_numbers* numbers = nullptr;  ///< null if the state has no such numbers
+  const end_numbers* numbers = nullptr;  ///< null if the state was not refined
 };
 
 /// Observes a path without changing it.

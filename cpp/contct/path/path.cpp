@@ -48,7 +48,7 @@ class path {
       if (w_star == response::elastic) now_.residual.share *= 1.0 - *s_min;  // R* <- (1 - s_min) R*
       now_.tell_increment(number, *s_min, w_star == response::rigid);
       if (!policy_->goes_on()) return ended(path_status::mechanism, now_.opened());
-      now_.switch_springs();  // those of the pairs that the kernel toggled
+      now_.switch_springs();  // the springs of the pairs in now_.events
       if (*s_min == 1.0) return ended(path_status::solved);
       if (now_.cycles.repeats(moved, now_.status, now_.events))
         return ended(path_status::cycle, now_.cycles.restless_pairs());
@@ -60,8 +60,8 @@ class path {
     return {status, now_.step, now_.fraction(), std::move(pairs)};
   }
 
-  /// Ends in a mechanism. The state is set back to that before the last separation, in which the springs of
-  /// the separating pairs hold the structure without force.
+  /// Ends the path in a mechanism. Puts the pairs of the last separation back in contact, so that their
+  /// springs hold the structure without force.
   path_end set_free() {
     for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
     now_.find_events();
@@ -74,8 +74,8 @@ class path {
     double rcond;
   };
 
-  /// The state under the load applied so far. If the structure cannot be held, this is its position after the
-  /// rigid-body motions. Nothing if the state is out of range in double precision.
+  /// The state under the load applied so far. If the structure cannot be held, returns its displacements
+  /// after the rigid-body motions. Returns nothing if the state is out of range in double precision.
   [[nodiscard]] std::optional<reached_state> reached() {
     reached_state r{std::vector<double>(now_.total.size()), 0.0};
     const bool is_held = policy_->displace(r.u);
@@ -86,8 +86,8 @@ class path {
     return r;
   }
 
-  /// Ends a step. Under the 1989 rule the state is reported unchanged. Under other rules it is proved. If the
-  /// proof or the path fails, a state that is found without the path replaces it.
+  /// Ends a step. Under the 1989 rule, the state is reported unchanged. Under other rules, the state is
+  /// proved; if the proof or the path fails, a state that is found without the path replaces it.
   path_end finish(path_end end, const std::optional<reached_state>& reached) {
     if (!by_1989_rule_ || end.status != path_status::solved) end.has_equilibrium = now_.has_equilibrium();
     if (ends_ && !by_1989_rule_ && end.has_equilibrium != false) {
@@ -106,7 +106,8 @@ class path {
     return concluded(std::move(end));
   }
 
-  /// Continues the path from `found`. If the path reached this state itself, it keeps its own displacements.
+  /// Continues the path from `found`. If the path reached this state itself, the path keeps its own
+  /// displacements.
   path_end arrive_at(const full_load_state& found, const std::optional<reached_state>& reached) {
     const bool is_own = reached && !found.from_reference && !found.from_exact_path;
     const bool has_rcond = is_own && found.isep == now_.status;

@@ -50,7 +50,7 @@ struct path_end {
 class load_history {
  public:
   /// Writes the total load at the end of `step` (from 1) to `total` [dofs], which is 0 before. Dofs that
-  /// settle get their prescribed displacement instead (add_settlements). If faces move, the load is that for
+  /// settle get their prescribed displacement instead (add_settlements). If faces move, the load acts on
   /// displacements relative to the faces (count_from_faces).
   using totals = std::function<void(int step, std::span<double> total)>;
   /// The work of the total load on the rigid-body motions, without rounding.
@@ -104,16 +104,16 @@ struct full_load_state {
 /// The equilibrium found under the full load of a step.
 struct found_end {
   std::optional<full_load_state> state = {};
-  std::optional<bool> exists = {};  ///< nothing if undecided
+  std::optional<bool> exists = {};  ///< whether an equilibrium exists; nothing if undecided
 };
 
-/// Ends a step, from 1: refines and proves the state `reached`, which is null if the path failed. Without a
-/// proved state, it finds the equilibrium by other means.
+/// Ends `step` (from 1): refines and proves the state `reached`, which is null if the path failed. Without a
+/// proved state, finds the equilibrium by other means.
 using end_finder = std::function<found_end(int step, const full_load_state* reached)>;
 
 struct path_limits {
   int increments_per_step = 0;  ///< 0: 1000 plus 50 for each pair
-  /// Ends steps, except under the 1989 rule. Under the 1989 rule, it only decides whether a load that the
+  /// Ends steps, except under the 1989 rule. Under the 1989 rule, only decides whether a load that the
   /// path did not reach has an equilibrium.
   end_finder ends = nullptr;
 };

@@ -11,7 +11,6 @@ void early_toggles::called(const answered_call& c) {
   for (std::size_t i = 0; i < c.isep_before.size(); ++i) {
     const int dof = c.c.dof.dof_of(c.c.id[i]) - 1;
     const double reached = c.c.dd[dof] + c.c.smin * c.c.dtest[dof];
-    // Branches that are seldom taken: each call has a look at every pair.
     if (std::abs(reached) > largest_ && std::isfinite(reached)) largest_ = std::abs(reached);
     if (c.c.isep[i] != c.isep_before[i]) distances_[static_cast<int>(i)] = std::abs(c.c.cc[i] - reached);
   }

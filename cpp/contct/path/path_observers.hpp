@@ -17,14 +17,14 @@
 
 namespace contct {
 
-/// Puts each call of a path to other kernels.
+/// Puts each call of a path to other kernels, and compares their answers.
 class lockstep_on_path final : public observer, public lockstep {
  public:
   using lockstep::lockstep;
   void called(const answered_call& c) override { put(c); }
 };
 
-/// A pair that was toggled away from its face.
+/// A toggle of a pair that was not at its face.
 struct early_toggle {
   int step;         ///< from 1
   int number;       ///< number of the increment, from 1
@@ -42,12 +42,12 @@ class early_toggles final : public observer {
   [[nodiscard]] const std::vector<early_toggle>& all() const { return all_; }
 
  private:
-  std::map<int, double> distances_;  // from the face, by the pairs (from 0) that the last call toggled
+  std::map<int, double> distances_;  // from the face, of each pair (from 0) that the last call toggled
   double largest_ = 0.0;
   std::vector<early_toggle> all_;
 };
 
-/// Passes the trace of a path on: first the header, then each call. Memory does not grow with the calls.
+/// Passes the trace of a path to a function: first the header, then each call. Keeps no calls in memory.
 class trace_recorder final : public observer {
  public:
   using sink = std::function<void(std::string_view text)>;
@@ -74,16 +74,17 @@ struct explained_increment {
   double fraction_before = 0.0;  ///< share of the step's load applied before the increment
   const explained_call& call;
   const call_outputs* other = nullptr;  ///< the second kernel's outputs; null without an answer
-  std::optional<mismatch> apart;        ///< the first difference of the second kernel
+  std::optional<mismatch> apart;        ///< the first difference between the two kernels
   bool left_undone = false;  ///< the driver undid the toggles, because the remaining load is only rounding
 };
 
-/// Explains the path of a kernel with the 1989 rule. Passes each requested increment on, with a second
-/// kernel's answer, and keeps none.
+/// Explains the path of a kernel with the 1989 rule. Passes each requested increment to a function,
+/// with a second kernel's answer, and keeps no increments.
 class explained_path final : public observer {
  public:
   using sink = std::function<void(const explained_increment&)>;
-  /// `second` names one kernel, or is empty. Throws std::invalid_argument if its precision or rule differs.
+  /// `second` names one kernel, or is empty. Throws std::invalid_argument if the precision or rule
+  /// of this kernel differs from the leader's.
   explained_path(const kernel_facts& leader, std::span<const std::string> second, increments_wanted wanted,
                  sink to);
 

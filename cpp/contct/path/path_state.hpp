@@ -29,8 +29,9 @@ class cycle_detector {
     recent_.clear();
   }
 
-  /// Adds an increment: whether it changed D or R*, the statuses after it, and its events. Returns true if
-  /// the same statuses occurred before and nothing changed since.
+  /// Adds an increment with its `events`. `moved`: the increment changed D or R*; `status`: the statuses
+  /// after the increment. Returns true if these statuses occurred before, and D and R* have not changed
+  /// since.
   bool repeats(bool moved, std::span<const int> status, std::span<const event> events) {
     recent_.emplace_back(events.begin(), events.end());
     if (recent_.size() > remembered_increments) recent_.pop_front();
@@ -68,13 +69,13 @@ class cycle_detector {
 
 /// R*, D, d* and the data of pairs. Pairs and dofs count from 0; ID counts from 1.
 /// D, d* and other displacements are relative to moving faces (count_from_faces), but observers receive
-/// absolute displacements at the end of a step. A pair between two dofs has an additional row of DD and
-/// DTEST, after the structure's rows, with the difference of the two dofs.
+/// absolute displacements at the end of a step. For the listing, a pair between two dofs has an
+/// additional row of DD and DTEST, after the structure's rows, with the difference of the two dofs.
 struct path_state {
   /// If `as_listed`, the kernel receives D and d* of the whole structure, in which ID, INDOF and NDOFPN
   /// address the pairs, as in the listing; spring forces are summed over increments. Otherwise the kernel
-  /// receives only the D and d* of the pairs, which ID numbers, so that the cost of a call does not grow with
-  /// the structure. All arguments must outlive this object.
+  /// receives only the D and d* of the pairs, and ID is the number of the pair, so that the cost of a call
+  /// does not grow with the structure. All arguments must outlive this object.
   path_state(const linear_structure& structure_of_path, stiffness_engine& e, std::span<observer* const> o,
              bool as_listed)
       : structure(structure_of_path),
@@ -113,7 +114,7 @@ struct path_state {
   std::vector<double> total;        ///< load at the end of the step [dofs]
   std::vector<double> increment;    ///< total minus the previous step's total [dofs]
   residual_load residual{};         ///< R*
-  std::vector<double> shape;        ///< position after the last step and later rigid-body motions [dofs]
+  std::vector<double> shape;        ///< displacements after the last step and later rigid-body motions [dofs]
   std::vector<double> d;            ///< D where each pair acts [pairs]
   std::vector<double> d_star;       ///< d* where each pair acts [pairs]
   std::vector<double> c;            ///< faces [pairs]
@@ -188,7 +189,8 @@ struct path_state {
     call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
-        const bool has_own_row = structure.pairs[i].other >= 0;  // only in a matrix, where a node is a dof
+        // Only in a structure that is given as a matrix, in which each node has one dof.
+        const bool has_own_row = structure.pairs[i].other >= 0;
         const std::size_t row = has_own_row ? id[i] - std::size_t{1} : at_dof[i];
         dd_[row] = d[i];
         dtest_[row] = d_test[i];
@@ -246,7 +248,7 @@ struct path_state {
     for (std::size_t dof = 0; dof < v.size(); ++dof) v[dof] += moved(dof, residual.share);
   }
 
-  /// Sets D and ISEP to those at the end of the step: displacements `u` [dofs], statuses `isep` [pairs].
+  /// Sets D and ISEP to the state at the end of the step: displacements `u` [dofs], statuses `isep` [pairs].
   void put_at(std::span<const double> u, std::span<const int> isep) {
     for (std::size_t i = 0; i < pairs(); ++i) d[i] = structure.seen_by_pair(i, u) - moved(at_dof[i], 0.0);
     status.assign(isep.begin(), isep.end());
@@ -287,7 +289,7 @@ struct path_state {
     return forces;
   }
 
-  /// Moves the structure by `s_min` times a motion, and puts pairs that made contact at their faces.
+  /// Moves the structure by `s_min` times `motion`, and puts pairs that made contact at their faces.
   void move_shape(double s_min, std::span<const double> motion) {
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] += s_min * motion[dof];
     for (const event& e : events)

@@ -38,17 +38,18 @@ bool path_policy::reaches_full_load(double s_min) const {
 
 namespace {
 
-/// a - b, or 0 if this is only rounding, because two dofs of one rigid body can move equally.
+/// Returns a - b, or 0 if the difference is only rounding, because two dofs of one rigid body can move
+/// equally.
 double difference(double a, double b, double rounding) {
   const double largest = std::max(std::abs(a), std::abs(b));
   return std::abs(a - b) <= std::max(1e-10, rounding) * largest ? 0.0 : a - b;
 }
 
-/// A structure that nothing holds moves as a rigid body, at constant load, to the next face. Writes this
-/// motion to d*, and at all dofs to `everywhere` [dofs]. Supports and pairs in contact leave the motion free,
-/// and the residual load drives it. Its direction is the limit of the response on an ever softer ground; its
-/// size reaches every separated pair on the way. Returns false, and writes nothing, if the load does no work
-/// on any such motion.
+/// Writes a rigid-body motion to d*, and at all dofs to `everywhere` [dofs]. By this motion, a structure that
+/// nothing holds moves to the next face at constant load. Supports and pairs in contact leave the motion
+/// free, and the residual load drives it. The direction of the motion is the limit of the response on an ever
+/// softer ground; its length is twice the longest way of a separated pair to its face. Returns false, and
+/// writes nothing, if the load does no work on any such motion.
 bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   const std::optional<free_motion> motion = now.driven_motion();
   if (!motion) return false;
@@ -141,7 +142,7 @@ class corrected_policy final : public path_policy {
     const auto springs = hold();
     try {
       return now_.engine.reciprocal_condition();
-    } catch (const no_factor&) {  // the state is known even so, because it was found without the path
+    } catch (const no_factor&) {  // no error: the state was found without this stiffness
       return 0.0;
     }
   }
@@ -167,7 +168,7 @@ class corrected_policy final : public path_policy {
   }
 
   /// Holds the structure for a solve. If supports and pairs in contact do not hold it, inserts springs of
-  /// separated pairs, without force. Returns null if these do not suffice.
+  /// separated pairs, without force. Returns null if these springs do not suffice.
   [[nodiscard]] std::unique_ptr<holding_springs> hold() {
     rigid_rank rank = now_.held_by();
     std::vector<int> pairs = now_.structure.pairs_that_hold(rank);
@@ -175,8 +176,9 @@ class corrected_policy final : public path_policy {
     return std::make_unique<holding_springs>(now_.engine, std::move(pairs));
   }
 
-  /// In exact arithmetic, toggling a pair at its face does not change the sign of d*: d' = d / (1 + k F). The
-  /// d* of a pair that toggles twice in succession without progress is therefore rounding.
+  /// Keeps a pair in contact if it toggles twice in succession without progress; returns true in this case.
+  /// In exact arithmetic, toggling a pair at its face does not change the sign of d*: d' = d / (1 + k F) with
+  /// the flexibility F. The d* of such a pair is therefore rounding.
   bool keep_in_contact_if_toggled_again(double s_min) {
     if (s_min > 0.0) {
       begin_step();

@@ -17,14 +17,14 @@ enum class response {
   none,     ///< nothing holds the structure
 };
 
-/// The number of successive answers with SMIN = 0, for `nc` pairs, in which the corrected kernel's choice is
-/// accepted. After them, the pair with the least index toggles.
+/// The number of successive answers with SMIN = 0, for `nc` pairs, that the corrected kernel decides. In
+/// later answers, the policy toggles the pair with the least index.
 [[nodiscard]] constexpr int quick_answers_at_rest(std::size_t nc) {
   return 20 + 4 * static_cast<int>(nc);
 }
 
-/// The decisions of one path, by the driver of 1989: it solves, and follows the kernel except at events
-/// within rounding of full load. The loop calls these functions in this order.
+/// The decisions on one path under the 1989 rule: follows the kernel, except at events within rounding of
+/// full load. The loop in path.cpp calls these functions in this order.
 class path_policy {
  public:
   /// Both arguments must outlive this object.
@@ -35,18 +35,19 @@ class path_policy {
 
   virtual void begin_step() {}
 
-  /// Writes d* [pairs] to the state. Throws no_factor.
+  /// Writes d* [pairs] to the state, and returns the kind of the response. Throws no_factor.
   virtual response respond();
 
-  /// Calls the kernel, which toggles statuses. Overrides its answer if the decision needs more than one call.
+  /// Calls the kernel, which toggles statuses. Overrides the kernel's answer if the decision needs more than
+  /// one call.
   /// Returns s_min, or nothing for a mechanism: a rigid-body motion that meets no face.
   virtual std::optional<double> decide();
 
   /// False if the events of this increment leave a mechanism.
   [[nodiscard]] virtual bool goes_on() const { return now_.held(); }
 
-  /// Writes the displacements u [dofs] under the load applied so far. Returns false if the structure cannot
-  /// be held for a solve. Throws no_factor.
+  /// Writes the displacements under the load applied so far to `u` [dofs]. Returns false if the structure
+  /// cannot be held for a solve. Throws no_factor.
   virtual bool displace(std::span<double> u);
 
   /// The reciprocal condition of the equilibrated stiffness in the current state.

@@ -16,7 +16,7 @@
 
 namespace contct {
 
-/// The structure of a problem. Supports that a step moves are built to settle.
+/// The structure of a problem. Supports that a step moves are marked as settling.
 [[nodiscard]] inline linear_structure structure_of(const problem& p) {
   std::vector<support> supports = p.supports;
   std::set<std::pair<int, int>> settling;
@@ -28,7 +28,7 @@ namespace contct {
   return build(p.geometry, supports, p.pairs);
 }
 
-/// The loads of a problem's steps. Both arguments must outlive them.
+/// The loads of a problem's steps. Both arguments must outlive the result.
 [[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
   const auto moved = [&p](int step, std::span<double> m) {
     add_moves(p.steps[step - 1], dofs_per_node(p.geometry), m);
@@ -49,15 +49,15 @@ namespace contct {
           any ? load_history::moves(moved) : nullptr};
 }
 
-/// The name of the engine for a path: the requested engine, or the fastest for "auto". The default for the
-/// 1989 rule is one factorisation per increment, as in 1989; for other rules it is the fastest engine.
+/// The name of the engine for a path: the requested engine, or the fastest for "auto". The default is
+/// "refactor" (one factorisation per increment) for the 1989 rule, and the fastest engine for other rules.
 [[nodiscard]] inline std::string engine_for(const kernel_facts& leader, const std::string& asked,
                                             const linear_structure& s) {
   if (asked.empty() && leader.rule == contact_rule::listing) return "refactor";
   return asked.empty() || asked == "auto" ? std::string(quickest_engine(s)) : asked;
 }
 
-/// Follows a problem's path on a new engine, which is given by its name. `s` is the structure of the problem.
+/// Follows a problem's path with a new engine named `engine`. `s` is the structure of the problem.
 inline path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
                        const std::vector<observer*>& observers, const path_limits& limits = {}) {
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
