@@ -1,6 +1,6 @@
 # Installs missing Debian packages, and fetches the source of LAPACK. Sourced by cpp/run.sh, tests/run.sh and others:
 #     need "why" package...
-# Without apt-get it continues if cmake and gfortran are installed; otherwise it names the packages and fails.
+# Without apt-get, `need` continues if cmake and gfortran are installed; otherwise it names the packages and fails.
 
 need() {
   why=$1

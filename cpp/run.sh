@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs missing packages, builds, and runs contct in the caller's folder with the given arguments. Without arguments
-# it solves a beam on one-sided supports by the 1989 FORTRAN and by C++ in lockstep.
+# Installs missing packages, builds, and runs contct in the caller's folder with the given arguments. Without arguments,
+# solves a beam on one-sided supports by the 1989 FORTRAN and by C++ in lockstep.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
 . "$here/cpp/install.sh"

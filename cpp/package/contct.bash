@@ -1,7 +1,7 @@
-# Completion of contct for bash. It reads commands and options from contct --help.
+# Completion of contct for bash, with the commands and options that contct --help prints.
 _contct_words() { mapfile -t COMPREPLY < <(compgen -W "$2" -- "$1"); }
 _contct_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- "$1"); }
-# Completes the last word of a list with commas.
+# Completes the last word of a comma-separated list.
 _contct_list() {
   local before=''
   [[ $1 != *,* ]] || before=${1%,*},

@@ -1,8 +1,9 @@
 """CONTCT from Python: the 1989 contact subroutine, its reimplementation, and the program around them.
 
 The problem of `run`, `exact`, `explain`, `check` and `certify` is a file (a path, or a str that ends in ".toml"), the
-text of a problem file (a str with a line break), or a dict with the same keys. They return the program's JSON, with
-each key as an attribute and as an item. Bad input raises `InputError`. Several threads may call the functions.
+text of a problem file (a str with a line break), or a dict with the same keys. These functions return the
+program's JSON, with each key as an attribute and as an item. Bad input raises `InputError`. Several threads may call
+the functions.
 reference/python.md has examples and all options.
 """
 from __future__ import annotations
@@ -43,13 +44,14 @@ _kernel_function = ctypes.CFUNCTYPE(None, _doubles, _doubles, _doubles, _doubles
 
 
 class Error(Exception):
-    """The base of this module's own errors. It also raises TypeError, OSError, MemoryError and ImportError."""
+    """The base of the errors that only this module has. The module also raises TypeError, OSError, MemoryError and
+    ImportError."""
 
 
 class InputError(Error, ValueError):
     """A problem, a trace or an argument is refused: exit status 2 of the program. `file`, `line` and `column`, from 1,
-    are None if the message names no place. For a dict they refer to the text that `to_toml` makes, as the file
-    "problem"."""
+    are None if the message names no place. For a problem in a dict, they refer to the text that `to_toml`
+    makes, and `file` is "problem"."""
 
     def __init__(self, message: str, file: Optional[str] = None, line: Optional[int] = None,
                  column: Optional[int] = None) -> None:
@@ -86,7 +88,7 @@ def _optional_module(name: str) -> Any:
 _numpy = _optional_module("numpy")
 
 
-_ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy", "x", "y"}  # keys whose lists are NumPy arrays
+_ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy", "x", "y"}  # keys with NumPy arrays
 _RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion", "work"}  # keys of exact paths
 
 
@@ -146,8 +148,8 @@ class Record(Mapping[str, Any]):
 
 
 class Answer(Record):
-    """The result of a command. `exit` is the exit status of the program (reference/running.md); `messages` are its
-    warnings and the lines that it prints on standard error."""
+    """The result of a command. `exit` is the exit status of the program (reference/running.md); `messages` are the
+    warnings, and the lines that the program prints on standard error."""
     exit: int
     messages: list[str]
 
@@ -273,7 +275,7 @@ def _hermite(h: float, y0: float, y1: float, slope0: float, slope1: float, a: fl
 
 
 def _pieces(shown: Record, end: Record, e: int) -> list[tuple[Any, ...]]:
-    """x, w, theta, moment and shear at both ends of each piece of element `e`, and its imposed curvature."""
+    """x, w, theta, moment and shear at both ends of each piece of element `e`, and the piece's imposed curvature."""
     own, nodes = end.elements[e], shown.structure.nodes
     if "pieces" in own:
         return [(p.x, p.w, p.theta, p.moment, p.shear, p.curvature) for p in own.pieces]
@@ -292,7 +294,7 @@ def _along(shown: Record, end: Record, quantity: str) -> tuple[list[float], list
     for e, EI in enumerate(stiffness):
         for (left, right), (w0, w1), (t0, t1), (m0, m1), (v0, v1), curvature in _pieces(shown, end, e):
             h = right - left
-            # Curvatures at the ends, minus those of the cubic that deflections and slopes determine.
+            # Curvatures at the ends, minus the curvatures of the cubic that deflections and slopes determine.
             k0 = m0 / EI + curvature - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h
             k1 = m1 / EI + curvature - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h
             for a, b in ((k / parts, 1 - k / parts) for k in range(parts + 1)):
@@ -380,8 +382,8 @@ class Call(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). They are lists of floats, the
-    listing's 8-byte REAL, and of ints, which the kernel may change. `call` describes each argument."""
+    """The arguments of one call of CONTCT, for a kernel written in Python (see `judge`). The arrays are lists of
+    floats, the listing's 8-byte REAL, and of ints, which the kernel may change. `call` describes each argument."""
     dd: list[float]
     dtest: list[float]
     cc: list[float]
@@ -501,7 +503,7 @@ def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_out
         kind: type[Exception] = InputError if isinstance(given, str) else TypeError
         raise kind(f"{what}: found {shown}; allowed: a path or a name that ends in \"{ending}\", a text with a line break"
                    f"{or_dict}")
-    if b"\0" in source.text:  # ends a text of the library
+    if b"\0" in source.text:  # the library would end the text there
         before = source.text[:source.text.index(b"\0")]
         raise InputError("found a character of code 0; allowed: text", source.place, before.count(b"\n") + 1,
                          len(before) - before.rfind(b"\n"))
@@ -533,7 +535,7 @@ def _toml_key(key: object, where: str) -> str:
 
 
 def _toml_value(value: Any, where: str) -> str:
-    """A value on one line. `where` is its name in messages."""
+    """A value on one line. `where` is the value's name in messages."""
     if hasattr(value, "tolist"):  # NumPy's arrays and numbers, array.array
         value = value.tolist()
     if isinstance(value, bool):
@@ -631,9 +633,9 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
     """Compute bounds on the errors of states from another program or a formula.
 
     `displacement` has, for each of the first steps, the displacement of every dof under the whole load: w and theta of
-    each node of a beam; w, wx and wy of each node of a plate; the rows of a matrix in their order. They are lengths,
-    positive up, and slopes. `problem` may also be a stiffness matrix, such as a SciPy sparse matrix, that has the
-    method `tocoo()`; reference/python.md describes the arguments for it. `closed` has the pairs in contact for each
+    each node of a beam; w, wx and wy of each node of a plate; the rows of a matrix in their order. Values are
+    lengths, positive up, and slopes. `problem` may also be a stiffness matrix that has the method `tocoo()`, such as a
+    SciPy sparse matrix; reference/python.md describes the arguments for it. `closed` has the pairs in contact for each
     state, from 1; None selects the pairs whose faces the state touches or penetrates. The result has `w`, `pairs`,
     `error` and `certificate` of each state, and no increments; its `answer` is the equilibrium.
     """
@@ -725,7 +727,8 @@ def _finite(number: Any, state: int, dof: int) -> float:
 
 
 def _argument(name: str, values: Numbers, real: bool, length: Optional[int] = None) -> Any:
-    """An array argument in the type of a kernel's argument."""
+    """Convert an array argument to a ctypes array. `real`: of doubles, otherwise of ints. Raises InputError if `length`
+    differs."""
     try:
         owner = array.array("d" if real else "i", values)
     except OverflowError as error:

@@ -39,7 +39,7 @@ manual(contct-result 5 "result files of contct" result-file.md)
 file(CREATE_LINK contct.1.gz ${CMAKE_CURRENT_BINARY_DIR}/links/contct-replay.1.gz SYMBOLIC)
 install_program_files(${CMAKE_INSTALL_MANDIR}/man1 ${CMAKE_CURRENT_BINARY_DIR}/links/contct-replay.1.gz)
 
-# date_as(FORMAT RESULT): the date of this version.
+# date_as(FORMAT RESULT): sets RESULT to the date of this version.
 function(date_as format result)
   execute_process(COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C ${CONTCT_DATE_COMMAND} -u -d "${CONTCT_DATE}" "+${format}"
                   OUTPUT_VARIABLE text OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -91,7 +91,7 @@ Static libraries, headers, CMake and pkg-config files for programs that call
 the subroutine CONTCT, or follow the load path of beams and plates with it,
 prove error bounds, and read problem files and write results.
 C and C++ programs need no Fortran compiler. The Fortran module is gfortran's.")
-# The packages of the libraries that contct's libraries link, and of those that contct-config.cmake searches.
+# The packages of all libraries that contct's libraries link or that contct-config.cmake searches.
 string(REGEX MATCH "^[0-9]+" gfortran ${CMAKE_Fortran_COMPILER_VERSION})
 set(needed libgfortran-${gfortran}-dev liblapack-dev libblas-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
 if(CONTCT_HAS_CHOLMOD)
@@ -119,7 +119,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python3-
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the description of each package has one
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the description of each package begins with a summary
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/strip.cmake)
 set(CPACK_CONTCT_STRIP ${CMAKE_STRIP})

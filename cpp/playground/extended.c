@@ -1,7 +1,7 @@
 /* long double as on x86-64: sums, products, quotients and roots are rounded to 64 significant bits.
- * WebAssembly's long double has 113 bits. These functions replace its library functions, so that results
- * equal those of the program to the bit. Only the rooms use them (CMakeLists.txt); the C library keeps its
- * own functions. */
+ * WebAssembly's long double has 113 bits. These functions replace the library functions for long double, so
+ * that results equal the program's results to the bit. Only the code of cpp/contct calls them
+ * (CMakeLists.txt); the C library keeps the original functions. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -28,7 +28,7 @@ struct number {
 };
 
 /* Rounds m 2^exponent, m > 0, to 64 bits; ties go to even. `more`: the exact number is larger than m by less
- * than its last bit, and m has at least 66 bits. */
+ * than the last bit of m, and m has at least 66 bits. */
 static struct number rounded(int sign, wide m, int exponent, int more) {
   const uint64_t top = (uint64_t)(m >> 64);
   const int shift = top != 0 ? __builtin_clzll(top) : 64 + __builtin_clzll((uint64_t)m);
@@ -42,8 +42,8 @@ static struct number rounded(int sign, wide m, int exponent, int more) {
   return n;
 }
 
-/* Returns false for NaN and infinity. Rounds a literal with more than 64 bits, as a compiler for x86-64 does.
- */
+/* Sets n to x. Returns false for NaN and infinity. Rounds a literal with more than 64 bits, as a compiler for
+ * x86-64 does. */
 static int read(quad x, struct number* n) {
   wide bits;
   memcpy(&bits, &x, sizeof bits);
@@ -57,8 +57,8 @@ static int read(quad x, struct number* n) {
   return exponent < most;
 }
 
-/* Numbers below the smallest normal number, 2^-16382, become 0. No sum or product of a few doubles is so
- * small. */
+/* Returns n as a long double. Numbers below the smallest normal number, 2^-16382, become 0. No sum or product
+ * of a few doubles is so small. */
 static quad written(struct number n) {
   const int exponent = n.exponent + 63 + bias;
   wide bits = (wide)n.sign << 127;
@@ -71,7 +71,8 @@ static quad written(struct number n) {
   return x;
 }
 
-/* The sign and the kind of a number (0, 1, infinity, NaN), for operations with infinity or NaN or by 0. */
+/* Returns 0, 1 for other finite numbers, infinity or NaN, with the sign of x. Used if an operation has its
+ * result from IEEE 754's rules for 0, infinity and NaN. */
 static double plain(quad x) {
   struct number n;
   if (!read(x, &n)) return (double)x;

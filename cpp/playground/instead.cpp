@@ -24,12 +24,13 @@ int i_dnnt(const double* x) {
   return static_cast<int>(std::lround(*x));
 }
 
-/// LAPACK calls this only for invalid arguments, which do not occur.
+/// LAPACK calls xerbla only for invalid arguments, which do not occur.
 void xerbla_(const char* /*name*/, const int* /*argument*/, int /*length*/) {
   __builtin_trap();
 }
 
-/// Only the rigid-body motions of a matrix need eigenvalues, but a page has no matrix files.
+/// Throws std::logic_error: only the rigid-body motions of a matrix need eigenvalues, and a page has no
+/// matrix files.
 void dsyev_(const char* /*jobz*/, const char* /*uplo*/, const int* /*n*/, double* /*a*/, const int* /*lda*/,
             double* /*w*/, double* /*work*/, const int* /*lwork*/, int* /*info*/, std::size_t /*jobz_length*/,
             std::size_t /*uplo_length*/) {

@@ -88,7 +88,7 @@ static void copy_text(void) {
   }
 }
 
-/* Writes SMIN, which is positive, in the format Ew.d: 0.dddE+ee. C rounds its digits. */
+/* Writes SMIN, which is positive, in the format Ew.d: 0.dddE+ee. snprintf rounds the digits. */
 static void put_e(double x, size_t width, int digits) {
   char c[64], out[64];
   snprintf(c, sizeof c, "%.*e", digits - 1, x); /* d.dde+ee */

@@ -9,7 +9,7 @@ from .runtime import END
 from .specification import Toggle
 from .state import GENERAL, KEPT, State
 
-REGISTERS = ["rdi", "rsi", "rdx", "rcx", "r8", "r9"]  # for the first six arguments; others are on the stack
+REGISTERS = ["rdi", "rsi", "rdx", "rcx", "r8", "r9"]  # for the first six arguments; further arguments are on the stack
 POINTERS = [BASE[name] for name in ("DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF")]
 
 

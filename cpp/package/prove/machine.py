@@ -96,7 +96,8 @@ class Machine:
         return offset
 
     def element(self, s: State, array: str, offset: z3.BitVecRef, width: int) -> int:
-        """The pair whose element is at an offset, from the path's first pair. Other places are refused."""
+        """The pair whose element is at an offset, counted from the path's first pair. Raises Undecided for another
+        offset."""
         if width != self.spec.widths[array]:
             raise self.undecided(s, f"{width} bits of {array}, whose elements have {self.spec.widths[array]}")
         for k in range(len(s.pairs) + 1):
@@ -107,8 +108,8 @@ class Machine:
         raise self.undecided(s, f"a subscript of {array} that is not the next pair's: {offset}")
 
     def _stands_at(self, s: State, array: str, i: z3.BitVecRef, offset: z3.BitVecRef) -> bool:
-        """True if `offset` is that of pair `i`'s element and inside the array, provided that the pair exists. The
-        answer depends only on facts about the call's numbers, not on arrays, so that it can be stored."""
+        """True if pair `i`'s element has this offset and is inside the array, provided that the pair exists. The answer
+        depends only on facts about the call's numbers, not on arrays, so that it can be stored."""
         index, known = self.spec.index(array, i), [*self._of_numbers, *filter(of_numbers, s.path)]
         place = z3.simplify(index * (self.spec.widths[array] // 8))
         key = (offset.sexpr(), place.sexpr(), *(fact.sexpr() for fact in known))
@@ -119,7 +120,7 @@ class Machine:
         return self._is_element[key]
 
     def _event(self, s: State, offset: z3.BitVecRef) -> int:
-        """The half of an event at an offset, counted from the path's first event."""
+        """The number of the 32-bit half of an event at an offset, counted from the path's first event."""
         for k in range(2 * len(s.pairs)):
             if self.same(s, offset, z3.ZeroExt(32, self.at.toggled) * 8 + 4 * k):
                 return k

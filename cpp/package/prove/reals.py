@@ -3,7 +3,7 @@ order give the same bits."""
 
 import z3
 
-z3.set_param("rewriter.elim_sign_ext", False)  # faster with whole terms than with single bits
+z3.set_param("rewriter.elim_sign_ext", False)  # Z3 is faster with whole terms than with single bits
 
 EFFORT = 100_000_000  # limit for a question in Z3's own units, so that verdicts do not depend on the machine's load
 INFINITY = {32: 0x7F800000, 64: 0x7FF0000000000000}
@@ -23,7 +23,7 @@ def arithmetic(name: str, a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
 
 
 def from_integer(value: z3.BitVecRef, width: int) -> z3.BitVecRef:
-    """An integer as a real. The result is the same for 32 and 64 bits."""
+    """An integer as a real. An integer has the same result in 32 and in 64 bits."""
     return function("from_int", width, z3.SignExt(64 - value.size(), value))
 
 
@@ -36,7 +36,7 @@ def product(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
 
 
 def magnitude(x: z3.BitVecRef) -> z3.BitVecRef:
-    """ABS clears the sign bit."""
+    """ABS(x): x with the sign bit cleared."""
     return x & z3.BitVecVal((1 << x.size() - 1) - 1, x.size())
 
 
@@ -60,7 +60,7 @@ def less(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BoolRef:
 
 
 def follows(claim: z3.BoolRef, *facts: z3.BoolRef) -> bool:
-    """True if Z3 proves a lemma."""
+    """True if Z3 proves that `claim` follows from `facts`."""
     solver = z3.Solver()
     solver.set("rlimit", EFFORT)
     solver.add(*facts, z3.Not(claim))

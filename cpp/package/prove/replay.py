@@ -1,4 +1,4 @@
-"""Searches for a call that a plug-in kernel and the 1989 code answer differently. contct.py runs both."""
+"""Searches for a call that a plug-in kernel and the 1989 code answer differently. contct.py runs both kernels."""
 
 import random
 import struct

@@ -19,7 +19,7 @@ CHANGED = {region for region, _, _ in REGISTERS.values()} - {*KEPT, "rsp"}
 
 
 def call(machine, s: State, name: str) -> None:
-    """The effect of a call of `name`, whose return address is on the stack."""
+    """Apply the effect of a call of `name` to `s`. The return address is on the stack."""
     if name not in (BEGIN, INTEGER, REAL, DONE) or not (s.events or name == BEGIN):
         raise machine.undecided(s, f"{name} is called, of which nothing is known here")
     block, top = machine.stack_offset(s, "rdi"), machine.stack_offset(s, "rsp")

@@ -59,7 +59,7 @@ class Specification:
         self.widths = dict.fromkeys(("DD", "DTEST", "CC", "SS"), width) | dict.fromkeys(("ID", "ISEP", "ISURF"), 32)
 
     def element(self, array: str, i: z3.BitVecRef) -> z3.BitVecRef:
-        """The element of pair `i`, from 0. SS is that after DO 10, ISEP that on entry."""
+        """The element of pair `i`, from 0: of SS after DO 10, of other arrays on entry."""
         return z3.Function(array, z3.BitVecSort(64), z3.BitVecSort(self.widths[array]))(self.index(array, i))
 
     def index(self, array: str, i: z3.BitVecRef) -> z3.BitVecRef:
@@ -84,7 +84,7 @@ class Specification:
         return z3.If(equal(dtest, self.zero), self.one, moving)  # 31, 32
 
     def smaller(self, s: z3.BitVecRef, smin: z3.BitVecRef) -> z3.BitVecRef:
-        """SMIN after a pair."""
+        """SMIN after a pair with the scale factor `s`."""
         return z3.If(z3.And(less(self.zero, s), less(s, smin)), s, smin)  # 40
 
     def toggle(self, at: Position) -> Toggle:

@@ -43,7 +43,7 @@ class State:
         return other
 
     def write(self, region: str, at: int, value: z3.BitVecRef) -> None:
-        """Store a value. The other bytes of values that it overlaps do not change."""
+        """Store a value. If older values overlap the new value, their other bytes do not change."""
         end = at + value.size() // 8
         for (place, start), old in list(self.cells.items()):
             above = start + old.size() // 8 - end

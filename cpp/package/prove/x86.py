@@ -52,7 +52,7 @@ class Operands:
         return self.get(0), self.get(1, self.width(0))
 
     def set(self, k: int, value: z3.BitVecRef) -> None:
-        """Write operand `k`; in a vector register, only the lowest bits."""
+        """Write operand `k`. In a vector register, bits above the width of `value` do not change."""
         name, real = "" if self.is_memory(k) else self.ins.reg_name(self.list[k].reg), self.machine.spec.width
         if not name:
             self.machine.store(self.s, self.address(k), z3.simplify(value))
@@ -71,7 +71,7 @@ class Operands:
 
 
 def _compare(o: Operands, a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
-    """The flags of a - b."""
+    """Set the flags of a - b, and return a - b."""
     o.s.flags = lambda: {
         "e": a == b, "b": z3.ULT(a, b), "be": z3.ULE(a, b), "l": a < b, "le": a <= b, "s": a - b < 0,
         "o": (a < b) != (a - b < 0),
