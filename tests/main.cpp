@@ -1,4 +1,5 @@
-// Catch2 2 needs one file that defines its main(); Catch2 3 needs one if its own main is not linked.
+// Defines main() of the test programs: by a macro of Catch2 2, or directly, because Catch2 3's library with
+// main() is not linked.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_session.hpp>
 int main(int argc, char** argv) {

@@ -15,7 +15,7 @@ TEST_CASE("a spring that is too stiff is named as the cause, and the suggested s
     dir.write("own.toml", changed.replace(changed.find("5.0e4"), 5, stiffness));
     return contct_program(dir.path(), {"run", "own.toml", "--kernels", "corrected", "--strict"});
   };
-  // The structure's own stiffness at the tip's w is 12 EI / h^3 = 1.2e5.
+  // The beam's stiffness for w of the tip is 12 EI / h^3 = 1.2e5.
   const finished f = with_stiffness("1e30");
   CHECK(f.exit == 3);
   CHECK_THAT(f.err, Contains("the stiffness 1e+30 of pair 1 (node 3, below), 8e+24 times") &&

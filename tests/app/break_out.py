@@ -1,7 +1,7 @@
 """python3 tests/app/break_out.py CONTCT: no text of a problem becomes markup, a row, a keyword or a formula in any output.
 
-A problem is run twice: with harmless texts, and with texts of the same length that end everything that can be ended. Each
-output is parsed again, and must have the same structure both times."""
+A problem is run twice: with harmless texts, and with texts of the same length that try to end every construct of the
+output formats. Each output is parsed again, and must have the same structure both times."""
 import csv
 import io
 import json
@@ -103,7 +103,7 @@ def shape_of_html(data: bytes) -> list:
         try:
             values.append(json.loads(script))
         except ValueError:
-            values.append(script)  # the page's own script
+            values.append(script)  # a script of the page, and no data
     return [page.tags, [shape_of_json(v) if isinstance(v, (dict, list)) else v for v in values]]
 
 
@@ -131,7 +131,7 @@ def shape_of_csv(data: bytes) -> list:
 
 
 def shape_of_markdown(data: bytes) -> list:
-    """Of each line what is left of the marks of Markdown where no backslash stands before them."""
+    """The characters of each line with a meaning in Markdown, without those after a backslash."""
     lines = data.decode().split("\n")
     return [re.sub(r"[^`*_{}\[\]<>#|!~&]", "", re.sub(r"\\.", "", line)) for line in lines]
 
@@ -145,7 +145,7 @@ def same(data: bytes) -> bytes:
 
 
 def outputs_of(folder: Path, file: str) -> dict[str, bytes]:
-    """Every output of every command that a problem has."""
+    """Every output of every command for a problem, by the name of its file."""
     contct(folder, "run", file, "--quiet", "--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu", "--json",
            "o.json", "--log", "o.log", "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md")
     contct(folder, "explain", file, "--quiet", "--json", "e.json")

@@ -1,5 +1,5 @@
-// Tests that every kind of `contct new` runs and is certified, and that one number of each agrees with the
-// hand calculation in reference/cookbook.md.
+// Tests that every kind of `contct new` runs and is certified, and that one number of each kind agrees with
+// the hand calculation in reference/cookbook.md.
 #include <algorithm>
 #include <cmath>
 #include <functional>

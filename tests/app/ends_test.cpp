@@ -18,7 +18,7 @@ std::string over_one_pair(int loaded) {
          std::to_string(loaded) + ", w = -1 } ]\n";
 }
 
-/// A beam on a pivot that lies on a stop below and is then lifted onto a stop above.
+/// A pivoted beam that lies on a stop below, and is then lifted onto a stop above.
 const char* const lifted =
     "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[support]]\nnode = 1\nfix = \"w\"\n"
     "[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e4\n"

@@ -1,4 +1,4 @@
-// Tests `contct exact`: the path in fractions, and the digits of kernels.
+// Tests `contct exact`: the path in fractions, and the number of correct digits of kernels.
 #include <nlohmann/json.hpp>
 #include <string>
 

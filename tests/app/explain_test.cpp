@@ -202,7 +202,7 @@ TEST_CASE("contct explain writes a long run while it follows the path, so that m
 }
 
 TEST_CASE("contct explain reports an event caused only by rounding near full load, which the driver undoes") {
-  // When the load is removed, the pairs separate at full load, or by rounding just before it.
+  // When the load is removed, the pairs separate at the end of the step, or by rounding just before the end.
   const scratch_folder dir;
   int undone = 0;
   for (int elements = 4; elements <= 30; elements += 2) {

@@ -28,7 +28,7 @@ TEST_CASE(
   CHECK_THAT(f.err, !Contains("--kernels corrected"));
   CHECK_THAT(f.err, Contains("a [[support]] with a weak spring at such a dof helps"));
   here.write("p.toml", here.read("p.toml") + "[[support]]\ndof = \"1\"\nspring = 1e-6\n");
-  CHECK(contct_program(here.path(), {"run", "p.toml", "--strict"}).exit == 0);  // |K| = 1e-6 - 2e-11 now
+  CHECK(contct_program(here.path(), {"run", "p.toml", "--strict"}).exit == 0);  // now det K = 1e-6 - 2e-11
 }
 
 TEST_CASE("every engine solves and certifies a matrix in sparse storage") {

@@ -103,7 +103,7 @@ TEST_CASE("contct-replay prints the same as contct replay, and needs neither LAP
   CHECK(out == f.out);
   const std::string libraries = shell("ldd " + program).out;
   CHECK_THAT(libraries, Contains("libc.so") && !Contains("lapack") && !Contains("blas"));
-  // In a program that is linked with LAPACK, ldd names it.
+  // For a program that is linked with LAPACK, ldd does name LAPACK.
   CHECK_THAT(shell("ldd " + std::string(CONTCT_PROGRAM)).out, Contains("lapack"));
 }
 

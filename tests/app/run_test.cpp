@@ -282,8 +282,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a free run has exit status 1 if the share of an event differs by more than the bound") {
-  // The node ends 1e-5 before its face and in the next step 1e-5 beyond it. Single precision cannot resolve
-  // the share at which it reaches the face.
+  // Step 1 ends with the node 1e-5 before its face, and step 2 with the node 1e-5 beyond the face. Single
+  // precision cannot resolve the share at which the node reaches the face.
   const scratch_folder dir;
   dir.write("near.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"

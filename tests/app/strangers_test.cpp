@@ -19,9 +19,9 @@ namespace {
 
 using words = std::vector<std::string>;
 
-// ESC, BEL, DEL, a C1 control, marks that turn the direction of text. In a file of bytes also some that are
-// no UTF-8.
-// NOLINTNEXTLINE(misc-misleading-bidirectional): that is what it is for
+// ESC, BEL, DEL, a C1 control, marks that change the direction of text. hostile_bytes also has bytes that
+// are not valid UTF-8.
+// NOLINTNEXTLINE(misc-misleading-bidirectional): the text must contain such marks
 const std::string hostile = "\x1b[31m\x07\x7f\u009b31m\u202e\u2067";
 const std::string hostile_bytes = hostile + "\xff\xc0\x9b";
 const std::string hostile_in_toml = R"(\u001b[31m\u0007\u007f\u009b31m\u202e\u2067)";

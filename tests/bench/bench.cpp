@@ -51,13 +51,13 @@ std::string core_type() {
   return name != nullptr ? name() : "no choice of its own";
 }
 
-/// Returns the median run of several, with the certificate of the first run.
+/// Returns the run with the median time, with the certificate of the first run.
 bench::run_of_engine measured(const options& o, const contct::problem& p, const contct::linear_structure& s,
                               const std::string& engine, int events) {
   std::vector<bench::run_of_engine> runs;
   for (int round = 0; round < o.rounds; ++round) {
     runs.push_back(bench::run_engine(p, s, engine, events, round == 0));
-    constexpr double long_enough = 20.0;  // in seconds, for which one run is enough
+    constexpr double long_enough = 20.0;  // seconds; a longer run is not repeated
     if (runs.back().seconds > long_enough) break;
   }
   const bench::run_of_engine first = runs.front();
@@ -72,8 +72,8 @@ double ms_per_event(const bench::run_of_engine& r) {
   return 1e3 * r.seconds / static_cast<double>(std::max<std::size_t>(r.events.size(), 1));
 }
 
-/// Returns the number of events to time. The engine refactor takes an hour on the large plates, so only their
-/// first events are timed.
+/// Returns the number of events to time, or 0 for all events. The engine refactor takes an hour on the large
+/// plates, so only their first events are timed.
 int events_of_refactor(const options& o, const std::string& problem) {
   constexpr int enough = 60;
   return o.events == 0 && (problem == "mat-100" || problem == "grid-100") ? enough : o.events;
@@ -148,7 +148,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   }
 }
 
-/// Times the final states without a path, in factorisations.
+/// Times the final states without a path, and compares their time with that of their factorisations.
 json bench_final_states(const std::string& name) {
   const contct::problem p = bench::make_problem(name);
   const contct::linear_structure s = contct::structure_of(p);

@@ -32,7 +32,7 @@ struct cpu_clock {
 /// Returns the problem file of a family and size, such as "rail-50". Throws std::invalid_argument for an
 /// unknown name.
 [[nodiscard]] std::string text_of(const std::string& name);
-/// Returns the same problem, or that of a file if its name ends in ".toml".
+/// Returns the problem with the text text_of(name), or that of the file `name` if `name` ends in ".toml".
 [[nodiscard]] contct::problem make_problem(const std::string& name);
 
 /// Returns the names of the benchmark's problems, the smallest first.
@@ -56,7 +56,7 @@ struct run_of_engine {
 };
 
 /// Follows the path under the corrected rule, with at most `most_events` events a step, or all if 0. If
-/// `certify` is set and the path is complete, the last state is certified; this is timed separately.
+/// `certify` is set and the path is complete, the last state is certified; certification is timed separately.
 [[nodiscard]] run_of_engine run_engine(const contct::problem& p, const contct::linear_structure& s,
                                        const std::string& engine, int most_events, bool certify);
 
@@ -79,8 +79,9 @@ struct difference {
 };
 [[nodiscard]] difference difference_of(const run_of_engine& reference, const run_of_engine& other);
 
-/// The least time in seconds of a call without an event, among `rounds` rounds. In such a call the listing
-/// writes a line, so `fortran` excludes the time of a call without pairs, which only writes this line.
+/// The least time in seconds of a call without an event, among `rounds` rounds. In a call without an event,
+/// the listing writes a line of text; `fortran` excludes the time of a call without pairs, which only writes
+/// this line.
 struct seconds_of_a_call {
   double fortran;
   double cpp;
@@ -88,7 +89,7 @@ struct seconds_of_a_call {
 };
 [[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs, int rounds);
 
-/// The time of CHOLMOD without an engine, and its result compared with our certified state.
+/// The time of CHOLMOD without an engine, and the comparison of CHOLMOD's result with our certified state.
 struct peer_answer {
   std::string method;
   double seconds = 0.0;    ///< median processor time from K in memory to D

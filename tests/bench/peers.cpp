@@ -50,7 +50,8 @@ class newton {
     (void)cholmod_finish(&common_);
   }
 
-  /// Returns the number of steps.
+  /// Solves until no pair changes, and returns the number of steps. Throws std::runtime_error after 200
+  /// steps.
   int run() {
     constexpr int most = 200;
     for (int steps = 1; steps <= most; ++steps) {
@@ -161,8 +162,8 @@ class certified_end final : public observer {
   std::vector<double> u, forces, bounds;
 };
 
-/// Sets the answer's digits from its distance to our state plus the bound on our state's error, so that no
-/// answer gets more digits than are proved.
+/// Sets the digits of answer `a` from the distance of `u` to our state plus the bound on our state's error,
+/// so that no answer gets more digits than are proved.
 void judge(const certified_end& ours, const linear_structure& s, const std::vector<double>& u,
            peer_answer& a) {
   std::array<double, 3> size{}, off{};  // index: deflections, other displacements, forces

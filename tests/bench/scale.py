@@ -22,7 +22,7 @@ from make import problem_of  # noqa: E402
 
 
 def measured(command, folder):
-    """Processor seconds and MiB of a process and of those that it waited for; the last line of its errors if it fails."""
+    """Processor seconds and MiB of a process and its child processes, or None and a message if the process fails."""
     limited = ["timeout", str(SECONDS * 4), *map(str, command)]
     with open(folder / "out", "wb") as out:
         process = subprocess.Popen(limited, cwd=folder, stdout=out, stderr=out)
@@ -49,7 +49,7 @@ def cholmod(method):
 
 
 def ccx(name, folder):
-    """A plate's loads without their moments, and edges that are held at corners of elements: for its time alone."""
+    """Run CalculiX on a plate without the moments of its loads, held only at corners of elements, to measure time."""
     problem = problem_of(folder / f"{name}.toml")
     step = problem["steps"][0] | {"loads": [load for load in problem["steps"][0]["loads"] if load[1] in calculix.DIRECTIONS]}
     Path(folder, "job.inp").write_text(calculix.deck(problem, step))
@@ -68,7 +68,7 @@ METHODS = {
 
 
 def curve(family, run):
-    """[(dofs, seconds, MiB)]"""
+    """The points of a curve: [(dofs, seconds, MiB)]."""
     points = []
     for size in SIZES[family][:MOST_SIZES]:
         name = f"{family}-{size}"
@@ -87,7 +87,7 @@ def curve(family, run):
 
 
 def panel(left, title, unit, curves, of):
-    """Of one family, both axes logarithmic: `of` 1, seconds, or 2, MiB."""
+    """A plot of the curves of one family with logarithmic axes. `of`: 1 for seconds, 2 for MiB."""
     width, height, top = 330, 250, 30
     xs = [math.log10(point[0]) for _, points in curves for point in points]
     ys = [math.log10(max(point[of], 1e-3)) for _, points in curves for point in points]

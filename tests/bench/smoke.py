@@ -1,4 +1,4 @@
-"""Runs the benchmark on small problems of each family and looks at what it says. No times are judged."""
+"""Runs the benchmark on small problems of each family and checks the output, but not the times."""
 import json
 import subprocess
 import sys

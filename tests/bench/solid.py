@@ -1,4 +1,4 @@
-"""solid.py N FOLDER: writes FOLDER/solid-N.toml for contct_bench --problem, and the matrix that it reads, which CalculiX (ccx) makes:
+"""solid.py N FOLDER: writes FOLDER/solid-N.toml for contct_bench --problem, and the problem's matrix, made by CalculiX:
 4 N x N x N bricks of side 1, clamped at x = 0, over a spring with a gap under each node of the lower face, under a load at the free end."""
 import math
 import subprocess

@@ -16,7 +16,7 @@ NAME = "pb16-membrane-over-ball"
 
 
 def solved(folder, intervals):
-    """The largest error, and what presses in all."""
+    """The largest error of w, and the sum of the contact forces."""
     membrane = Membrane(intervals)
     membrane.write(folder, NAME)
     subprocess.run([contct, "run", folder / f"{NAME}.toml", "--quiet", "--strict", "--json", folder / "out.json"], check=True)

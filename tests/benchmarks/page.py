@@ -1,4 +1,4 @@
-"""page.py CONTCT ROOT: the file of results that reference/benchmarks.md shows is one that contct verify --results judges, and passes; the
+"""page.py CONTCT ROOT: contct verify --results passes the file of results that reference/benchmarks.md shows; the
 page has a row and a picture for each family of problems, and at most 900 words."""
 import re
 import subprocess

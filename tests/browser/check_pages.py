@@ -124,7 +124,7 @@ def numbers_match(name):
 
 
 def tables_match(name, result):
-    """What the tables of the steps' ends say is in the result, digit for digit."""
+    """The tables of the steps' ends have the numbers of the result, digit for digit."""
     tables = browser.value("""[...document.querySelectorAll('#ends table')].map(t => [t.getAttribute('aria-label'),
         [...t.tBodies[0].rows].map(r => [...r.cells].map(c => [...c.querySelectorAll('[data-value]')].map(v => v.dataset.value)
           .concat(c.dataset.value || [], c.textContent)))])""")
@@ -160,12 +160,12 @@ def tables_match(name, result):
                   f"{name}: {title.lower()} of step {step['step']}: {column}, {known}")
 
 
-# Whether the page draws each of the structures given by matrices.
+# The structures that are given by matrices: True if the page draws the structure.
 structures = {"frame": True, "console": True, "bare": False}
 
 
 def check_structure(name, step):
-    """Every node is drawn where it is: as the page has it, and as its lines go."""
+    """Every pair is drawn at its displaced node; a structure without coordinates is not drawn."""
     where = f"{name}, step {step['step']}"
     if not structures[name]:
         check(browser.value("document.getElementById('picture').children.length") == 0, f"{where}: nothing is drawn")
@@ -322,7 +322,7 @@ def prints_every_quantity(name, title, words):
 
 
 def has_the_largest_rows(name):
-    """Of more pairs than rows the largest forces are in the table."""
+    """If there are more pairs than rows, the table has the largest forces."""
     open_page(name)
     forces = sorted((p["force_max"] for p in result_of(name)["envelope"]["pairs"]), reverse=True)
     shown = browser.value("[...document.querySelectorAll('#envelope table')].find(t => t.ariaLabel.startsWith('Largest contact force')).innerText")
@@ -331,7 +331,7 @@ def has_the_largest_rows(name):
 
 
 def leaves_nothing_out(name):
-    """Of many combinations and pairs: every step, every [[contact]], what the terminal says."""
+    """With many combinations and pairs, the page has every step, every [[contact]] and all text of the terminal."""
     open_page(name)
     steps = result_of(name)["steps"]
     table = lambda section, title: browser.value(f"[...document.querySelectorAll('#{section} table')].filter(t => t.ariaLabel.startsWith('{title}')).map(t => [...t.rows].map(r => r.innerText))")
@@ -349,7 +349,7 @@ def leaves_nothing_out(name):
 
 
 def tells_warnings(name):
-    """On screen and on paper, before the results."""
+    """Warnings are shown before the results, on screen and on paper."""
     open_page(name)
     paper = "".join(sheets_of(name))
     for piece in ("the mesh is coarse for this bed", "Half the element size changes w by"):
@@ -358,7 +358,7 @@ def tells_warnings(name):
 
 
 def has_envelope_curves(name):
-    """Every curve reaches the envelope's extremes, and the pointer is told the step of each."""
+    """Every curve reaches the envelope's extremes, and the tooltip names the step of each extreme."""
     open_page(name)
     envelope = result_of(name)["envelope"]
     for quantity in ("w", "moment", "shear"):
@@ -401,7 +401,7 @@ def saves_its_picture(name):
 
 
 def pressed_faces_are_where_the_beam_is(name, state):
-    """A face in contact is at its node, and the spring leads from where the face stood."""
+    """A face in contact is drawn at its node, and the spring begins at the face's original position."""
     open_page(name)
     go_to(state)
     off = browser.value("""frames[current].pairs.filter(p => p.closed && p.force > 0).map(p => {
@@ -413,7 +413,7 @@ def pressed_faces_are_where_the_beam_is(name, state):
 
 
 def tells_sums_of_forces(name):
-    """Where a result has the sums of loads, reactions and contact forces."""
+    """The page has the sums of loads, reactions and contact forces if the result has them."""
     open_page(name)
     browser.value("(() => { result.steps[0].balance = { loads: -601.25, reactions: 600, contact: 1.25 }; showRest(); })()")
     rows = browser.value("[...document.querySelectorAll('#ends table')].filter(t => t.ariaLabel.startsWith('Sums of forces')).map(t => [...t.querySelectorAll('td')].map(c => Number(c.dataset.value)))")
@@ -421,7 +421,7 @@ def tells_sums_of_forces(name):
 
 
 def tables_fit(name):
-    """Short tables are not cut, long names take lines and no columns."""
+    """Short tables are not cut, and long names do not widen a table."""
     open_page(name, width=1300)
     cut = browser.value("[...document.querySelectorAll('.scroll.whole')].filter(e => e.scrollHeight > e.clientHeight + 1 && e.offsetParent).map(e => e.ariaLabel)")
     check(cut == [], f"{name}: short tables that are cut: {cut}")
@@ -535,7 +535,7 @@ def opens(name, *words):
 # ---- structures given by matrices ----
 
 def stands_where_it_was(name, view):
-    """Before any load both lines are the same; later they are not, and pairs, faces and supports are marked."""
+    """Before any load both lines of the structure are equal; later they differ. Pairs, faces and supports are marked."""
     open_page(name)
     check(browser.value("view") == view, f"{name}: it is looked at from where it shows most")
     lines = "['.was', '.member'].map(k => document.querySelector('#picture ' + k).getAttribute('d'))"

@@ -9,7 +9,7 @@ import time
 
 
 class Checks:
-    """What was looked at, and how much of it was wrong."""
+    """Counts the checks and the failed checks."""
 
     def __init__(self):
         self.made, self.failed = 0, 0
@@ -30,7 +30,7 @@ class Browser:
         to_browser, self.to_browser = os.pipe()
         self.from_browser, from_browser = os.pipe()
 
-        def hand_over():  # the browser reads commands from 3 and writes answers to 4
+        def hand_over():  # the browser reads commands from descriptor 3 and writes answers to 4
             os.dup2(to_browser, 63), os.dup2(from_browser, 64)
             os.dup2(63, 3), os.dup2(64, 4)
 
@@ -106,7 +106,7 @@ class Browser:
             pass
 
     def value(self, script):
-        """What a script comes to, in the page."""
+        """The result of a script in the page."""
         result = self.send("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
             raise RuntimeError(f"{script}: {json.dumps(result['exceptionDetails'])[:400]}")
@@ -118,7 +118,7 @@ class Browser:
                    f" e.dispatchEvent(new Event('{event}')); }})()")
 
     def wait_for(self, script, seconds=60):
-        """Until a script comes to something true."""
+        """Wait until the result of a script is true."""
         end = time.monotonic() + seconds
         while not self.value(script):
             if time.monotonic() > end:
@@ -138,7 +138,7 @@ class Browser:
             out.write(base64.b64decode(data))
 
     def save_to(self, folder):
-        """What the page lets its reader save is kept in this folder."""
+        """Save the page's downloads to this folder."""
         self.send("Page.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath(folder))
 
     def pdf(self):

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Tests the page of `contct run --html` in headless chromium: the slider, every number against the run's JSON, themes,
-# widths, print, accessibility, 5000 nodes, and external structures with coordinates, with CalculiX's mesh, without
-# both, and with 20,000 edges.
+# widths, print, accessibility, 5000 nodes, and external structures with coordinates, with CalculiX's mesh, with
+# neither coordinates nor mesh, and with 20,000 edges.
 # usage: sh tests/browser/run.sh [BUILD]      (default: build/release)
 # Exit 0: all checks passed; 77: skipped, chromium or pdftotext is missing; 1 otherwise. Pictures are kept in
 # BUILD/tests/browser.

@@ -55,8 +55,8 @@ certificate judged(const beam_problem& p, const told_state& t) {
   return judge(p).of(t);
 }
 
-/// Returns the letters of the measures that exceed the allowed error, of D (displacement), S (shape), E
-/// (equilibrium), P (penetration) and T (tension).
+/// Returns the letters of the measures that exceed the allowed error: D (displacement), S (shape), E
+/// (equilibrium), P (penetration), T (tension).
 std::string wrong_in(const certificate& c) {
   std::string wrong;
   if (!(c.displacement_error <= certified_share)) wrong += 'D';
@@ -74,8 +74,8 @@ bool says(const certificate& c, const std::string& words) {
 constexpr double weak = 1e-12;  // a spring that is too weak to change any equilibrium
 constexpr double stiff = 1e12;
 
-/// A span with four pairs, pressed and separated, each with a stiff spring and with a weak spring. Node 4
-/// sinks below -0.1, and node 1 stays above -0.2.
+/// A span with two pressed pairs and two separated pairs. The second pair of each kind has a weak spring.
+/// Node 4 sinks below -0.1, and node 1 stays above -0.2.
 beam_problem span_with_pairs() {
   return {even_beam(8.0, 8, 1e3),
           {{0, 0, true}, {8, 0, true}},
@@ -106,8 +106,8 @@ TEST_CASE("a correct state is certified, with no error in any measure of the cer
 
 TEST_CASE(
     "an error of a state appears in every measure that it affects, and the message names the worst measure") {
-  // A wrong status of a pair with a weak spring does not disturb equilibrium, so only its own measure detects
-  // it.
+  // A wrong status of a pair with a weak spring does not disturb equilibrium, so only penetration or
+  // tension detects the wrong status.
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
   struct fault {

@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// Returns two springs of stiffness 1 in series, and a softer one to the ground that is lost in doubles.
+/// Returns two springs of stiffness 1 in series, and a softer spring to the ground that doubles cannot hold.
 long_band springs_in_line(double soft) {
   long_band a(3, 1);
   a.at(0, 0) = 1.0;
@@ -45,7 +45,7 @@ double largest_row(const sparse_columns& a, const sparse_columns& l) {
   return static_cast<double>(largest);
 }
 
-/// Returns a lower triangle L whose L L' is far from K.
+/// Returns a lower triangle L for which L L' is far from K.
 sparse_columns lower_of(const band_matrix& k) {
   sparse_columns l = columns_of(k);
   for (double& x : l.values) x = std::sin(37 * x);

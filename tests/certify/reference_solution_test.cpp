@@ -64,8 +64,8 @@ struct comparison {
 
 /// Returns the allowed relative error in the middle of a span of unit elements with EI = 1 after refinement.
 /// The residual of each row is rounded in long double by at most eps/2 * 48 |u|, which acts like a force and
-/// moves the middle by at most its compliance. The n roundings have random signs, so they add up to sqrt(n)
-/// of one.
+/// moves the middle by at most force times `compliance`. The n roundings have random signs, so that their sum
+/// is about sqrt(n) times one rounding.
 double rounded_residuals(int elements, double compliance) {
   constexpr auto rounding = static_cast<double>(std::numeric_limits<long double>::epsilon() / 2);
   return std::sqrt(elements) * 48 * compliance * rounding;

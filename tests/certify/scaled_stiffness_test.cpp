@@ -14,7 +14,7 @@ using contct::rational;
 
 namespace {
 
-/// Returns a chain of n springs of stiffness 1 that is held at both ends, with `more` added at each node. Its
+/// Returns a chain of n springs of stiffness 1 that is held at both ends, with `more` added at each node. The
 /// eigenvalues are more + 4 sin^2(j pi / 2 (n + 1)).
 long_system chain(int n, double more = 0.0) {
   long_system t;

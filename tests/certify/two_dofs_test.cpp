@@ -61,8 +61,8 @@ load force(int dof, double value) {
   return {{{dof, 0, value}}, {}};
 }
 
-/// Returns two cantilevers with 3 EI / l^3 of 3750 and 60000, whose tips have a deflection and a slope each
-/// and a distance of 0.002.
+/// Returns two cantilevers with 3 EI / l^3 of 3750 and 60000 and tips at a distance of 0.002. The dofs are
+/// the deflection and the slope of each tip.
 problem two_cantilevers() {
   return on_matrix({4,
                     {{0, 0, 15000},

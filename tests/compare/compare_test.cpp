@@ -1,5 +1,5 @@
-// Tests comparisons of two answers, the counts of a follower, and texts compared by bytes or by meaning. No
-// f2c kernel is needed for traces of f2c.
+// Tests comparisons of two answers, the counts of a follower, and texts compared by bytes or by meaning.
+// Traces of f2c can be compared without the kernel f2c.
 #include "contct/compare/compare.hpp"
 
 #include <bit>
@@ -24,7 +24,7 @@ std::optional<mismatch> differ(double smin, std::vector<double> ss, std::vector<
 /// One pair that reaches its face at s = 0.5.
 const call_inputs<double> half_way{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
 
-/// The leader's answer to the call `half_way`, with this SMIN.
+/// The leader's answer to the call `half_way`, with the given SMIN.
 struct answered_half_way {
   call_outputs out;
   call<double> c = out.prepare(half_way);

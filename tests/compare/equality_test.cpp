@@ -1,6 +1,6 @@
 // Tests that the listing and the C++ kernel are equal to the bit: exhaustively for one pair and for two
-// pairs, and at random for up to 64 pairs, in both precisions. `contct prove` proves it for every input; this
-// also tests the wrapper and the text.
+// pairs, and at random for up to 64 pairs, in both precisions. `contct prove` proves this equality for every
+// input; these tests also cover the wrapper and the text.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,7 +74,7 @@ TEMPLATE_TEST_CASE(
   for (const Real d : numbers) {
     for (const Real d_star : numbers) {
       for (const Real c : numbers) {
-        for (const int isep : {1, -1, 0, 2}) {  // the listing takes 0 and 2 as its ELSE
+        for (const int isep : {1, -1, 0, 2}) {  // for 0 and 2 the listing takes its ELSE branches
           for (const int isurf : {1, -1}) {
             in.dd[0] = d;
             in.dtest[0] = d_star;

@@ -29,7 +29,7 @@ small_call<double> with_diffs(double second, double third) {
       .ask();
 }
 
-/// Notes the answer to the call after these changes.
+/// Adds a call to `all`, with an answer of another kernel that is the right answer after `change`.
 template <class Change>
 void note(fault_finder& all, small_call<double> c, Change change) {
   call_outputs other{c.smin, c.ss, c.isep, ""};

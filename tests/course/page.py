@@ -1,8 +1,8 @@
-"""What a page of the course shows: commands, and what they print.
+"""The commands of a course page, and the outputs that the page shows.
 
-A block fenced as `sh` is a command; the fenced block behind it is its output, standard error included, line by line and to
-the letter. <...> stands for characters of one line that differ from machine to machine. A command ends with 0: one that
-does not is shown with || echo "exit status $?" behind it.
+A block fenced as `sh` is a command; the fenced block after it is the exact output, including standard error. <...>
+stands for characters of one line that differ between machines. Every command has exit status 0; a command with another
+status is followed by || echo "exit status $?".
 """
 import re
 import subprocess
@@ -14,7 +14,7 @@ WILD = "<...>"
 
 
 def shown(text):
-    """The commands of a page, each with the lines that the page shows behind it."""
+    """The commands of a page, each with the output lines that the page shows."""
     blocks = [(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 1) for m in FENCE.finditer(text)]
     found = []
     for number, (kind, body, line) in enumerate(blocks):
@@ -32,7 +32,7 @@ def line_fits(pattern, line):
 
 
 def difference(patterns, lines):
-    """None where the lines are what the page shows; else the first that is not, in words."""
+    """None if the lines fit the page; otherwise a description of the first difference."""
     for number in range(max(len(patterns), len(lines))):
         pattern = patterns[number] if number < len(patterns) else None
         found = lines[number] if number < len(lines) else None
@@ -59,7 +59,7 @@ class place:
         (self.here / "build/release").symlink_to(Path(programs).resolve())
 
     def run(self, command, **more):
-        """The lines that it prints, and its exit status."""
+        """The lines that a command prints, and its exit status."""
         finished = subprocess.run(["sh", "-euc", command], cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                   **{"stdin": subprocess.DEVNULL, **more})
         return [line.rstrip() for line in finished.stdout.splitlines()], finished.returncode

@@ -32,7 +32,7 @@ def judged(kernel):
 
 
 def built(file):
-    """A kernel of C or Fortran as a plug-in, compiled without a warning; one in Python is run as it is."""
+    """The name of a kernel: a plug-in compiled from C or Fortran without warnings, or a command that runs Python."""
     library, strict = file.with_suffix(".so"), ["-O2", "-ffp-contract=off", "-Wall", "-Werror", "-shared", "-fPIC"]
     if file.suffix == ".py":
         return f"pipe:{sys.executable} {file} 2>/dev/null"

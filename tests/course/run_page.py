@@ -1,8 +1,8 @@
-"""run_page.py ROOT PROGRAMS PAGE LEAST MOST: runs what a page of the course shows, and compares what comes out.
-run_page.py ROOT PROGRAMS PAGE: puts what comes out into the page, for whoever changes it. Read what it wrote before you believe it.
+"""run_page.py ROOT PROGRAMS PAGE LEAST MOST: runs the commands of a course page, and compares their outputs.
+run_page.py ROOT PROGRAMS PAGE: writes the outputs of the commands to the page. Check what it wrote.
 
 ROOT is the project, PROGRAMS its release build, PAGE is relative to ROOT. There must be LEAST commands or more, and MOST
-wildcards or fewer. Text blocks that have wildcards and still fit are not written anew.
+wildcards or fewer. Text blocks that fit the outputs are not changed.
 """
 import re
 import sys

@@ -1,6 +1,6 @@
-"""edition.py [--write]: reference/parallel-edition.md and .html are what parallel-edition.toml and the sources make, and the map is
-complete: every statement of the listing is in it once, and every block of C++ stands in its file once. With --write they are
-written.
+"""edition.py [--write]: checks that reference/parallel-edition.md and .html are made from parallel-edition.toml and the
+sources, and that the map in the .toml file is complete: every statement of the listing is in the map once, and every
+block of C++ is in its file once. With --write, writes the two pages.
 """
 import html
 import sys
@@ -53,7 +53,7 @@ def quoted(block):
 
 
 def places_of(block):
-    """Where in its file a block stands, the first line of each place, from 0."""
+    """The first line, from 0, of each place where a block is in its file."""
     there, wanted = [line.strip() for line in lines_of(block["file"])], quoted(block)
     return [at for at in range(len(there)) if there[at:at + len(wanted)] == wanted]
 
@@ -77,13 +77,13 @@ def heading(part):
 
 
 def listing_code(part):
-    """Fixed form keeps its columns: labels stand before column 6."""
+    """The listing's lines of a part. Fixed form keeps its columns, because labels are before column 6."""
     there = lines_of(LISTING)
     return "".join(f"{number} {there[number - 1]}\n" for number in part["listing"])
 
 
 def cpp_code(block, numbered=True):
-    """Moved to the left as far as the lines go together."""
+    """The lines of a block without their common indentation."""
     first, count = places_of(block)[0], len(quoted(block))
     there = lines_of(block["file"])[first:first + count]
     indent = min(len(line) - len(line.lstrip(" ")) for line in there)
@@ -91,14 +91,14 @@ def cpp_code(block, numbered=True):
 
 
 def plain(text):
-    """In Markdown a star and an underscore mean something."""
+    """Escape the characters of a text that have a meaning in Markdown."""
     return "".join("\\" + ch if ch in "*_<" else ch for ch in text)
 
 
 def markdown_page(edition):
-    """Of the C++ the kernel alone; other files are named. The paper's words stand in the HTML page."""
-    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nThe C++ code is from [contct.hpp](../{KERNEL}). The [HTML page]" \
-           f"(parallel-edition.html) and the page of `contct run --html` also quote the paper and other files. This command makes the page:\n\n```sh\n{COMMAND}\n```\n\n" \
+    """The page with the C++ of the kernel, and only the names of other files. The HTML page also quotes the paper."""
+    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nThe C++ is that of [contct.hpp](../{KERNEL}). The [HTML page]" \
+           f"(parallel-edition.html), and that of `contct run --html`, also quote the paper and the other files. Made by\n\n```sh\n{COMMAND}\n```\n\n" \
            f"<table>\n"
     for part in edition["part"]:
         equation = f" Eq. {part['equation']}." if part["equation"] else ""

@@ -21,7 +21,7 @@ double error_of(double told, const rational& truly) {
   return std::abs(contct::rounded(binary_value(told) - truly));
 }
 
-/// Returns the largest force or reaction in a state or, if it has none, in the last earlier step with one.
+/// Returns the largest force or reaction in a state or, if all are 0, in the last earlier step with a force.
 double largest_force(const exact_path& truly, std::size_t step) {
   double largest = 0.0;
   for (; step > 0 && largest == 0.0; --step)

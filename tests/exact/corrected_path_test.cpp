@@ -23,7 +23,7 @@ exact_path reference(const std::string& name) {
 }
 
 /// Returns the first condition of equilibrium under the full load that does not hold exactly, or an empty
-/// text. It uses only K, the loads and the pairs, and no solve.
+/// text. Uses only K, the loads and the pairs, and no solve.
 std::string wrong_with(const exact_problem& p, const exact_step& acting, const exact_step_end& e) {
   if (e.fraction != 1) return "the load is not reached";
   rational_vector rest = acting.force;
@@ -73,7 +73,7 @@ std::string told(const exact_step_end& s) {
   return words;
 }
 
-/// Returns a dof's displacement at the end of a step; both count from 0.
+/// Returns a dof's displacement at the end of a step. Dofs and steps count from 0.
 rational at(const exact_path& path, std::size_t step, std::size_t dof) {
   return path.steps.at(step).displacement.at(dof);
 }
@@ -191,7 +191,7 @@ TEST_CASE("the exact path reaches a face at 1/5 of a settlement, and ends with t
   p.steps[0].settlements = {{2, 0, -1.6}};
   const exact_problem e = exact_problem_of(p);
   const exact_path path = follow_corrected_path(e);
-  // Without the pair, w2 is 5/16 of the settlement, which reaches the face at a share of 1/5.
+  // Without the pair, w2 is 5/16 of the settlement, so that node 2 reaches the face at a share of 1/5.
   CHECK(told(path.steps[0]) == "1/5: +1; 1:");
   CHECK(at(path, 0, 4) == rational(-8, 5));
   CHECK(wrong_with(e, e.steps[0], path.steps[0]).empty());

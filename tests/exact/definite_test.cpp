@@ -15,7 +15,7 @@ struct decided {
   exact_problem exactly;
   definiteness what;
 
-  /// Returns true if negative work is reported and an independent sum confirms it.
+  /// Returns true if negative work is reported and an independent sum confirms this work.
   [[nodiscard]] bool shows() const {
     if (!what.shown || what.semidefinite) return false;
     rational sum;

@@ -113,7 +113,7 @@ const std::string beam_over_stop =
     "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.0037\nstiffness = 1e5\n"
     "[[step]]\npoint = [ { node = 4, w = -60 } ]\n";
 
-/// Returns limits under which a step ends in the refined state that the path reached.
+/// Returns path limits that refine the state that the path reached at the end of each step.
 path_limits refined_by(error_prover& prover) {
   return {0, [&prover](int step, const full_load_state* reached) {
             if (reached == nullptr) return found_end();

@@ -25,8 +25,8 @@ struct range {
   rational least, most;
 };
 
-/// Takes the values at both ends and at sign changes of the derivative between 33 points, bisected until the
-/// value changes by less than 1e-20 of itself.
+/// Adds the values of p at t = 0, at t = 1 and at local extremes to `known`. A local extreme is found by 30
+/// bisections between two of 33 points at which the derivative has different signs.
 void take_extremes(const rational_vector& p, range& known) {
   const rational_vector slope = derivative_of(p);
   const auto take = [&](const rational& t) {
@@ -90,7 +90,7 @@ int check_extremes(const outcome& o) {
 }
 
 /// Returns a beam far from x = 0 on three supports and a stop, under a load whose polynomial about the left
-/// end is multiplied out in x. With `hinged` it is clamped and has a hinge over the stop.
+/// end is multiplied out in x. If `hinged`, the beam is clamped and has a hinge over the stop.
 problem far_beam(random_numbers& random, bool hinged = false) {
   const double left = std::pow(10.0, 3 + random.whole(0, 3)) * (1 + random.whole(0, 2));
   const int degree = random.whole(1, 6);

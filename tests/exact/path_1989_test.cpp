@@ -85,7 +85,7 @@ TEST_CASE(
     "by the exact 1989 rule, a pair within EPSMUL is toggled before it touches, and the displacements keep "
     "the error") {
   // Of two stops at one node, the face at -1 is reached at s = 1/3, and the face at -1.001 within 1/256 of
-  // it.
+  // this s.
   const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
                                  "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   // Pair 2 is in contact too early, so it breaks when it meets its face at -1.001, and then makes contact

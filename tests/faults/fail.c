@@ -1,14 +1,14 @@
-/* A library to preload: it makes one call of the system fail, for tests.
+/* A library to preload, which makes a system call fail, for tests. Environment variables:
  *
- * - FAULT_CALL: its name: "write", "openat", ..
- * - FAULT_AT: the number of the call that fails, from 1 before main; 0: none
- * - FAULT_ERRNO: what it fails with
- * - FAULT_MORE: "1": all calls behind it fail too
- * - FAULT_SIGNAL: a signal that the process gets at that call, which does not fail then
+ * - FAULT_CALL: the name of the system call: "write", "openat", ..
+ * - FAULT_AT: the number of the call that fails, counted from 1 before main; 0: no call fails
+ * - FAULT_ERRNO: the error number of the failing call
+ * - FAULT_MORE: if set, all later calls fail too
+ * - FAULT_SIGNAL: a signal that the process gets at this call instead of the failure
  * - FAULT_COUNT: a file to which the number of calls is written at the end
  *
- * The call is caught in the kernel (seccomp) and made again, or not, by the handler of SIGSYS: so calls
- * inside the C library are counted too. */
+ * seccomp stops every call of this name, and the handler of SIGSYS makes the call or lets it fail. Calls
+ * inside the C library are therefore counted too. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <linux/audit.h>
@@ -25,7 +25,7 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-static const unsigned long let_pass = 0x636f6e74; /* as the sixth argument, which none of these calls has */
+static const unsigned long let_pass = 0x636f6e74; /* the sixth argument of calls that seccomp allows */
 
 static volatile int armed = 0;
 static long at = 0;
@@ -35,7 +35,7 @@ static volatile long calls = 0;
 
 static int signal_instead = 0;
 
-static pid_t program = 0; /* not the processes that it starts */
+static pid_t program = 0; /* child processes do not fail */
 
 static int must_fail(void) {
   if (getpid() != program) return 0;
@@ -60,8 +60,8 @@ static long make(int number, const unsigned long a[5]) {
   return answer < 0 ? -errno : answer;
 }
 
-/* A file in memory, as unit 26 has it, is on no disk that could be full; nor is a channel to a process of the
- * program's own. */
+/* True for a file in memory, such as that of unit 26, and for a channel to a child process. A full disk
+ * cannot make their calls fail. */
 static int is_on_no_disk(int number, const unsigned long a[5]) {
   char link[64];
   char target[64] = "";
@@ -102,7 +102,7 @@ static int catch_calls(int number) {
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return -1;
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
 }
-/* Where SIGSYS is blocked, a call that is caught would end the process. */
+/* Never blocks SIGSYS, because a stopped call would then end the process. */
 int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) {
   sigset_t without;
   if (set != NULL) {
@@ -112,7 +112,7 @@ int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) {
   return sigprocmask(how, set != NULL ? &without : NULL, before) == 0 ? 0 : errno;
 }
 
-/* A child process of the program sets its signals back; this one is the library's. */
+/* Keeps the handler of SIGSYS when a child process resets its signal handlers. */
 void (*signal(int number, void (*handler)(int)))(int) {
   struct sigaction action;
   struct sigaction before;
@@ -122,8 +122,6 @@ void (*signal(int number, void (*handler)(int)))(int) {
   action.sa_flags = SA_RESTART;
   return sigaction(number, &action, &before) == 0 ? before.sa_handler : SIG_ERR;
 }
-
-/* Before main and behind it; this library is the last to be made ready. */
 
 static long number_in(const char* variable) {
   const char* const text = getenv(variable);

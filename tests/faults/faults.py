@@ -1,8 +1,8 @@
-"""python3 tests/faults/faults.py CONTCT LIBRARY PLUGIN [--more]: whatever fails or comes at whatever moment, the program ends
-by itself or by the signal; a file is whole, or what it was before; nothing else is left behind.
+"""python3 tests/faults/faults.py CONTCT LIBRARY PLUGIN [--more]: after any failing system call, signal or lack of
+memory, the program ends by itself or by the signal, every file is complete or unchanged, and no other file remains.
 
-LIBRARY is tests/faults/fail.c, preloaded; PLUGIN is a kernel that differs from CONTCT, for `fuzz --out` to find. Calls of the
-system fail, signals come, memory is limited. Of every kind of call a sample is taken; --more: six times as many."""
+LIBRARY is the preloaded tests/faults/fail.c; PLUGIN is a kernel that differs from CONTCT, so that `fuzz --out` writes a
+file. A sample of the calls of every kind is tested; with --more, six times as many."""
 import random
 import re
 import resource
@@ -61,7 +61,7 @@ def check(good: bool, what: str) -> None:
 
 
 class Command:
-    """A command line, with what stands in its folder before, and what it makes."""
+    """A command line, the files in its folder before it runs, and the files that it writes."""
 
     def __init__(self, name: str, arguments: list[str], prepared: dict[str, bytes], before: bool) -> None:
         self.name, self.arguments, self.prepared = name, arguments, dict(prepared)
@@ -74,7 +74,7 @@ class Command:
             self.prepared |= dict.fromkeys(new, b"before\n")
 
     def run(self, fault: dict[str, str], limited=None) -> tuple[int, dict[str, bytes], str]:
-        """Exit status (negative: a signal), all files behind it, and standard error."""
+        """Run the command. Return the exit status (negative: a signal), all files afterwards, and standard error."""
         with tempfile.TemporaryDirectory(prefix="contct-faults-") as scratch:
             folder = Path(scratch)
             for file, content in self.prepared.items():
@@ -135,7 +135,7 @@ def calls_fail(command: Command) -> None:
 
 
 def signals_come(command: Command) -> None:
-    """Each signal at some calls of each kind."""
+    """Send signals at some calls of each kind."""
     for kind in ("write", "openat", "rename", "close", "pread"):
         count = command.calls(kind)
         for number in sorted(random.sample(range(1, count + 1), min(count, 6 * TIMES))):
@@ -148,7 +148,7 @@ def signals_come(command: Command) -> None:
 
 
 def memory_is_limited(command: Command) -> None:
-    """ulimit -v from 20 MB up: the loader's message, or the program's, or a whole result."""
+    """Run with 16 MiB and more of memory: the loader or the program writes a message, or the result is complete."""
     has_begun = False
     for mib in range(16, 120, 2 if TIMES > 1 else 4):
         def limited(bytes_allowed=mib << 20):

@@ -1,4 +1,4 @@
-// Calls to external kernels, and checks of the files and processes that these leave.
+// Calls to external kernels, and checks of the files and processes that the kernels leave.
 #pragma once
 
 #include <sys/wait.h>

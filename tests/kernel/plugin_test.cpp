@@ -80,7 +80,7 @@ TEST_CASE("a plug-in that hangs three times is stopped, and not started again") 
       CHECK(put(*k, behaves).empty());
       CHECK_THAT(put(*k, hangs), Contains("it did not answer within 500 ms"));
     }
-    left.check();  // the hanging child has ended, and no other is started
+    left.check();  // the hanging child has ended, and no other child is started
     CHECK_THAT(put(*k, behaves), Contains("not called again after 3 failures; the last: it did not answer"));
     left.check();
   }

@@ -1,4 +1,4 @@
-/* A library that crashes before anyone can ask it anything. */
+/* A library that crashes in its constructor, while it is loaded. */
 #include <signal.h>
 
 __attribute__((constructor)) static void crash(void) {

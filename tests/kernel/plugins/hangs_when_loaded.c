@@ -1,4 +1,4 @@
-/* A library that never comes out of its constructor. */
+/* A library whose constructor never returns. */
 #include <unistd.h>
 
 __attribute__((constructor)) static void hang(void) {

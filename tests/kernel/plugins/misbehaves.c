@@ -1,5 +1,4 @@
-/* A plug-in that does what it must not: cc[0] of the call says what. 0: it behaves, and answers that nothing
- * happens. */
+/* A plug-in with faults; cc[0] of the call selects the fault. 0: no fault, and an answer without an event. */
 #include <contct/kernel/plugin.h>
 #include <signal.h>
 #include <stdio.h>
@@ -10,7 +9,8 @@ int contct_kernel_abi(void) {
   return CONTCT_KERNEL_ABI;
 }
 
-/* Array `which` in the order of the arguments: a byte before its first, or behind its last. */
+/* Returns the address of the byte before array `which` (in the order of the arguments) or, if `behind`, of
+ * the byte after this array. */
 static char* edge(int which, int behind, const void* const arrays[], const size_t bytes[]) {
   char* const first = (char*)(size_t)arrays[which];
   return behind ? first + bytes[which] : first - 1;

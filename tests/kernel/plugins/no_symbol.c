@@ -1,4 +1,4 @@
-/* A library, but no kernel: it has only one of the two functions. */
+/* A library without the function contct_kernel. */
 int contct_kernel_abi(void);
 int contct_kernel_abi(void) {
   return 1;

@@ -1,4 +1,4 @@
-/* A plug-in written to an ABI that is none yet. */
+/* A plug-in with an ABI version that does not exist. */
 #include <contct/kernel/plugin.h>
 
 int contct_kernel_abi(void) {

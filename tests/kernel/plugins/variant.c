@@ -1,4 +1,4 @@
-/* CONTCT in C as a plug-in, right unless a fault is compiled in: the kernels that the hunt's tests hunt. */
+/* CONTCT in C as a plug-in. It is correct unless a macro compiles a fault in, for tests of contct fuzz. */
 #include <math.h>
 #include <stdlib.h>
 
