@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs missing packages, builds, and runs all tests: sh tests/run.sh [--full] [LEG]...
 # LEG: another preset that is built and tested first: core (without the program, with sanitizers and gfortran's run-time
-# checks), asan (the same with the program), tsan (threads). --full has all of them, and adds the long tests:
+# checks), asan (core with the program), tsan (threads). --full has all presets, and adds the long tests:
 # certificates against the exact path, the mutants of both kernels, more failing system calls, the exact numbers of all
 # reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
 # playground in a browser, grids read back by VTK, a routine of LAPACK next to its port, every reader fuzzed for a

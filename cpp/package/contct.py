@@ -89,7 +89,7 @@ _numpy = _optional_module("numpy")
 
 
 _ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy", "x", "y"}  # keys with NumPy arrays
-_RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion", "work"}  # keys of exact paths
+_RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion", "work"}  # keys of fractions
 
 
 class Record(Mapping[str, Any]):

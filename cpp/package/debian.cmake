@@ -101,7 +101,7 @@ if(CONTCT_GMP AND GMP_INCLUDE_DIR AND GMP_LIBRARY)
   list(APPEND needed libgmp-dev)
 endif()
 list(JOIN needed ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS gfortran-mod-15)  # the format of contct_c.mod
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS gfortran-mod-15)  # the module format of contct_c.mod
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS contct)
 
 package(python python3-contct python

@@ -1,4 +1,4 @@
-# cpack runs this file before packing. It removes the sections that are needed neither to run nor to link.
+# Removes the sections that neither running nor linking needs. cpack runs this file before packing.
 set(comments --remove-section=.comment --remove-section=.note)
 # strip(KIND HOW PATTERN...): strips the files that match a pattern. Fails if no file matches.
 function(strip kind how)

@@ -1,4 +1,5 @@
-// A page of the course. A picture becomes a scene when it is scrolled into view. Without a script it stays a picture.
+// A page of the course. Each picture becomes a scene when the reader scrolls to it. Without JavaScript it remains a
+// picture.
 "use strict";
 
 function sceneAt(holder) {

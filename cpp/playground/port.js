@@ -1,6 +1,6 @@
 // The judge of page 12: a kernel in JavaScript, typed into a box, answers the golden calls. The judge draws the first
-// call with a wrong answer, and searches the answers among those of known faults, as reference/course/port/hint.py
-// does.
+// call with a wrong answer, and compares all answers with the answers of known faults, as
+// reference/course/port/hint.py does.
 "use strict";
 
 const emptyKernel = `// dd, dtest, cc, ss, id, isep, isurf: arrays that begin with 0. Nodes and dofs are numbered from 1.

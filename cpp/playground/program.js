@@ -1,5 +1,5 @@
 // The functions of serve.h in the compiled program, and the numbers in a problem's text. The playground and the course
-// use them; no script here parses problems or computes contact.
+// use these functions; no script here parses problems or computes contact.
 "use strict";
 
 let program = null; // the compiled program; null until it is loaded

@@ -1,4 +1,4 @@
-// A scene: a beam over stops and one load, which can be dragged, and the algorithm of 1989. The beam is unloaded at
+// A scene: a beam over stops, a load that can be dragged, and the steps of the 1989 algorithm. The beam is unloaded at
 // first. One step shows d*, the response to all the remaining load, and the share s at which each pair would meet its
 // face. The next step applies the smallest s. The program computes every number; between two states the beam moves
 // linearly, as in the paper.

@@ -12,8 +12,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Returns a plate of 3000 by 2 elements that is supported at every tenth line across it and sags onto a stop
-/// in each span.
+/// Returns a plate of 3000 by 2 elements that is supported at every tenth line across the plate, and sags
+/// onto a stop in each span.
 std::string strip(bool along_x) {
   const int lines = 3001;
   const auto node = [&](int along, int across) {
@@ -30,7 +30,7 @@ std::string strip(bool along_x) {
   return text + "[[step]]\nuniform = -0.001\n";
 }
 
-/// Returns a beam with 100,000 explicit nodes, many supports, and stops between some of them.
+/// Returns a beam with 100,000 explicit nodes, many supports, and stops between some supports.
 std::string hundred_thousand_nodes() {
   std::string text = "[beam]\nEI = 1.0\nx = [";
   for (int i = 0; i < 100000; ++i) text += std::to_string(i) + ".0, ";

@@ -21,7 +21,7 @@ struct process_options {
   std::vector<std::pair<std::string, std::string>> environment;  ///< added to an otherwise empty environment
   bool terminal = false;        ///< standard output is a terminal of 80 columns
   std::string output = {};      ///< file for standard output, or "closed"
-  bool error_terminal = false;  ///< standard error is a terminal; with `terminal` the same one
+  bool error_terminal = false;  ///< standard error is a terminal; if `terminal`, the same terminal
 };
 
 /// The project's folder.

@@ -82,7 +82,7 @@ TEST_CASE("if table and progress share a terminal, the progress is erased before
   const finished plain = contct_program(dir.path(), run);
   std::string seen = at_terminal(dir, run, "0", true).out;
   CHECK_THAT(seen, Contains("step 2 of 2, increment "));
-  // The text that remains visible: an erase sequence removes the line up to its position.
+  // The text that remains visible: an erase sequence removes the part of the line before the sequence.
   std::string screen;
   for (std::size_t from = 0; from < seen.size();) {
     const std::size_t end = std::min(seen.find('\n', from), seen.size());

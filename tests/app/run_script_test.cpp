@@ -1,5 +1,5 @@
-// Tests cpp/run.sh, which builds in its project and runs in the caller's folder. In these
-// tests a cmake without effect replaces the build, and build/release has a link to the built program.
+// Tests cpp/run.sh, which builds in its project and runs in the caller's folder. In these tests
+// a cmake without effect replaces the build, and build/release has a link to the built program.
 #include <cstdlib>
 #include <filesystem>
 #include <string>

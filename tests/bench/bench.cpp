@@ -148,7 +148,7 @@ void bench_problem(const options& o, const std::string& name, json& rows) {
   }
 }
 
-/// Times the final states without a path, and compares their time with that of their factorisations.
+/// Times the final states without a path, and compares this time with that of the factorisations.
 json bench_final_states(const std::string& name) {
   const contct::problem p = bench::make_problem(name);
   const contct::linear_structure s = contct::structure_of(p);

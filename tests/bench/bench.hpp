@@ -73,9 +73,10 @@ struct final_states {
 
 /// The difference between two runs in their common events.
 struct difference {
-  bool same_events = true;    ///< apart from the order of ties
-  double load = 0.0;          ///< largest difference of an event's load
-  double displacement = 0.0;  ///< largest difference of D at the same end, relative to the largest D
+  bool same_events = true;  ///< equal events, apart from the order at ties
+  double load = 0.0;        ///< largest difference of an event's load
+  double displacement =
+      0.0;  ///< largest difference of D after equally many events, relative to the largest D
 };
 [[nodiscard]] difference difference_of(const run_of_engine& reference, const run_of_engine& other);
 
@@ -85,7 +86,7 @@ struct difference {
 struct seconds_of_a_call {
   double fortran;
   double cpp;
-  double text;  ///< a call of the listing without pairs
+  double text;  ///< time of a call of the listing without pairs
 };
 [[nodiscard]] seconds_of_a_call time_kernels(std::size_t pairs, int rounds);
 

@@ -147,7 +147,7 @@ difference difference_of(const run_of_engine& reference, const run_of_engine& ot
   for (std::size_t i = 0; i < n; ++i) {
     d.load = std::max(d.load, std::abs(reference.events[i].load - other.events[i].load));
     if (reference.events[i].pair == other.events[i].pair) continue;
-    // The pairs differ, which is allowed at a tie: the reference has the other run's pair at the same load.
+    // Different pairs are allowed at a tie: the reference then has the other run's pair at the same load.
     bool tied = false;
     for (std::size_t j = i; j-- > 0 && reference.events[i].load - reference.events[j].load <= tie;)
       tied = tied || reference.events[j].pair == other.events[i].pair;

@@ -33,7 +33,7 @@ write("mechanism", '[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2
 write("never", '[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = "below"\nface = -1\nstiffness = 1\n[[step]]\nuniform = -1\n')
 write("corrected", "[beam]\nlength = 2\nelements = 4\nEI = 100\n[[bed]]\nmodulus = 50\nface = -0.01\n[[step]]\nuniform = -3\n")
 
-# A strip on soil under three axles at 22 places, and then under one axle. Its 67 loads are all different.
+# A strip on soil under three axles at 22 places, and then under one axle. All 67 loads are different.
 strip = 'title = "Slab strip (22 axle places): \\"A & B\\""\n[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 24.0\nelements = 48\nEI = 52857.0\n'
 strip += "[[bed]]\nmodulus = 20000.0\nface = 0.0\n"
 for k in range(22):

@@ -209,7 +209,7 @@ TEST_CASE("if a rigid-body motion is free, displacements are not compared, but e
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   told_state t = right_state(p, p.steps[0]);
-  for (std::size_t i = 0; i < 5; ++i) {  // rotated about its pair
+  for (std::size_t i = 0; i < 5; ++i) {  // rotates the beam about its pair
     t.u[2 * i] += 0.01 * (static_cast<double>(i) - 2);
     t.u[2 * i + 1] += 0.01;
   }

@@ -130,7 +130,8 @@ TEST_CASE(
 
 TEST_CASE("the reference solution finds the correct state even if an active-set iteration cycles") {
   // A cantilever between stops. The active set goes from no pair to pairs 2 and 3, to 3 and 4 and back to no
-  // pair; the correct one is pair 3 alone. No pair is near a tie: every pair is at least 0.08 from its face.
+  // pair; the correct active set is pair 3 alone. No pair is near a tie: every pair is at least 0.08 from its
+  // face.
   const beam_problem p{even_beam(3.0, 3, 1.0),
                        {{0, 0, true}, {0, 1, true}},
                        {{1, face_below, -3.0, 1e4, false},

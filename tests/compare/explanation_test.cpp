@@ -1,4 +1,4 @@
-// Tests why a pair was toggled, as explained from a call and its answer, and the cited lines of the listing.
+// Tests the explanations of why pairs are toggled, and the lines of the listing that the explanations cite.
 #include "contct/compare/explanation.hpp"
 
 #include <cmath>
@@ -169,6 +169,6 @@ TEST_CASE("the explanation of a call has its precision, and only those values th
     CHECK_FALSE(quiet.at(branch::stationary).reached);
     CHECK_FALSE(quiet.at(branch::check_positive).reached);
     CHECK_FALSE(quiet.at(branch::was_separated).reached);
-    CHECK_FALSE(e.pairs[1].at(branch::s_is_smallest).reached);  // its s is negative
+    CHECK_FALSE(e.pairs[1].at(branch::s_is_smallest).reached);  // the pair's s is negative
   }
 }

@@ -54,7 +54,7 @@ TEST_CASE("line 33 is reported for a kernel with EPSGAP = 1e-9, with the gaps th
   fault_finder all;
   for (const double gap : {2e-10, 5e-10}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
-      o.smin = o.ss[2] = 1e-20;  // the s of a pair at its face, which the listing toggles alone
+      o.smin = o.ss[2] = 1e-20;  // the s of a pair at its face: no other pair is toggled
       o.isep = {separated, separated, in_contact, separated};
     });
   }

@@ -3,7 +3,7 @@
 # qemu-user.
 # Usage: sh tests/emulated/run.sh [aarch64] [ppc64le] [riscv64] [s390x]     (default: all four)
 # A processor whose tools are missing is reported as skipped. The last lines have one verdict for each processor.
-# Exit 0: all that ran are equal to the bit, and at least one ran; 1: a mismatch; 2: usage; 77: none ran.
+# Exit 0: at least one processor ran, and all results are equal to the bit; 1: a mismatch; 2: usage; 77: none ran.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh

@@ -55,7 +55,7 @@ std::string false_claim(const judged_run& r, const exact_path& truly, std::size_
 }
 
 /// Returns a beam with typical dimensions: supports settle by some millimetres, a pair is some millimetres
-/// from one of them, and loads are in newtons.
+/// from one support, and loads are in newtons.
 std::string settling_beam(std::uint64_t number) {
   random_numbers random(2026 + number);
   const auto between = [&](double low, double high, double unit) {

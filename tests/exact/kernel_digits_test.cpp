@@ -23,8 +23,8 @@ struct stop_run {
       "problem.toml");
   exact_path exactly = follow_corrected_path(exact_problem_of(what));
 
-  /// Returns the correct digits of a path with these errors in its first share and in the first step's
-  /// deflection.
+  /// Returns the numbers of correct digits of a path with these errors in its first share and in the first
+  /// step's deflection.
   [[nodiscard]] kernel_digits with(double share_error, double w_error, change first = change::make,
                                    path_status ended = path_status::solved) const {
     digit_counter counter(what, exactly);

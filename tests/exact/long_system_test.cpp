@@ -109,7 +109,8 @@ TEST_CASE("shear and moment of a beam's element are at most a factor times the s
       return sum.hi;
     };
     for (std::size_t e = 0; e < 3; ++e) {
-      // Both ends rotate alike, which gives the element only shear, and its neighbours move without bending.
+      // Both ends rotate equally, so that the element has only shear, and the neighbours move without
+      // bending.
       long_vector sheared(8);
       for (std::size_t node = 0; node < 4; ++node) {
         if (node <= e) sheared[2 * node] = x_of(p, node) - x_of(p, e);

@@ -43,7 +43,7 @@ point = [ { dof = "2", value = 2.0 } ]
 STIFFNESS = "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n"
 OUTPUTS = ["--json", "o.json", "--html", "o.html", "--csv", "o.csv", "--vtu", "o.vtu", "--log", "o.log",
            "--trace", "o.trace", "--proof", "o.proof", "--junit", "o.xml", "--markdown", "o.md"]
-# The error number of each system call. SAMPLE has the size of a sample if it is not eight calls.
+# The error number of each system call. Eight calls of each kind fail, or the number of calls in SAMPLE.
 ERRORS = {"write": 28, "read": 5, "openat": 13, "close": 5, "rename": 28, "fsync": 5, "pread": 5, "fcntl": 9,
           "lseek": 29, "fchmod": 1, "mkdir": 13}
 SAMPLE = {"write": 24, "openat": 16}

@@ -38,7 +38,7 @@ std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) 
   for (std::size_t end = 0; parts.size() + 1 < most; text.remove_prefix(end + marker.size())) {
     end = text.find(marker);
     if (end == std::string_view::npos) break;
-    parts.push_back(text.substr(0, end + 1));  // the part includes its last line end
+    parts.push_back(text.substr(0, end + 1));  // the part includes the line end before the marker
   }
   parts.push_back(text);
   return parts;

@@ -19,8 +19,8 @@ namespace contct::fuzz {
 /// the expectation, and `found`.
 void require(bool holds, std::string_view words, std::string_view found = {});
 
-/// Calls `read`, and returns false if it refuses its input. A refusal must be an input_error of one line with
-/// a limited length and without control characters. Any other exception ends the program.
+/// Calls `read`, and returns false if `read` refuses the input. A refusal must be an input_error of one line
+/// with a limited length and without control characters. Any other exception ends the program.
 bool is_read(const std::function<void()>& read);
 
 /// Splits an input at lines with the marker into at most `most` parts, one for each file of a reader. The

@@ -26,7 +26,7 @@ void require_sound(const sparse_matrix& m) {
   }
 }
 
-/// Returns the file of a matrix. Every row has its diagonal entry, even if it is 0.
+/// Returns the file of a matrix. Every row has a diagonal entry, even if the entry is 0.
 std::string written(const sparse_matrix& m) {
   std::string lines;
   std::vector<char> has_diagonal(m.order, 0);

@@ -1,4 +1,4 @@
-// Fuzzes the reader of problem files. Named files are those of reference/structures.
+// Fuzzes the reader of problem files. The inputs may name the files of reference/structures.
 #include <algorithm>
 #include <cmath>
 

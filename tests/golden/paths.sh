@@ -1,6 +1,6 @@
 #!/bin/sh
-# Records whole paths into reference/traces. Their inputs come from solves and differ in the last digits between
-# LAPACKs; a kernel's answers to the same inputs do not differ. usage: sh tests/golden/paths.sh [PROGRAM]
+# Records whole paths into reference/traces. The calls' inputs come from solves, and differ in the last digits between
+# LAPACKs; a kernel's answers to equal inputs do not differ. usage: sh tests/golden/paths.sh [PROGRAM]
 set -eu
 cd "$(dirname "$0")/../.."
 program=${1:-build/release/contct}

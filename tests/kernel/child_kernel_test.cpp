@@ -24,7 +24,7 @@ std::string put_to_pipe(const std::string& command) {
 TEST_CASE("a second answer to a call is not used as the answer to the next call") {
   const leftovers left;
   {
-    // The command writes its second answer after the first was read, and before the next call.
+    // The command writes a second answer after the first answer was read, and before the next call.
     const scratch_folder folder;
     const std::string go = folder.at("go");
     const std::string said = folder.at("said");

@@ -20,7 +20,8 @@ TEMPLATE_TEST_CASE("a pair makes contact at the share of the load that brings it
 }
 
 TEMPLATE_TEST_CASE("a pair in contact separates at the share that eq. 4 gives", "", float, double) {
-  // The pair is at D = -3, below its face at -2, and rises by 4, so it passes the face at a quarter.
+  // The pair is at D = -3, below its face at -2, and rises by 4, so that it passes the face at a quarter of
+  // its way.
   small_call<TestType> c({{TestType(-3), TestType(4), TestType(-2), touching, below}});
   c.ask();
   CHECK(c.smin == TestType(0.25));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Returns the event of a call, from its statuses before and after; the test fails if there are several.
+/// Returns the event of a call, from its statuses before and after; the test fails if several pairs changed.
 std::optional<event> event_between(const std::vector<int>& before, const std::vector<int>& after) {
   std::optional<event> found;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -64,7 +64,7 @@ std::vector<pair_at<double>> random_pairs(random_numbers& r) {
   return pairs;
 }
 
-/// Checks that random pairs and the same pairs after `changed` have the same answer.
+/// Checks that the answers for random pairs and for these pairs after `changed` are equal.
 template <class Change>
 void check_unchanged(const Change& changed) {
   random_numbers r(101);
@@ -182,7 +182,7 @@ TEST_CASE("the corrected kernel ignores an approach of less than 1e-10 of the la
   CHECK(ask(1e-10, apart) == nothing);  // exactly at the threshold
   CHECK(ask(std::nextafter(1e-10, 0.0), apart) == nothing);
   CHECK(ask(std::nextafter(1e-10, 1.0), apart) == makes(0));
-  // A break is never ignored, because it would lock in a force.
+  // A break is never ignored, because the pair would keep a wrong force.
   CHECK(ask(1e-10, touching) == breaks(0));
   CHECK(ask(1e-200, touching) == breaks(0));
   CHECK(ask(std::numeric_limits<double>::denorm_min(), touching) == breaks(0));

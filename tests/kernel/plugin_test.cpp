@@ -207,7 +207,7 @@ TEST_CASE("a plug-in's printed output goes to standard error") {
   const caught_stream out(STDOUT_FILENO);
   const caught_stream err(STDERR_FILENO);
   std::string words;
-  // The child has a copy of this buffer, which it must not print.
+  // The child has a copy of stdout's buffer, and must not print it.
   (void)std::fputs("not yet printed", stdout);
   {
     const auto k = make_plugin(plugin("misbehaves"), short_patience());

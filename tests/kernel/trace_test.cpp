@@ -129,7 +129,7 @@ read_result read_all(const std::string& text) {
   return r;
 }
 
-/// Returns the good trace with its first `from` replaced by `to`.
+/// Returns the trace `good` with the first `from` replaced by `to`.
 std::string with(const std::string& from, const std::string& to) {
   std::string text = good;
   const std::size_t at = text.find(from);

@@ -249,7 +249,7 @@ class kernel_in_child final : public kernel {
     fail(words);
   }
 
-  /// Throws kernel_failure if the child wrote before a call: its text would be read as the answer to the
+  /// Throws kernel_failure if the child wrote before a call. The text would be read as the answer to the
   /// call.
   void refuse_stray_answer() {
     answered_.clear();

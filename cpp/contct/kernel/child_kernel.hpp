@@ -1,6 +1,6 @@
 // External kernels: a shared library with the plug-in ABI, or a command that reads and writes the trace
-// format. Each runs in a child process, so that a crash, an endless loop or an invalid answer does not end
-// the run. Also kernels that are functions of the calling process.
+// format. An external kernel runs in a child process, so that a crash, an endless loop or an invalid answer
+// does not end the run. Also kernels that are functions of the calling process.
 #pragma once
 
 #include <chrono>

@@ -5,9 +5,8 @@
 
 #include "contct/kernel/contct.hpp"
 
-// On x86 a call uses the widest vectors of the processor. Lanes are separate IEEE operations, so all widths
-// give equal bits. Not with sanitizers, because they are not ready when the
-// loader chooses the function.
+// On x86, a call uses the widest vectors of the processor. All widths give equal bits, because lanes are
+// separate IEEE operations. Sanitizers would not be ready when the loader chooses the function for a width.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define CONTCT_WIDEST_VECTORS [[gnu::target_clones("avx512f", "avx2", "default")]]
@@ -19,9 +18,9 @@ namespace contct {
 namespace {
 
 /// The threshold theta of the corrected rule, as a share of the largest response |d*| of all pairs. A smaller
-/// response of a separated pair towards its face counts as rounding, and gives no event. A make that is
-/// missed for this reason costs this share in position. Pairs in contact have no threshold, because a missed
-/// break would leave a wrong force.
+/// response of a separated pair towards its face counts as rounding, and gives no event. An ignored
+/// make costs an error of this share in position. An ignored break would leave a wrong force, so pairs in
+/// contact have no threshold.
 constexpr double quiet_share = 1e-10;
 
 /// Returns the largest or the smallest, as `take` selects, of `start` and number(0) to number(n - 1). Eight
@@ -38,9 +37,9 @@ template <class Number, class Take>
   return start;
 }
 
-/// Rules 1 and 2: sets s of each pair, or 1 if no event is ahead. `dof(i)` is the dof of pair i, from 0. The
-/// divisions for all pairs are in a loop without branches, because the compiler vectorises such a loop, and
-/// an unneeded division costs less than a mispredicted branch.
+/// Rules 1 and 2 of reference/corrected-rule.md: sets s of each pair, or 1 if no event is ahead. `dof(i)` is
+/// the dof of pair i, from 0. The divisions for all pairs are in a loop without branches, because the
+/// compiler vectorises such a loop, and an unneeded division costs less than a mispredicted branch.
 template <class Dof>
 [[gnu::always_inline]] inline void find_scale_factors(call<double>& c, Dof dof) {
   const std::size_t nc = c.cc.size();

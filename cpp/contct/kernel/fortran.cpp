@@ -95,7 +95,7 @@ unit_26::unit_26(compiled_listing& of) : listing_(of) {
   if (file_ < 0)
     throw std::system_error(errno, std::generic_category(), "cannot make a file for unit 26: " + path);
   const int status = listing_.log.open(path.data(), static_cast<int>(path.size()));
-  if (!in_memory) unlink(path.c_str());  // both this object and the run-time library have opened it
+  if (!in_memory) unlink(path.c_str());  // this object and the run-time library have opened the file
   if (status != 0) {
     close(file_);
     throw std::runtime_error("cannot connect unit 26 to " + path);

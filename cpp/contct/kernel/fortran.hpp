@@ -17,7 +17,7 @@ using log_act = void();
 
 /// A compiler's build of the 8-byte listing, and the unit 26 of its run-time library.
 struct compiled_listing {
-  const char* kernel = "";  ///< name of the kernel
+  const char* kernel = "";
   const char* compiler = "";
   const char* flags = "";
   bool text_by_meaning = false;  ///< the run-time library may write .25 for 0.25
@@ -45,9 +45,9 @@ void contct(call<double>& c, const compiled_listing& by = gfortran);
 /// In a child process: connects gfortran's unit 26 to the null device, instead of the parent's file.
 void forget_unit_26();
 
-/// Collects the listing's text on unit 26 in a file. The constructor throws std::logic_error if
-/// another object of the same run-time library exists. The file is unlinked at once, so that it vanishes with
-/// the process.
+/// Collects the listing's text on unit 26 in a file. The constructor throws std::logic_error if another
+/// object of the same run-time library exists. The file is unlinked at once, so that it vanishes with the
+/// process.
 class unit_26 {
  public:
   explicit unit_26(compiled_listing& of = gfortran);

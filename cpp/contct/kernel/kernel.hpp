@@ -41,7 +41,8 @@ struct kernel_facts {
   bool text_by_meaning = false;  ///< the text may have .25 for 0.25, which counts as equal
 };
 
-/// The facts of an external kernel: the 1989 rule, 8-byte REAL, no text. `what` is shown as its language.
+/// The facts of an external kernel: the 1989 rule, 8-byte REAL, no text. `what` is shown instead of a
+/// language.
 [[nodiscard]] inline kernel_facts facts_of_outside(std::string name, std::string what) {
   return {std::move(name), 8, contact_rule::listing, std::move(what), "", "", false};
 }

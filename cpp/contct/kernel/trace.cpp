@@ -104,7 +104,7 @@ class trace_words {
   bool failed_ = false;
 };
 
-/// Removes `key` and a blank from the start of `line`. Returns false if the line does not start with them.
+/// Removes `key` and a blank from the start of `line`. Returns false if `line` has another start.
 bool takes(std::string_view& line, std::string_view key) {
   if (!line.starts_with(key) || line.size() <= key.size() || line[key.size()] != ' ') return false;
   line.remove_prefix(key.size() + 1);

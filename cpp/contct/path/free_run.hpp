@@ -11,7 +11,7 @@
 
 namespace contct {
 
-/// An event, and the share of the step at which it happens.
+/// An event, and the share of the step at the event.
 struct timed_event {
   int step;  ///< from 1
   double fraction;
@@ -51,10 +51,10 @@ struct free_run_difference {
 /// The bound for two kernels: 1e-9 if precision and rule are equal, otherwise 1e-4.
 [[nodiscard]] double free_run_bound(const kernel_facts& leader, const kernel_facts& other);
 
-/// Compares two recorded paths of one problem. The first of a node's `dofs_per_node` dofs is a
-/// deflection, the others are rotations. A difference of deflections is relative to the largest deflection of
-/// the whole path, and a difference of rotations to the largest rotation. The largest value of a single step
-/// would not do: in an unloaded step, all displacements are rounding.
+/// Compares two recorded paths of one problem. The first of a node's `dofs_per_node` dofs is a deflection,
+/// the others are rotations. A difference of deflections is relative to the largest deflection of the whole
+/// path, and a difference of rotations to the largest rotation, because all displacements of a single step
+/// without load can be rounding.
 [[nodiscard]] free_run_difference compare_paths(const path_record& leader, const path_record& other,
                                                 double bound, int dofs_per_node);
 

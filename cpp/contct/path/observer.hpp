@@ -1,4 +1,4 @@
-// The interface for observing a path while it is followed.
+// The interface for observers of a path.
 #pragma once
 
 #include <span>

@@ -34,7 +34,7 @@ struct path_end {
   /// If not solved: true if the step's full load has an equilibrium; nothing if undecided.
   std::optional<bool> has_equilibrium = {};
   bool by_1989_rule = false;  ///< the leader has the 1989 rule
-  /// The ends of later steps from zero that were not solved either.
+  /// The ends of later steps that start from zero and are not solved.
   std::vector<path_end> others = {};
 
   /// Records the end of another step. The first step that is not solved decides the status of the path.
@@ -78,7 +78,7 @@ class load_history {
     moves_(step, m);
     return m;
   }
-  /// The movement of faces at the beginning of a step.
+  /// The movement of faces at the beginning of a step [dofs]; empty as in `moved`.
   [[nodiscard]] std::vector<double> moved_before(int step, std::size_t dofs) const {
     return moved(from_zero(step) ? 0 : step - 1, dofs);
   }
@@ -112,7 +112,7 @@ struct found_end {
 using end_finder = std::function<found_end(int step, const full_load_state* reached)>;
 
 struct path_limits {
-  int increments_per_step = 0;  ///< 0: 1000 plus 50 for each pair
+  int increments_per_step = 0;  ///< 0 allows 1000 increments plus 50 for each pair
   /// Ends steps, except under the 1989 rule. Under the 1989 rule, only decides whether a load that the
   /// path did not reach has an equilibrium.
   end_finder ends = nullptr;

@@ -68,7 +68,6 @@ struct increments_wanted {
   }
 };
 
-/// An increment and its explanation.
 struct explained_increment {
   const increment& what;
   double fraction_before = 0.0;  ///< share of the step's load applied before the increment
@@ -78,13 +77,13 @@ struct explained_increment {
   bool left_undone = false;  ///< the driver undid the toggles, because the remaining load is only rounding
 };
 
-/// Explains the path of a kernel with the 1989 rule. Passes each requested increment to a function,
-/// with a second kernel's answer, and keeps no increments.
+/// Explains the path of a kernel with the 1989 rule. Passes each requested increment to a function, with
+/// a second kernel's answer, and keeps no increments.
 class explained_path final : public observer {
  public:
   using sink = std::function<void(const explained_increment&)>;
-  /// `second` names one kernel, or is empty. Throws std::invalid_argument if the precision or rule
-  /// of this kernel differs from the leader's.
+  /// `second` names one kernel, or is empty. Throws std::invalid_argument if the precision or rule of
+  /// this kernel differs from the leader's.
   explained_path(const kernel_facts& leader, std::span<const std::string> second, increments_wanted wanted,
                  sink to);
 

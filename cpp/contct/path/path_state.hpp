@@ -69,8 +69,8 @@ class cycle_detector {
 
 /// R*, D, d* and the data of pairs. Pairs and dofs count from 0; ID counts from 1.
 /// D, d* and other displacements are relative to moving faces (count_from_faces), but observers receive
-/// absolute displacements at the end of a step. For the listing, a pair between two dofs has an
-/// additional row of DD and DTEST, after the structure's rows, with the difference of the two dofs.
+/// absolute displacements at the end of a step. For the listing, a pair between two dofs has an additional
+/// row of DD and DTEST, after the structure's rows, with the difference of the two dofs.
 struct path_state {
   /// If `as_listed`, the kernel receives D and d* of the whole structure, in which ID, INDOF and NDOFPN
   /// address the pairs, as in the listing; spring forces are summed over increments. Otherwise the kernel

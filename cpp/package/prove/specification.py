@@ -114,7 +114,7 @@ class Specification:
                      wide(before) == product(wide(node - 1), wide(self.ndofpn))],
             "product": [wide(product(isep, isurf)) == product(wide(isep), wide(isurf))],
         }  # fmt: skip
-        facts = [z3.Implies(self.ndofpn == 1, before == node - 1)]  # compilers make a loop for NDOFPN = 1
+        facts = [z3.Implies(self.ndofpn == 1, before == node - 1)]  # for the loop that compilers make for NDOFPN = 1
         facts += [fact for name, found in stated.items() if name != self.left_out for fact in found]
         return [z3.Implies(z3.ULT(i, self.pairs), fact) for fact in facts]
 
