@@ -1,5 +1,5 @@
-// A page of the course. Each picture becomes a scene when the reader scrolls to it. Without JavaScript it remains a
-// picture.
+// A page of the course. Each picture becomes a scene when the reader scrolls to it. Without JavaScript, the page shows
+// the pictures.
 "use strict";
 
 function sceneAt(holder) {

@@ -44,7 +44,7 @@ listing_answer answer_of(const json& pairs) {
   return answer_exactly(all);
 }
 
-/// Returns the distance from x to the next larger number.
+/// Returns the distance from |x| to the next larger number.
 template <class Real>
 Real ulp_of(Real x) {
   return std::nextafter(std::abs(x), std::numeric_limits<Real>::infinity()) - std::abs(x);

@@ -64,7 +64,7 @@ struct run_of_engine {
 struct final_states {
   double seconds = 0.0;
   int factorisations = 0;
-  double seconds_of_a_factor = 0.0;  ///< with the library of the reference solution
+  double seconds_of_a_factor = 0.0;  ///< by the library that the reference solution uses
 };
 [[nodiscard]] final_states time_final_states(const contct::problem& p, const contct::linear_structure& s);
 

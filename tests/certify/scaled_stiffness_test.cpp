@@ -1,4 +1,4 @@
-// Tests the factor of a stiffness matrix, and the proof of its least eigenvalue.
+// Tests the factor of a stiffness matrix, and the proved lower bound on the matrix's least eigenvalue.
 #include "contct/certify/scaled_stiffness.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Tests the branch margin of a report, which is the narrowest decision on which the first difference depends.
+// Tests the branch margin of a report: the margin of the narrowest decision on which the first difference
+// depends.
 #include <limits>
 
 #include "catch.hpp"

@@ -1,4 +1,4 @@
-// Tests the counted outcomes of the listing's IFs, and their margins.
+// Tests the counted outcomes of the listing's IFs, and the margins of these decisions.
 #include "contct/compare/branches.hpp"
 
 #include <cmath>

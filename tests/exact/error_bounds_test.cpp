@@ -16,7 +16,7 @@ using namespace contct;
 
 namespace {
 
-/// The reported end of a step.
+/// The state and the numbers that a path reports at the end of a step.
 struct told_end {
   [[nodiscard]] reported_state handed() const { return {step, displacement, isep, numbers}; }
 

@@ -92,8 +92,8 @@ TEST_CASE(
   // again.
   REQUIRE(path.steps[0].increments.size() == 4);
   CHECK(path.steps[0].increments[0].events.size() == 2);
-  // -9 = 3 w + 3 (w + 1) + 6 (w + 1): the second spring acts from -1 instead of -1.001, and keeps this extra
-  // force.
+  // -9 = 3 w + 3 (w + 1) + 6 (w + 1): the second spring acts from -1 instead of -1.001, and keeps the
+  // extra force.
   CHECK(abs(path.steps[0].displacement[2] + rational(3, 2)) < ten_to_minus(19));
 }
 

@@ -50,7 +50,7 @@ class cases {
  private:
   static constexpr int bytes = sizeof(Real);
   static std::string named(const std::string& name) { return name + (bytes == 4 ? "-r4" : ""); }
-  /// Returns a decimal number, without a power function whose rounding depends on the machine.
+  /// Returns the number with this decimal text. A power function would round differently on other machines.
   static Real decimal(const std::string& text) {
     return static_cast<Real>(std::strtod(text.c_str(), nullptr));
   }
@@ -330,7 +330,7 @@ class cases {
     return c;
   }
 
-  /// Way 5 of reference/DIVERGENCES.md.
+  /// Returns calls with initial states that their faces contradict: way 5 of reference/DIVERGENCES.md.
   golden_trace inconsistent() const {
     const Real deep = decimal("0.1");
     return {

@@ -66,7 +66,7 @@ TEST_CASE("each reading of unit 26 returns exactly the text written since the re
   const std::string line = "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n";
   std::size_t characters = 0;
   for (int take = 0; take < 3000; ++take) {
-    // 8192 calls are a whole number of the blocks in which the file is read.
+    // The text of 8192 calls fills a whole number of the blocks in which the file is read.
     const int calls = take % 1000 == 999 ? 8192 : take % 20;
     std::string written;
     for (int i = 0; i < calls; ++i) {

@@ -69,7 +69,7 @@ struct answered_call {
   call<double> c;                             ///< inputs and outputs; c.isep is ISEP after the call
   std::span<const int> isep_before;           ///< ISEP before the call [pairs]
   std::optional<std::string_view> text = {};  ///< unit-26 text; nothing if the kernel writes no text
-  std::int64_t number = 0;                    ///< number of the call in its path or trace, from 1
+  std::int64_t number = 0;                    ///< number of the call in the path or trace, from 1
 };
 
 /// The inputs of one call in owned arrays. dd and dtest may have dofs without a pair.

@@ -43,7 +43,7 @@ constexpr bool is_static = false;
 
 constexpr std::string_view ready_word = "ready";
 
-/// An answer that begins with this word describes a forbidden action of the kernel in its first line.
+/// The first word of an answer whose first line describes a forbidden action of the kernel.
 constexpr std::string_view fault_word = "fault ";
 
 [[noreturn]] void fail_to_start(const char* what) {
@@ -141,7 +141,7 @@ class child_process {
     if (pid_ < 0) return was_stopped;
     if (channel_ >= 0) close(channel_);
     channel_ = -1;
-    // Waits briefly for a child that is about to end, to get its status.
+    // Waits briefly for a child that is about to end, to get the child's status.
     int status = 0;
     pid_t waited = 0;
     for (int i = 0; i < 50 && (waited = waitpid(pid_, &status, WNOHANG)) == 0; ++i)
@@ -210,7 +210,7 @@ class kernel_in_child final : public kernel {
 
   [[nodiscard]] clock::time_point deadline() const { return clock::now() + limits_.patience; }
 
-  /// Starts the child. Returns the error of loading, or an empty text.
+  /// Starts the child. Returns the error message of loading, or an empty text.
   std::string start() {
     child_.emplace(body_);
     if (!loads_) return "";

@@ -6,7 +6,7 @@
 #include "contct/kernel/contct.hpp"
 
 // On x86, a call uses the widest vectors of the processor. All widths give equal bits, because lanes are
-// separate IEEE operations. Sanitizers would not be ready when the loader chooses the function for a width.
+// separate IEEE operations. Off with sanitizers, which are not ready when the loader chooses the function.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define CONTCT_WIDEST_VECTORS [[gnu::target_clones("avx512f", "avx2", "default")]]
@@ -18,9 +18,9 @@ namespace contct {
 namespace {
 
 /// The threshold theta of the corrected rule, as a share of the largest response |d*| of all pairs. A smaller
-/// response of a separated pair towards its face counts as rounding, and gives no event. An ignored
-/// make costs an error of this share in position. An ignored break would leave a wrong force, so pairs in
-/// contact have no threshold.
+/// response of a separated pair towards its face counts as rounding, and gives no event. An ignored make
+/// costs an error of this share in position. An ignored break would leave a wrong force, so pairs in contact
+/// have no threshold.
 constexpr double quiet_share = 1e-10;
 
 /// Returns the largest or the smallest, as `take` selects, of `start` and number(0) to number(n - 1). Eight

@@ -22,7 +22,7 @@ constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[]
 void append_line(std::string& text, std::string_view key, std::string_view value) {
   if (value.empty()) return;
   text.append(key).append(" ").append(value).append("\n");
-  // The name of a kernel may be a command of several lines, but a value in a trace is one line.
+  // Line ends become blanks: the name of a kernel may be a command of several lines.
   std::replace(text.end() - static_cast<std::ptrdiff_t>(value.size()) - 1, text.end() - 1, '\n', ' ');
 }
 
@@ -50,7 +50,7 @@ std::optional<double> real_in(std::string_view word) {
   if (negative) word.remove_prefix(1);
   const bool hex = word.starts_with("0x");
   if (hex) word.remove_prefix(2);
-  // from_chars would accept a second sign, and inf after 0x.
+  // Refuses a second sign, and inf after 0x, which from_chars would accept.
   if (word.starts_with('-') || (hex && word.find_first_of("0123456789abcdefABCDEF") != 0)) return {};
   const auto value = number_in<double>(word, hex ? std::chars_format::hex : std::chars_format::general);
   return value && negative ? -*value : value;

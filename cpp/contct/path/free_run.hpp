@@ -38,7 +38,7 @@ class path_record final : public observer {
 struct free_run_difference {
   bool same_end = true;          ///< equal status and step at the ends of the paths
   bool same_events = true;       ///< equal makes and breaks in equal order
-  std::string first_difference;  ///< words for the first difference of ends or events; empty if they agree
+  std::string first_difference;  ///< describes the first difference of ends or events; empty without one
   double fraction = 0.0;         ///< largest difference of the share of the step at an event
   double displacement = 0.0;     ///< largest difference of D, relative to the largest D of the path
   double bound = 0.0;            ///< the largest allowed `fraction` and `displacement`

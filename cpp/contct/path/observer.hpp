@@ -37,7 +37,7 @@ struct step_state {
   std::span<const double> displacement;  ///< D at every dof [dofs]
   std::span<const int> isep;             ///< status of each pair [pairs]
   double rcond;                  ///< reciprocal condition of the equilibrated stiffness; 0 without a factor
-  bool from_fallback = false;    ///< replaces the path's own state, which is missing or not proved
+  bool from_fallback = false;    ///< the state replaces the path's state, which is missing or not proved
   bool from_reference = false;   ///< the state is that of the reference solution
   bool from_exact_path = false;  ///< the state is that of the exact path
   const end_numbers* numbers = nullptr;  ///< null if the state was not refined

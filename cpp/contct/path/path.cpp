@@ -74,8 +74,9 @@ class path {
     double rcond;
   };
 
-  /// The state under the load applied so far. If the structure cannot be held, returns its displacements
-  /// after the rigid-body motions. Returns nothing if the state is out of range in double precision.
+  /// The state under the load applied so far. If the structure cannot be held, returns the
+  /// displacements after the rigid-body motions. Returns nothing if the state is out of range in double
+  /// precision.
   [[nodiscard]] std::optional<reached_state> reached() {
     reached_state r{std::vector<double>(now_.total.size()), 0.0};
     const bool is_held = policy_->displace(r.u);

@@ -101,7 +101,7 @@ struct full_load_state {
   bool from_reference = false, from_exact_path = false;
 };
 
-/// The equilibrium found under the full load of a step.
+/// The result of a search for the equilibrium under the full load of a step.
 struct found_end {
   std::optional<full_load_state> state = {};
   std::optional<bool> exists = {};  ///< whether an equilibrium exists; nothing if undecided

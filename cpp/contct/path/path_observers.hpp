@@ -33,7 +33,7 @@ struct early_toggle {
   double share;     ///< `distance` as a share of the largest deflection at any pair so far
 };
 
-/// Records toggles that are farther from the face than rounding explains.
+/// Records toggles of pairs that are farther from the face than rounding explains.
 class early_toggles final : public observer {
  public:
   void called(const answered_call& c) override;

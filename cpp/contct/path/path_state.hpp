@@ -189,7 +189,7 @@ struct path_state {
     call<double> arguments{d, d_test, c, s, 0.0, id, status, surface, {}};
     if (as_listed_) {
       for (std::size_t i = 0; i < pairs(); ++i) {
-        // Only in a structure that is given as a matrix, in which each node has one dof.
+        // A pair between two dofs exists only in a matrix, in which each node has one dof.
         const bool has_own_row = structure.pairs[i].other >= 0;
         const std::size_t row = has_own_row ? id[i] - std::size_t{1} : at_dof[i];
         dd_[row] = d[i];

@@ -148,8 +148,8 @@ class corrected_policy final : public path_policy {
   }
 
  private:
-  /// Toggles the pair with the least index among those at their faces, which never cycles (Murty 1974). The
-  /// kernel chooses the pair with the largest response, which can cycle.
+  /// Toggles the pair with the least index among the pairs at their faces. This choice never cycles (Murty
+  /// 1974); the kernel's choice, the pair with the largest response, can cycle.
   void toggle_first_at_rest() {
     const auto first = std::ranges::find(now_.s, 0.0);
     if (first == now_.s.end()) return;

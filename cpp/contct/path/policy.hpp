@@ -23,8 +23,8 @@ enum class response {
   return 20 + 4 * static_cast<int>(nc);
 }
 
-/// The decisions on one path under the 1989 rule: follows the kernel, except at events within rounding of
-/// full load. The loop in path.cpp calls these functions in this order.
+/// The decisions on one path under the 1989 rule: the path follows the kernel, except at events within
+/// rounding of full load. The loop in path.cpp calls these functions in this order.
 class path_policy {
  public:
   /// Both arguments must outlive this object.
@@ -39,8 +39,7 @@ class path_policy {
   virtual response respond();
 
   /// Calls the kernel, which toggles statuses. Overrides the kernel's answer if the decision needs more than
-  /// one call.
-  /// Returns s_min, or nothing for a mechanism: a rigid-body motion that meets no face.
+  /// one call. Returns s_min, or nothing for a mechanism: a rigid-body motion that meets no face.
   virtual std::optional<double> decide();
 
   /// False if the events of this increment leave a mechanism.

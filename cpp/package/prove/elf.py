@@ -33,7 +33,7 @@ class Image:
         self._segments = self._rows("<IIQQQQQQ", programs, program_size * program_count)
         sections = self._rows("<IIQQQQIIQQ", sections, section_size * section_count)
         self.symbols: dict[str, Symbol] = {}
-        self.relocations: dict[int, str | int] = {}  # a name in another file, or an address in this file
+        self.relocations: dict[int, str | int] = {}  # a symbol of another file, or an address
         for _, kind, _, _, at, size, link, *_ in sections:
             if kind in (_SYMBOLS, _DYNAMIC_SYMBOLS):
                 self.symbols |= {s.name: s for s in self._table(at, size, sections[link]) if s.address}

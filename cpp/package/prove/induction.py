@@ -56,7 +56,7 @@ class Proof:
         self.machine, self.spec, self.interface, self.address = machine, machine.spec, interface, address
         self.cuts = machine.cuts(address, set(), set())
         self.heads: dict[int, Head] = {}
-        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # each head's version, and the paths from it
+        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # of each head, the version and the paths that begin there
 
     def prove(self) -> None:
         if not comparisons_are_ieee(self.spec.width) or not self.spec.is_kept():
@@ -126,7 +126,7 @@ class Proof:
         """Remove the assumptions that this arrival refutes. True if any was removed."""
         head = self.heads[a.s.pc]
         if a.origin and self.heads[a.origin].version != self.taken[a.origin][0]:
-            return False  # this path began with removed assumptions
+            return False  # this path began with assumptions that are now removed
         self.machine.begin(a.at, a.facts)
         to = self._advance(a).to
         when = lambda term: z3.simplify(z3.substitute(term, *zip(self.spec.here[1:], to[1:])))  # the term at position `to`

@@ -19,7 +19,7 @@ class Interface(NamedTuple):
     arguments: list[z3.BitVecRef]
     cells: dict[tuple[str, int], z3.BitVecRef]  # contents of memory on entry
     told: Callable[[State], list[z3.BitVecRef]]  # the events of a path
-    expected: Callable[[list[Toggle], bool], list[z3.BitVecRef]]  # the events for toggles, or for no event
+    expected: Callable[[list[Toggle], bool], list[z3.BitVecRef]]  # the right events for toggles, or without an event
     smin: tuple[str, int] = ("SMIN", 0)
     returns_count: bool = False
 
