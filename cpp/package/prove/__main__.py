@@ -77,7 +77,7 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
     try:
         proof = Proof(machine, kernel.interface(machine), image.symbol(kernel.symbol).address)
         proof.prove()
-    except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # LookupError: code that the prover does not expect
+    except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # LookupError: unknown code
         return _refuted(path, kernel, machine, str(why))
     code = image.code_of(kernel.symbol)
     return PROVED, (f"proved: {len(code)} bytes of SHA-256 {hashlib.sha256(code).hexdigest()}; {len(proof.heads)} loops, "

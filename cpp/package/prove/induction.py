@@ -56,7 +56,7 @@ class Proof:
         self.machine, self.spec, self.interface, self.address = machine, machine.spec, interface, address
         self.cuts = machine.cuts(address, set(), set())
         self.heads: dict[int, Head] = {}
-        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # of each head, the version and the paths that begin there
+        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # of each head, the version and the paths
 
     def prove(self) -> None:
         if not comparisons_are_ieee(self.spec.width) or not self.spec.is_kept():
