@@ -38,7 +38,7 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   int exponent = 0;
   std::from_chars(all.data() + mark + 2, end, exponent);  // after the sign, because from_chars refuses '+'
   if (all[mark + 1] == '-') exponent = -exponent;
-  ++exponent;  // because the result has all digits after the point
+  ++exponent;  // all digits are after the point here
   const int size = std::abs(exponent);
 
   char digits[48] = "0.";
