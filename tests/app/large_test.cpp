@@ -103,7 +103,6 @@ TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB")
   int closed = 0;
   for (const auto& pair : result["steps"][0]["pairs"]) closed += pair["state"] == "contact" ? 1 : 0;
   CHECK(closed == 12);
-  // After unloading, all pairs are separated.
   for (const auto& pair : result["steps"][1]["pairs"]) CHECK(pair["state"] == "separated");
 }
 

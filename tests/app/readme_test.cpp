@@ -20,7 +20,6 @@ std::string readme() {
   return page("README.md");
 }
 
-/// Returns the text between `from` and `to`.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const std::size_t begin = text.find(from);
   REQUIRE(begin != std::string::npos);

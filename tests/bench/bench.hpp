@@ -93,12 +93,12 @@ struct seconds_of_a_call {
 /// The time of CHOLMOD without an engine, and the comparison of CHOLMOD's result with our certified state.
 struct peer_answer {
   std::string method;
-  double seconds = 0.0;    ///< median processor time from K in memory to D
-  double mib = 0.0;        ///< peak memory of CHOLMOD
-  int steps = 0;           ///< steps of Newton's method
-  double digits = 0.0;     ///< proved digits of the worst number, at most 15
-  int wrong_statuses = 0;  ///< pairs with a wrong status
-  int values = 0;          ///< compared numbers
+  double seconds = 0.0;  ///< median processor time from K in memory to D
+  double mib = 0.0;      ///< peak memory of CHOLMOD
+  int steps = 0;         ///< steps of Newton's method
+  double digits = 0.0;   ///< proved digits of the worst number, at most 15
+  int wrong_statuses = 0;
+  int values = 0;  ///< compared numbers
 };
 
 /// Times Newton's method on K and the springs of pressed pairs, once with an updated factor and once with a

@@ -1,7 +1,7 @@
 /* A library to preload, which makes a system call fail, for tests. Environment variables:
  *
  * - FAULT_CALL: the name of the system call: "write", "openat", ..
- * - FAULT_AT: the number of the call that fails, counted from 1 before main; 0: no call fails
+ * - FAULT_AT: the number of the call that fails, counted from 1, also before main; 0: no call fails
  * - FAULT_ERRNO: the error number of the failing call
  * - FAULT_MORE: if set, all later calls fail too
  * - FAULT_SIGNAL: a signal that the process gets at this call instead of the failure

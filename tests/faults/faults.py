@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 PROGRAM, LIBRARY, PLUGIN = (Path(a).resolve() for a in sys.argv[1:4])
-TIMES = 6 if "--more" in sys.argv[4:] else 1  # number of samples
+TIMES = 6 if "--more" in sys.argv[4:] else 1  # factor of all sample sizes
 PROBLEM = """title = "Faults"
 [beam]
 x = [0.0, 1.0, 2.0]

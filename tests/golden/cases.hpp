@@ -8,7 +8,6 @@
 
 namespace golden {
 
-/// A call and its purpose.
 struct golden_call {
   std::string note;
   contct::call_inputs<double> in;

@@ -17,7 +17,6 @@ void append_field(std::string_view digits, std::size_t width, std::string& text)
   }
 }
 
-/// Appends a number in the format I3.
 void append_i3(int value, std::string& text) {
   char digits[16];
   const char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;

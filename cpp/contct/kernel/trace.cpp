@@ -38,7 +38,7 @@ std::vector<std::size_t> addressed_dofs(const call<double>& c) {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Invalid values of ISEP and ISURF are accepted, as in 1989, but their product must not overflow.
-constexpr int most_status = std::numeric_limits<int>::max();  // limit of ISEP, of ISURF and of their product
+constexpr int most_status = std::numeric_limits<int>::max();
 constexpr std::int64_t most_calls = 1'000'000'000'000'000'000;
 
 constexpr std::string_view dofs_line =

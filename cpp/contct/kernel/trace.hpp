@@ -24,14 +24,13 @@ struct trace_header {
   std::string kernel;              ///< name of the kernel that answered
   int real_bytes = 8;              ///< 8, or 4 for the listing as printed
   contact_rule rule = contact_rule::listing;
-  std::string listing;         ///< checksum of fortran/contct.f
-  std::string compiler;        ///< compiler of this kernel
-  std::string flags;           ///< floating-point flags of this compiler
+  std::string listing;  ///< checksum of fortran/contct.f
+  std::string compiler;
+  std::string flags;           ///< the compiler's floating-point flags
   std::string lapack;          ///< library whose solves gave the inputs, or "none"
   std::string floating_point;  ///< the result of the floating-point probe
 };
 
-/// A call and its answer.
 struct recorded_call {
   std::int64_t number = 0;
   std::string note;  ///< the purpose of the call; may be empty

@@ -8,7 +8,6 @@
 
 namespace contct {
 
-/// One increment of a step.
 struct increment {
   int step;                       ///< from 1
   int number;                     ///< within the step, from 1

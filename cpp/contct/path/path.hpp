@@ -93,7 +93,6 @@ class load_history {
   moves moves_;
 };
 
-/// A state under the full load of a step.
 struct full_load_state {
   std::vector<double> displacement;         ///< [dofs]
   std::vector<int> isep;                    ///< [pairs]

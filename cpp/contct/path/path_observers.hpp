@@ -96,7 +96,6 @@ class explained_path final : public observer {
   [[nodiscard]] const std::optional<mismatch_report>& first() const { return compared_.first(); }
   /// The number of increments passed on.
   [[nodiscard]] std::int64_t explained() const { return explained_; }
-  /// The number of steps begun.
   [[nodiscard]] int steps() const { return steps_; }
   /// The number of increments of the longest requested step.
   [[nodiscard]] int most_increments() const { return most_increments_; }
@@ -109,8 +108,8 @@ class explained_path final : public observer {
   std::int64_t explained_ = 0;
   int steps_ = 0, number_ = 0, most_increments_ = 0;
   double fraction_ = 0.0;  // share of the step's load applied so far
-  double largest_ = 0.0;   // the largest deflection so far
-  explained_call call_;    // the last call
+  double largest_ = 0.0;
+  explained_call call_;
 };
 
 }  // namespace contct

@@ -18,7 +18,7 @@ RED_ZONE = 128  # bytes below the stack pointer that no signal handler overwrite
 ARRAYS = ["DD", "DTEST", "CC", "SS", "ID", "ISEP", "ISURF", "EVENTS"]
 CELLS = ["STACK", "IMAGE", "CALL", "SMIN", "NC"]  # regions in which offsets are constants
 BASE = {name: z3.BitVec(name, 64) for name in [*ARRAYS, *CELLS]}
-RETURN = z3.BitVec("return", 64)  # the return address
+RETURN = z3.BitVec("return", 64)
 sys.setrecursionlimit(20_000)  # Machine.cuts calls itself for each instruction
 
 

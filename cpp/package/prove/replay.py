@@ -7,7 +7,7 @@ from typing import Iterator
 from .reals import INFINITY
 from .specification import CONSTANTS
 
-MOST_PAIRS = 3_000_000  # largest number of pairs in a call
+MOST_PAIRS = 3_000_000
 WIDTH = 64  # bits of REAL in plugin.h
 ONE, HALF = 1023 << 52, 1022 << 52  # the bits of 1 and 0.5
 
