@@ -97,8 +97,8 @@ def plain(text):
 
 def markdown_page(edition):
     """The page with the C++ of the kernel, and only the names of other files. The HTML page also quotes the paper."""
-    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nThe C++ is that of [contct.hpp](../{KERNEL}). The [HTML page]" \
-           f"(parallel-edition.html), and that of `contct run --html`, also quote the paper and the other files. Made by\n\n```sh\n{COMMAND}\n```\n\n" \
+    page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nThe C++ code is from [contct.hpp](../{KERNEL}). The [HTML page]" \
+           f"(parallel-edition.html) and the page of `contct run --html` also quote the paper and other files. This command makes the page:\n\n```sh\n{COMMAND}\n```\n\n" \
            f"<table>\n"
     for part in edition["part"]:
         equation = f" Eq. {part['equation']}." if part["equation"] else ""
