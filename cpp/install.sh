@@ -18,7 +18,7 @@ need() {
       echo "not Debian: going on with what is installed ($why; on Debian:$missing)"
       return 0
     fi
-    echo "Please install what corresponds to these Debian packages ($why):$missing" >&2
+    echo "Please install the equivalents of these Debian packages ($why):$missing" >&2
     return 1
   fi
   if [ "$(id -u)" = 0 ]; then
@@ -39,7 +39,7 @@ need_core() {
 }
 
 need_petsc() {
-  need "for the engine petsc, and to run it by several processes" libpetsc-real-dev openmpi-bin pkgconf
+  need "for the engine petsc and its parallel runs" libpetsc-real-dev openmpi-bin pkgconf
 }
 
 need_program() {

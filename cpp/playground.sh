@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 
 need "for the playground" emscripten cmake ninja-build f2c libf2c2-dev libboost-dev libtomlplusplus-dev \
   nlohmann-json3-dev libfmt-dev python3-markdown libfast-float-dev librange-v3-dev ca-certificates || exit 77
-fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be had" >&2; exit 77; }
+fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be fetched" >&2; exit 77; }
 echo "building in build/playground"
 log=$(mktemp)
 if ! { emcmake cmake -G Ninja -S cpp/playground -B build/playground -DLAPACK_SOURCE="$lapack" && cmake --build build/playground; } >"$log" 2>&1; then

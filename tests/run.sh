@@ -38,7 +38,7 @@ build() {
   if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON && cmake --build --preset "$1"; } >"$log" 2>&1; then
     cat "$log"
     rm -f "$log"
-    echo "== $1: does not build" >&2
+    echo "== $1: the build failed" >&2
     exit 1
   fi
   rm -f "$log"
@@ -69,10 +69,10 @@ with_tool() {
 
 if [ "$full" = yes ]; then
   need "for clang-tidy" clang-tidy
-  need "for more compilers, as witnesses" flang-16 f2c libf2c2-dev clang
-  need "for one more engine" libsuitesparse-dev
-  need_petsc || true  # otherwise its tests are skipped
-  need "to compare with other programs" calculix-ccx python3-siconos || true  # otherwise their test is skipped
+  need "for more compilers" flang-16 f2c libf2c2-dev clang
+  need "for CHOLMOD's sparse factors" libsuitesparse-dev
+  need_petsc || true  # its tests are skipped where it cannot be had
+  need "to compare with other programs" calculix-ccx python3-siconos || true  # the same
   need "for the manual pages" mandoc
   for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
     command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # otherwise its test is skipped
@@ -88,7 +88,7 @@ build release
 if [ "$full" = yes ]; then
   echo "== 20,000 random problems and their certificates against the exact path"
   build/release/tests/contct_referee 20000 2026
-  echo "== calls of the system fail"
+  echo "== failing system calls"
   python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
     build/release/tests/plugins/libvariant_reassociated.so --more
   echo "== mutants of both kernels"
@@ -109,8 +109,8 @@ if [ "$full" = yes ]; then
   with_tool "the harness on a second routine" ../reference/course/second/run.sh
   with_tool "fuzzers" fuzz/run.sh 60
   with_tool "Debian packages" package/debian.sh
-  with_tool "adopting" package/adopt.sh
+  with_tool "reference/adopt" package/adopt.sh
   sh tests/tree/tidy.sh
-  [ -z "$skipped" ] || echo "== skipped, because a tool cannot be had: ${skipped#; }"
+  [ -z "$skipped" ] || echo "== skipped, because a tool is not available: ${skipped#; }"
 fi
 test_of release

@@ -57,7 +57,7 @@ std::string load_words(const load& l) {
       {l.moves.size(), "moved face"}};
   std::vector<std::string> words;
   if (!l.name.empty()) words.push_back(in_quotes(l.name));
-  if (l.from_zero) words.emplace_back("from zero");
+  if (l.from_zero) words.emplace_back("from zero load");
   for (const auto& [count, what] : parts)
     if (count > 0) words.push_back(counted(count, what));
   return words.empty() ? "no load" : joined(words, ", ");

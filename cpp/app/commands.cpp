@@ -47,11 +47,11 @@ std::vector<recipe> recipes() {
       {"crane", "a crane runway that lifts off its last bracket", {{"crane.toml", crane_toml}}},
       {"slab", "a strip of a slab on soil, under an axle", {{"slab.toml", slab_toml}}},
       {"base-plate", "a column's base plate on grout, with bolts", {{"base-plate.toml", base_plate_toml}}},
-      {"racks", "a pipe over racks, at a nozzle that rises", {{"racks.toml", racks_toml}}},
+      {"racks", "a pipe over racks, with a nozzle that rises", {{"racks.toml", racks_toml}}},
       {"rail", "a rail on sleepers that cannot pull, under a wheel", {{"rail.toml", rail_toml}}},
       {"bed", "a footing on soil, under an eccentric load", {{"bed.toml", bed_toml}}},
       {"matrix",
-       "a grillage, by the stiffness matrix of another program",
+       "a grillage, given by a stiffness matrix from another program",
        {{"matrix.toml", matrix_toml},
         {"matrix.mtx", matrix_mtx},
         {"matrix.dof", matrix_dof},
@@ -93,8 +93,8 @@ fs::path folder_of_prover(const fs::path& program) {
     fs::path folder = (program.parent_path() / from_here).lexically_normal();
     if (fs::exists(folder / "contct_prove")) return folder;
   }
-  throw std::runtime_error("the prover is not installed: found no contct_prove beside " + program.string() +
-                           "; it comes with contct.py, in the package python3-contct");
+  throw std::runtime_error("the prover is not installed: found no contct_prove next to " + program.string() +
+                           "; install the package python3-contct");
 }
 
 }  // namespace

@@ -31,10 +31,11 @@ increments_wanted wanted_of(const explain_options& o) {
   wanted.increment = number_from_1(both ? o.increment.substr(point + 1) : o.increment);
   if (wanted.increment == 0 || (both && step == 0))
     throw std::invalid_argument("--increment: found " + o.increment +
-                                "; allowed: a whole number from 1, or STEP.INCREMENT as in 2.1");
+                                "; allowed: a whole number from 1, or STEP.INCREMENT, such as 2.1");
   if (both && o.step && *o.step != step)
-    throw std::invalid_argument(fmt::format(
-        "--increment {} is in step {}, but --step is {}; allowed: one step", o.increment, step, *o.step));
+    throw std::invalid_argument(
+        fmt::format("--increment {} is in step {}, but --step is {}; allowed: the same step", o.increment,
+                    step, *o.step));
   wanted.step = step;
   return wanted;
 }
@@ -50,12 +51,11 @@ void refuse_beyond(const char* option, std::optional<int> found, std::size_t mos
 exit_status nothing_told(const explain_options& o, const increments_wanted& wanted, const path_end& end,
                          const explained_path& told) {
   if (wanted.step > told.steps())
-    complain("--step: found {}; allowed: a step from 1 to {}: the path ends there", wanted.step,
+    complain("--step: found {}; allowed: a step from 1 to {}, where the path ends", wanted.step,
              told.steps());
   else if (wanted.increment > told.most_increments())
     complain("--increment: found {}; allowed: an increment from 1 to {}{}", o.increment,
-             told.most_increments(),
-             wanted.step == 0 ? "" : fmt::format(", as many as step {} has", wanted.step));
+             told.most_increments(), wanted.step == 0 ? "" : fmt::format(", in step {}", wanted.step));
   return wanted.step > 0 || wanted.increment > 0 ? exit_status::bad_input : status_of(end.status);
 }
 
@@ -121,8 +121,7 @@ void refuse_for_trace(const explain_options& o, const trace_header& h) {
         "a call, --pair, --kernels, --quiet");
   if (h.rule != contact_rule::listing)
     throw std::invalid_argument(o.file +
-                                ": found a trace of the corrected rule; allowed: the 1989 rule, "
-                                "whose lines are explained");
+                                ": found a trace of the corrected rule; allowed: a trace of the 1989 rule");
 }
 
 /// Explains the calls of a trace, and compares another kernel's answers.
@@ -149,12 +148,13 @@ exit_status explain_trace(const explain_options& options) {
     if (apart) complain_of(words_of(other.report_of(*apart, recorded)));
   }
   if (told == 0)
-    throw std::invalid_argument(fmt::format("--increment: found {}; allowed: the number of a call of {}",
+    throw std::invalid_argument(fmt::format("--increment: found {}; allowed: the number of a call in {}",
                                             options.increment, options.file));
   if (const std::optional<faulty_line> line = other.faults.found())
     complain("{}: at fault: {}", k->facts().name, words_of(*line));
   if (other.first()) return exit_status::kernels_differ;
-  if (!options.quiet) print_text(fmt::format("\n{} answers as the trace, to the bit\n", k->facts().name));
+  if (!options.quiet)
+    print_text(fmt::format("\n{} gives the answers of the trace, to the bit\n", k->facts().name));
   return exit_status::solved;
 }
 

@@ -23,7 +23,7 @@ void read_shard(const std::string& text, fuzz_request& r) {
   if (std::sscanf(text.c_str(), "%d/%d%n", &r.shard, &r.shards, &end) == 2 &&  // NOLINT: checked by %n
       end == static_cast<int>(text.size()) && r.shard >= 1 && r.shard <= r.shards)
     return;
-  throw std::invalid_argument("--shard: found " + text + "; allowed: I/N, I from 1 to N, as in 2/8");
+  throw std::invalid_argument("--shard: found " + text + "; allowed: I/N with I from 1 to N, such as 2/8");
 }
 
 /// The command that repeats the run.
@@ -46,10 +46,11 @@ std::string follower_words(const fuzz_follower& f, const std::string& leader) {
   const floating_point fp = probe_floating_point();
   if (f.compared.mismatches == 0)
     return fmt::format("{} is equal to {} to the bit; {} values compared", f.name, leader, f.compared.values);
-  return fmt::format("{} is NOT equal to {}{}; {} of {} values differ; closest equality that holds: {}{}",
-                     f.name, leader, fp.strict() ? "" : " (environment, not kernel)", f.compared.mismatches,
-                     f.compared.values, name_of(f.highest),
-                     f.highest == equality_level::ulps ? fmt::format(" (within {})", f.near.most_ulps) : "");
+  return fmt::format(
+      "{} is NOT equal to {}{}; {} of {} values differ; closest equality that holds: {}{}", f.name, leader,
+      fp.strict() ? "" : " (environment, not kernel)", f.compared.mismatches, f.compared.values,
+      name_of(f.highest),
+      f.highest == equality_level::ulps ? fmt::format(" (within {} ULP)", f.near.most_ulps) : "");
 }
 
 check_report report_of(const fuzz_result& r, const std::string& missed) {
@@ -108,7 +109,7 @@ std::vector<std::string> write_cases(const std::vector<found_case>& cases, const
         (std::filesystem::path(folder) / fmt::format("{}-seed{}", file_name_of(c.what.follower), seed))
             .string();
     trace_header header = header_for(facts_of_kernel(c.what.leader), CONTCT_LISTING_SHA256);
-    header.about = {"found by contct fuzz, and shrunk"};
+    header.about = {"found by contct fuzz, and reduced"};
     write_file(names.emplace_back(stem + ".trace"), trace_of(c, header));
   }
   return names;
@@ -122,7 +123,7 @@ exit_status run_command(const fuzz_options& options) {
   constexpr std::int64_t calls_for_a_problem = 500;
   request.problems = options.problems.value_or(request.calls / calls_for_a_problem);
   if (request.kernels.size() < 2)
-    throw std::invalid_argument("--kernels: found one kernel; allowed: two or more, the first one leads");
+    throw std::invalid_argument("--kernels: found one kernel; allowed: two or more; the first one leads");
   for (const std::string& name : request.kernels)
     refuse_unequal(facts_of_kernel(request.kernels[0]), facts_of_kernel(name));
   const std::vector<output_option> outputs = with_reports(

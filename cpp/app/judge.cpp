@@ -17,7 +17,7 @@ std::vector<std::string> failures(const foreign_case& c, double tolerance) {
   std::vector<std::string> all;
   for (const foreign_number& n : c.numbers)
     if (!n.passed)
-      all.push_back(fmt::format("{}: found {:.10g}; exactly {}: an error of {:.1e}; allowed: {:.1e}",
+      all.push_back(fmt::format("{}: found {:.10g}; exact value {}; error {:.1e}; allowed: {:.1e}",
                                 words_of(n.expected), n.given, n.expected.exact, n.error, tolerance));
   return all;
 }

@@ -61,10 +61,10 @@ std::vector<std::string_view> known_faults(const fault_finder& answers) {
 
 void refuse_many_reported(std::size_t kernels, const std::string& outputs) {
   if (outputs.empty() || kernels == 1) return;
-  throw std::invalid_argument(
-      fmt::format("--report, --badge: found {} kernels to check; allowed: one, named by --kernel (replay) or "
-                  "--kernels LEADER,NAME (fuzz)",
-                  kernels));
+  throw std::invalid_argument(fmt::format(
+      "--report, --badge: found {} kernels to check; allowed: one kernel, named by --kernel (replay) or "
+      "--kernels LEADER,NAME (fuzz)",
+      kernels));
 }
 
 std::string report_json(const kernel_report& r) {

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* how_to_get_it =
-    ". It is built with the program where PETSc with MUMPS and MPI are found; on Debian: apt-get install "
+    ". The module is built if PETSc with MUMPS and MPI is installed; on Debian: apt-get install "
     "libpetsc-real-dev, then configure and build again";
 
 bool asks_for_petsc(const std::vector<std::string>& arguments) {
@@ -56,7 +56,7 @@ mpi_job& join_job() {
   mpi_job* const job = join != nullptr ? join(CONTCT_VERSION) : nullptr;
   if (job == nullptr)
     throw std::runtime_error("engine petsc: " + file +
-                             ": found a module of another version; allowed: that of the program");
+                             ": found a module of another version; allowed: the version of the program");
   return *job;
 }
 

@@ -22,7 +22,7 @@ struct example {
 
 constexpr example all_examples[] = {
     {"contct new beam beam.toml", "a commented problem to start from"},
-    {"contct new plate plate.toml", "the same for a plate"},
+    {"contct new plate plate.toml", "a commented problem of a plate"},
     {"contct new crane", "one of the jobs of the cookbook"},
     {"contct run beam.toml", "the answer by the corrected rule, certified, and what the 1989 rule does"},
     {"contct run beam.toml --kernels fortran,cpp", "the 1989 rule alone, FORTRAN and C++ in lockstep"},
@@ -37,21 +37,21 @@ constexpr example all_examples[] = {
     {"contct explain beam.toml", "what the listing did, line by line, and why"},
     {"contct explain beam.toml --increment 1.1 --pair 1", "one pair in one increment"},
     {"contct explain beam.toml --all", "every increment of a long run"},
-    {"contct explain beam.toml --quiet --json why.json", "the same as JSON"},
+    {"contct explain beam.toml --quiet --json why.json", "the explanation as JSON"},
     {"contct exact beam.toml", "the path in rational numbers, without rounding"},
-    {"contct exact beam.toml --kernels fortran,corrected", "how many of their digits are right"},
+    {"contct exact beam.toml --kernels fortran,corrected", "how many digits of these kernels are right"},
     {"contct exact beam.toml --rule 1989 --digits 30", "the 1989 rule in exact arithmetic"},
-    {"contct verify", "every reference problem, compared with its numbers"},
-    {"contct verify --quiet --junit verify.xml", "for a CI system"},
+    {"contct verify", "the reference problems, compared with known numbers"},
+    {"contct verify --quiet --junit verify.xml", "a JUnit report for a CI system"},
     {"contct verify --results theirs.json", "another program's numbers for these problems"},
     {"contct fuzz --calls 20000 --seed 7", "FORTRAN against C++ on random calls"},
     {"contct fuzz --kernels fortran,plugin:./mine.so --calls 20000",
-     "does a kernel of your own answer as CONTCT does?"},
+     "whether your own kernel gives the answers of CONTCT"},
     {"contct replay calls.trace", "repeat recorded calls with the 1989 code"},
-    {"contct replay --kernel fortran,cpp calls.trace", "the same with two kernels"},
-    {"contct prove", "the built-in kernels are CONTCT for every input"},
-    {"contct prove mine.so", "is a kernel of your own?"},
-    {"contct kernels", "what is built in"},
+    {"contct replay --kernel fortran,cpp calls.trace", "repeat recorded calls with two kernels"},
+    {"contct prove", "prove that the built-in kernels equal CONTCT for every input"},
+    {"contct prove mine.so", "prove it for your own kernel"},
+    {"contct kernels", "the built-in kernels"},
 };
 
 /// The name of an option, "--json" in "--json=file".
@@ -90,12 +90,12 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
   }
   std::string words = "a command is missing";
   if (!unknown.empty() && unknown.front().ends_with(".toml"))
-    return fmt::format("\"{}\" is no command of contct; a problem file is run by: contct run {}{}",
+    return fmt::format("\"{}\" is not a command of contct; to run a problem file: contct run {}{}",
                        unknown.front(), unknown.front(), advice);
   if (!unknown.empty()) {
     const bool option = is_option(unknown.front());
     words =
-        fmt::format("\"{}\" is no {} of contct{}", unknown.front(), option ? "option" : "command",
+        fmt::format("\"{}\" is not {} of contct{}", unknown.front(), option ? "an option" : "a command",
                     did_you_mean(name_in(unknown.front()), option ? names_of_options(program) : commands));
   }
   return fmt::format("{}; the commands are: {}{}", words, joined(commands, ", "), advice);
@@ -103,7 +103,7 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
 
 /// Refuses an empty name, which would lose the output without a message.
 std::string a_name(const std::string& file) {
-  return file.empty() ? "found no name; allowed: a file" : "";
+  return file.empty() ? "found an empty name; allowed: a file name" : "";
 }
 
 void add_file(CLI::App* command, const std::string& name, std::string& file, const std::string& text) {
@@ -118,8 +118,7 @@ void add_quiet(CLI::App* command, bool& quiet) {
 }
 void add_problem(CLI::App* command, problem_options& o) {
   command->add_option("FILE", o.file, "The problem (TOML); - reads standard input")->required();
-  command->add_flag("--allow-outside", o.allow_outside,
-                    "The problem may name files that are not below its own folder");
+  command->add_flag("--allow-outside", o.allow_outside, "The problem may name files outside its own folder");
 }
 void add_reports(CLI::App* command, report_options& o) {
   add_quiet(command, o.quiet);
@@ -130,11 +129,10 @@ void add_reports(CLI::App* command, report_options& o) {
 
 template <class Options>
 void add_kernel_report(CLI::App* command, Options& o) {
-  add_file(
-      command, "--report", o.kernel_report,
-      "Write a report on the kernel that is checked to this file (- is standard output): its identity, what "
-      "was compared, the closest equality that holds");
-  add_file(command, "--badge", o.badge, "Write the same as a badge, an SVG picture, to this file");
+  add_file(command, "--report", o.kernel_report,
+           "Write a report on the checked kernel to this file (- is standard output): its identity, the "
+           "comparison, the closest equality that holds");
+  add_file(command, "--badge", o.badge, "Write the result as a badge, an SVG picture, to this file");
 }
 
 /// A parser, and the options of the chosen command.
@@ -189,60 +187,60 @@ void declare_pictures(CLI::App* c, run_options& o) {
   add_file(c, "--html", o.html,
            "Write a report of the run as one HTML page to this file (- is standard output): the structure "
            "increment by increment, its events, the comparison of the kernels, the certificate. A "
-           "structure given by its matrix is drawn if coordinates are known; otherwise it is a table");
+           "structure given by its matrix is drawn if coordinates are known; otherwise the page has a table");
   add_file(c, "--csv", o.csv,
-           "Write a table with a row for each increment to this file (- is standard output), and beside "
-           "F.csv a file F.pairs.csv with a row for each pair and increment, and a file F.states.csv with "
-           "w, slope, moment, shear, bearing pressure and stress along the beam at the end of each step, or "
-           "of the nodes of a plate. Columns of the first two: step, increment, kind, s, share, force, "
-           "events, closed, open, at_face, smin, kernels; and step, increment, "
-           "pair, node, surface, state, look, w, gap, force, face");
+           "Write a table with a row for each increment to this file (- is standard output). For F.csv also "
+           "write F.pairs.csv, with a row for each pair and increment, and F.states.csv, with w, slope, "
+           "moment, shear, bearing pressure and stress at the end of each step, along a beam or at the nodes "
+           "of a plate. Columns of F.csv: step, increment, kind, s, share, force, events, closed, open, "
+           "at_face, smin, kernels; of F.pairs.csv: step, increment, pair, node, surface, state, look, w, "
+           "gap, force, face");
   add_file(c, "--vtu", o.vtu,
-           "For ParaView: write the final state to this file, and beside F.vtu the files F.000.vtu, "
-           "F.001.vtu, .. for the start and each kept increment, with every step's final state, and F.pvd, "
-           "which lists them. A structure given by its matrix must have coordinates");
+           "For ParaView: write the final state to this file, F.vtu. Also write F.000.vtu, F.001.vtu, .. for "
+           "the start, each kept increment and every step's final state, and F.pvd, which lists these "
+           "files. A structure given by its matrix must have coordinates");
 }
 
 void declare_run(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<run_options>(c);
   add_problem(c, o);
   add_kernels(c, "--kernels", o.kernels,
-              "Kernels to run, the first one leads [corrected, which gives the answer, and besides fortran "
-              "and cpp in "
-              "lockstep on the 1989 path; under --free-run fortran,cpp]");
-  c->add_option(
-      "--engine", o.engine,
-      fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto for others]",
-                  joined(p.engines, ", ")));
+              "Kernels to run; the first one leads [corrected for the answer, and also fortran and cpp in "
+              "lockstep on the 1989 path; with --free-run fortran,cpp]");
+  c->add_option("--engine", o.engine,
+                fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto "
+                            "for the corrected rule]",
+                            joined(p.engines, ", ")));
   c->add_flag("--free-run", o.free_run,
               "Free run: each kernel follows its own path; events, shares of the step and D are compared");
   CLI::Option* const final_only = c->add_flag(
       "--final-only", o.final_only,
-      "Do not follow the path: give the reference solution at the end of each step, with its certificate");
-  c->add_flag("--strict", o.strict, "Exit 3 when a final state is not certified");
+      "Do not follow the path: find only the reference solution at the end of each step, certified");
+  c->add_flag("--strict", o.strict, "Exit with status 3 if a final state is not certified");
   c->add_flag("--detail", o.detail,
               "Print every event, and after each step all pairs, reactions, and moments and shears at the "
               "ends of elements");
   c->add_flag("--envelope", o.envelope,
-              "Add to the result of --json the least and largest values over all increments, and to --csv "
-              "F.envelope.csv, these along a beam; this takes one more solve for each increment");
-  c->add_flag("--refine", o.refine,
-              "Solve once more on half the element size, and say how much w, moments, shears, forces, "
-              "reactions and bearing pressures change at most");
+              "Add the least and largest values over all increments to --json; with --csv F.csv also write "
+              "F.envelope.csv, with these values along a beam. This takes one more solve for each increment");
+  c->add_flag(
+      "--refine", o.refine,
+      "Solve once more with half the element size, and print the largest changes of w, moments, shears, "
+      "forces, reactions and bearing pressures");
   c->add_option(
        "--node", o.watched,
        "The node whose deflection --csv writes: its number, \"x = 4.5\" along a beam, or a dof's label [the "
-       "one that deflects most at the ends of steps]")
+       "node that deflects most at the ends of steps]")
       ->type_name("NODE");
-  c->add_option("--max-increments", o.max_increments, "Limit of increments in a step")
+  c->add_option("--max-increments", o.max_increments, "Largest number of increments in a step")
       ->check(CLI::Range(1, most_increments));
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
-  add_file(
-      c, "--trace", o.trace,
-      "Write every call of the leader, inputs and answers, to this file [without --kernels: of fortran]");
+  add_file(c, "--trace", o.trace,
+           "Write every call of the leader, inputs and answers, to this file [without --kernels: fortran's "
+           "calls]");
   declare_pictures(c, o);
   add_reports(c, o.report);
-  add_file(c, "--log", o.log, "Write the leader's unit 26 to this file [without --kernels: of fortran]");
+  add_file(c, "--log", o.log, "Write the leader's unit 26 to this file [without --kernels: fortran's]");
   add_file(c, "--proof", o.proof,
            "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
@@ -253,16 +251,16 @@ void declare_run(option_parser& p, CLI::App* c) {
 void declare_explain(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<explain_options>(c);
   add_problem(c, o);
-  c->add_option(
-       "--increment", o.increment,
-       "Only this increment, from 1; STEP.INCREMENT as in 2.1 names its step too; of a trace, this call")
+  c->add_option("--increment", o.increment,
+                "Only this increment, from 1, or STEP.INCREMENT, such as 2.1; for a trace, only this call")
       ->type_name("INCREMENT");
   c->add_option("--step", o.step, "Only this step, from 1");
   c->add_option("--pair", o.pair, "Only this pair, from 1");
-  c->add_flag("--all", o.all,
-              "Explain every increment; otherwise a run of more than 20 has one line for each, unless "
-              "--increment or --step chooses some");
-  add_kernels(c, "--kernels", o.kernels, "The kernels to compare, the first one leads")
+  c->add_flag(
+      "--all", o.all,
+      "Explain every increment. Without --all, --increment and --step, a run of more than 20 increments "
+      "gets one line for each");
+  add_kernels(c, "--kernels", o.kernels, "The kernels to compare; the first one leads")
       ->capture_default_str();
   c->add_option("--engine", o.engine, "How the stiffness equations are solved")->capture_default_str();
   add_file(c, "--json", o.json, "Write the explanation to this file (- is standard output)");
@@ -280,12 +278,12 @@ void declare_exact(option_parser& p, CLI::App* c) {
   add_problem(c, o);
   const std::vector<std::string> rules = {"corrected", "1989"};
   c->add_option("--rule", o.rule,
-                "The rule: corrected gives the true path, 1989 that of the listing without rounding")
+                "The rule: corrected gives the true path, 1989 the path of the listing without rounding")
       ->check(CLI::IsMember(rules))
       ->capture_default_str();
-  add_kernels(c, "--kernels", o.kernels, "Kernels to compare with it, each in free run");
+  add_kernels(c, "--kernels", o.kernels, "Kernels to compare with the exact path, each in free run");
   c->add_option("--digits", o.digits,
-                "Print a rational number that has more digits than this as a decimal of this many digits")
+                "Print a rational number of more digits than this as a decimal with this many digits")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   add_file(c, "--json", o.json, "Write every number as \"p/q\" to this file (- is standard output)");
@@ -294,11 +292,12 @@ void declare_exact(option_parser& p, CLI::App* c) {
 
 void declare_new(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<new_options>(c);
-  c->add_option("KIND", o.kind, "What to start from, such as beam or crane; without it the kinds are listed");
+  c->add_option("KIND", o.kind,
+                "What to start from, such as beam or crane; without KIND the kinds are listed");
   add_file(
       c, "FILE", o.file,
-      "The file to write; by default KIND.toml. Files that it names go beside it. An existing file is not "
-      "overwritten. - is standard output, for the problem file alone");
+      "The file to write; by default KIND.toml. Files that the problem names are written to the same folder. "
+      "Existing files are not overwritten. - writes only the problem file, to standard output");
 }
 
 void declare_verify(option_parser& p, CLI::App* c) {
@@ -306,10 +305,11 @@ void declare_verify(option_parser& p, CLI::App* c) {
   add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
   add_file(
       c, "--results", o.results,
-      "Solve nothing: judge the numbers that another program has for these problems, in a file of the "
-      "format contct-answers-1 (- reads standard input); the exit status is 1 if one is outside the file's "
-      "own tolerance");
-  c->add_option("--least", o.least, "With --results: the exit status is 2 if there are fewer numbers")
+      "Solve nothing. Judge another program's numbers for these problems, in this file of the format "
+      "contct-answers-1 (- reads standard input). The exit status is 1 if a number is outside the file's "
+      "tolerance");
+  c->add_option("--least", o.least,
+                "With --results: the exit status is 2 if the file has fewer numbers than this")
       ->check(CLI::Range(1, 1'000'000))
       ->needs("--results")
       ->capture_default_str();
@@ -319,12 +319,12 @@ void declare_verify(option_parser& p, CLI::App* c) {
 
 void declare_fuzz(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<fuzz_options>(c);
-  add_kernels(c, "--kernels", o.request.kernels, "Kernels to compare, the first one leads")
+  add_kernels(c, "--kernels", o.request.kernels, "Kernels to compare; the first one leads")
       ->capture_default_str();
   c->add_option("--calls", o.request.calls, "Number of calls, in all shards together")
       ->check(CLI::Range(std::int64_t{1}, most_random_cases))
       ->capture_default_str();
-  c->add_option("--problems", o.problems, "Number of whole problems; by default one for 500 calls")
+  c->add_option("--problems", o.problems, "Number of whole problems; by default one for every 500 calls")
       ->check(CLI::Range(std::int64_t{0}, most_random_cases));
   c->add_option("--seed", o.request.seed, "Seed of the random numbers")->capture_default_str();
   c->add_option("--shard", o.shard, "Only calls and problems I, I + N, ...")->type_name("I/N");
@@ -353,7 +353,7 @@ void add_examples(CLI::App& program) {
     }
     c->footer("Examples:" + own);
   }
-  program.footer("Examples:" + first_ones + "\ncontct COMMAND --help says more of each.");
+  program.footer("Examples:" + first_ones + "\ncontct COMMAND --help explains a command.");
 }
 
 struct command {
@@ -362,8 +362,7 @@ struct command {
 };
 
 constexpr command all_commands[] = {
-    {"run", "Follow the path of a problem by the corrected rule, and by the 1989 rule beside it",
-     declare_run},
+    {"run", "Follow the path of a problem by the corrected rule, and also by the 1989 rule", declare_run},
     {"check", "Read a problem without solving it, and print a summary", declare_check},
     {"explain", "What the listing did in each increment, line by line, and why", declare_explain},
     {"exact", "The path in rational arithmetic, and how many digits of each kernel are right", declare_exact},
@@ -374,7 +373,7 @@ constexpr command all_commands[] = {
     {"fuzz", "Compare kernels to the bit on random and adversarial calls and problems", declare_fuzz},
     {"replay", "Repeat recorded calls with a kernel; needs no LAPACK", declare_replay},
     {"prove",
-     "Prove that the machine code of kernels is CONTCT for every input; needs Python's capstone and z3",
+     "Prove that the machine code of kernels equals CONTCT for every input; needs Python's capstone and z3",
      declare_prove},
     {"kernels", "List the built-in kernels, and the floating-point properties of this machine",
      [](option_parser& p, CLI::App* c) { p.options_for<kernels_options>(c); }},

@@ -64,7 +64,7 @@ void put_line(std::string_view words) {
 }  // namespace
 
 void end_for_memory() {
-  constexpr std::string_view message = "contct: memory does not suffice; the command is stopped\n";
+  constexpr std::string_view message = "contct: not enough memory; the command is stopped\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
   _exit(static_cast<int>(exit_status::bad_input));
 }
@@ -172,7 +172,7 @@ void refuse_shared_outputs(const std::vector<output_option>& outputs,
     if (o.path.empty()) continue;
     for (const output_option& other : others) {
       if (same_file(o.path, other.path))
-        throw std::invalid_argument(fmt::format("{} {}: found the file of {}; allowed: a file of its own",
+        throw std::invalid_argument(fmt::format("{} {}: found the same file as {}; allowed: another file",
                                                 o.name, o.path, other.name));
     }
     others.push_back(o);

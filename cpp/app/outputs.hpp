@@ -98,7 +98,7 @@ void refuse_shared_outputs(const std::vector<output_option>& outputs,
                            const std::vector<output_option>& inputs = {});
 
 /// The description of an input file that a problem names.
-inline constexpr const char* named_by_problem = "the problem's stiffness, loads, labels or places";
+inline constexpr const char* named_by_problem = "a file that the problem names";
 
 /// True if an output is "-". Then nothing else is printed.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);

@@ -71,14 +71,14 @@ void check_grid_coordinates(const problem& p) {
   if (a == nullptr) return;
   if (!a->places.known())
     throw std::invalid_argument(fmt::format(
-        "--vtu: found a structure given by its matrix, {}, without coordinates; allowed: one with "
-        "coordinates, by coordinates = \"FILE\" in [matrix] or CalculiX's mesh, JOB.inp beside its matrix or "
-        "mesh = \"FILE\" in [calculix]. --csv and --json have all its numbers, by label",
+        "--vtu: found the matrix {} without coordinates; allowed: coordinates = \"FILE\" in [matrix], "
+        "mesh = \"FILE\" in [calculix], or CalculiX's mesh JOB.inp in the folder of its matrix. --csv and "
+        "--json need no coordinates",
         a->name));
   const auto lost =
       std::ranges::count_if(p.pairs, [a](const contact_pair& c) { return a->places.dofs[c.node].node < 0; });
   if (lost > 0)
-    complain("warning: --vtu: {} of {} pairs {} no cell: the places of their dofs are not known", lost,
+    complain("warning: --vtu: {} of {} pairs {} no cell: the coordinates of their dofs are not known", lost,
              p.pairs.size(), lost == 1 ? "has" : "have");
 }
 
@@ -103,7 +103,8 @@ int node_named(const model& m, const std::string& name) {
         digits == std::string::npos || name[0] != 'x' ? std::nullopt : number_in<double>(name.substr(digits));
     if (const auto at = x ? std::ranges::find(b->x, *x) : b->x.end(); at != b->x.end())
       return static_cast<int>(at - b->x.begin());
-    allowed += fmt::format(", or x = .. of one, from {} to {}", b->x.front(), b->x.back());
+    allowed +=
+        fmt::format(", or x = .. with the coordinate of a node, from {} to {}", b->x.front(), b->x.back());
   }
   throw std::invalid_argument(fmt::format("--node: found {}; allowed: {}", in_quotes(name), allowed));
 }
@@ -161,7 +162,7 @@ void print_heading(const shown_run& o) {
   const std::vector<std::string> facts = {
       fmt::format("{}, {}, {}", counted(nodes(setup.what.geometry), node_name(setup.what.geometry)),
                   counted(setup.what.pairs.size(), "pair"), counted(setup.what.steps.size(), "step")),
-      kernels.empty() ? "only the end" : fmt::format("kernels {}", joined(kernels, ", ")),
+      kernels.empty() ? "final states only" : fmt::format("kernels {}", joined(kernels, ", ")),
       "engine " + o.run.result.engine + (setup.structure.stiffness.is_band() ? "" : ", sparse")};
   for (const std::string& line : wrap(facts, setup.screen.width)) print_text(fmt::format("{}\n", line));
   print_text("\n");
@@ -194,7 +195,7 @@ void report_lockstep(shown_run& o) {
   const lockstep& compared = *o.run.result.compared_calls();
   const std::string names = joined(o.run.result.beside ? kernels_of_1989 : o.run.wanted.kernels, " and ");
   if (compared.calls() == 0)
-    return print_verdict(o, paint::quiet, {names + " were never called: nothing is compared"});
+    return print_verdict(o, paint::quiet, {names + " were never called, so nothing was compared"});
   const bool equal = o.run.result.equal;
   print_verdict(o, equal ? paint::good : paint::bad,
                 {fmt::format("{} {} to the bit", names, equal ? "are equal" : "are NOT equal"),
@@ -212,7 +213,7 @@ void report_free_run(shown_run& o, const std::string& name) {
   const compared_path& other = o.run.follow_alone(name);
   const free_run_difference& d = other.difference;
   print_verdict(o, d.within_bound() ? paint::good : paint::bad,
-                {fmt::format("{} in free run: events {}", name, d.same_events ? "the same" : "DIFFERENT"),
+                {fmt::format("{} in free run: {} events", name, d.same_events ? "the same" : "DIFFERENT"),
                  other.distances, other.certified ? "certified" : "NOT certified"});
   if (!d.first_difference.empty()) {
     o.differences += name + ": " + d.first_difference + "\n";
@@ -228,9 +229,9 @@ void report_free_run(shown_run& o, const std::string& name) {
 void report_comparison(shown_run& o) {
   const std::vector<std::string>& kernels = o.run.wanted.kernels;
   if (kernels.empty())
-    return print_verdict(
-        o, paint::quiet,
-        {"only the end of each step, no path", counted(o.run.result.end.work.factors, "factorisation")});
+    return print_verdict(o, paint::quiet,
+                         {"only the final state of each step, without a path",
+                          counted(o.run.result.end.work.factors, "factorisation")});
   if (o.run.result.compared_calls() != nullptr) report_lockstep(o);
   for (const std::string& line : rule_1989_words(o.run.result)) print_verdict(o, paint::strong, {line});
   if (!o.run.wanted.free_run) return;
@@ -244,7 +245,7 @@ void report_refinement(shown_run& o) {
   const std::vector<std::string> items = refinement_words(o.run.result);
   print_verdict(o, paint::quiet,
                 items.empty()
-                    ? std::vector<std::string>{"the problem with half the element size is not solved"}
+                    ? std::vector<std::string>{"the problem with half the element size could not be solved"}
                     : items);
 }
 

@@ -30,9 +30,9 @@ fs::path find_reference(const std::string& asked) {
   for (const char* from_here : {CONTCT_INSTALLED_REFERENCE, "../../reference"}) {
     fs::path found = (here / from_here).lexically_normal();
     if (fs::exists(found / "verification.toml")) return found;
-    looked_at += (looked_at.empty() ? "" : " nor ") + (found / "verification.toml").string();
+    looked_at += (looked_at.empty() ? "" : " or ") + (found / "verification.toml").string();
   }
-  throw input_error("there is neither " + looked_at + "; name the folder with --reference");
+  throw input_error("found no file " + looked_at + "; name its folder with --reference");
 }
 
 std::string_view mark_of(const verified_number& n) {
@@ -136,7 +136,7 @@ void print(const terminal& t, const verified_number& n, std::string& printed) {
                          painted(t, p, mark_of(n))));
   if (!n.apart.empty()) print_below(t, paint::bad, n.apart);
   if (!e.exact.empty() && e.quantity != "state" && e.exact != fmt::format("{}", e.value))
-    print_below(t, paint::quiet, "exactly " + e.exact);
+    print_below(t, paint::quiet, "exact value " + e.exact);
   std::string source =
       fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
   if (source != printed) print_below(t, paint::quiet, source);
@@ -147,8 +147,8 @@ void print(const terminal& t, const verified_number& n, std::string& printed) {
 void print_legend(const terminal& t) {
   print_wrapped(t, paint::quiet,
                 {"error: relative difference between computed and expected", "tol: the largest error allowed",
-                 "below a row: its exact value, its source, the reason of its tolerance",
-                 "a row without a source has that of the row above"});
+                 "below a row: its exact value, its source, the reason for its tolerance",
+                 "a row without a source has the source of the row above"});
   print_text("\n");
 }
 
@@ -165,7 +165,7 @@ void print(const terminal& t, const verified_case& c) {
 
 void print(const terminal& t, const totals& all) {
   print_wrapped(t, paint::quiet,
-                {fmt::format("{} exact numbers, compared {} times with numbers of kernels", all.exact,
+                {fmt::format("{} exact values, compared {} times with numbers of kernels", all.exact,
                              all.comparisons)});
   std::vector<std::string> kinds;
   for (const auto& [kind, count] : all.by_kind) kinds.push_back(fmt::format("{} {}", count, kind));

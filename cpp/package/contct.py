@@ -168,7 +168,7 @@ def _text_of(key: str, what: str) -> Any:
     def text(self: Result) -> str:
         if key not in self._texts:
             if self._again is None:
-                raise InputError(f"found a result without a path; allowed: `{key}` of what contct.run follows")
+                raise InputError(f"found a result without a path; allowed: `{key}` of a result of contct.run without final_only")
             source, options = self._again
             self._texts[key] = str(_ask(_library.contct_run, source, {**options, key: True})[key])
         return self._texts[key]
@@ -203,7 +203,7 @@ class Result(Answer):
     def answer(self) -> Result:
         """After `certify`: the certified equilibrium under each step's load, as a `Result`."""
         if self._right is None:
-            raise InputError("found a result of contct.run; allowed: `answer` of what contct.certify returns")
+            raise InputError("found a result of contct.run; allowed: `answer` of a result of contct.certify")
         if not isinstance(self._right, Result):
             self._right = Result(_ask(_library.contct_run, self._right, {"final_only": True}))
         return self._right
@@ -264,7 +264,7 @@ class Result(Answer):
     def _with_structure(self) -> Record:
         if "structure" not in self and self._drawable is None:
             if self._again is None:
-                raise InputError("plot: found a result without its structure; allowed: what contct.run follows")
+                raise InputError("plot: found a result without its structure; allowed: a result of contct.run without final_only")
             source, options = self._again
             self._drawable = Record(_ask(_library.contct_run, source, {**options, "states": True})["result"])
         return self if self._drawable is None else self._drawable
@@ -412,12 +412,12 @@ def _load() -> ctypes.CDLL:
         found = library.contct_serve_version()
     except (OSError, AttributeError) as error:
         raise ImportError(
-            f"contct.py: {error}. The library was looked for beside {Path(__file__).resolve()}, under the name in "
-            "$CONTCT_LIBRARY, and where the system looks. Build it (sh cpp/run.sh) and say where it is: "
+            f"contct.py: {error}. The library was looked for next to {Path(__file__).resolve()}, under the name in "
+            "$CONTCT_LIBRARY, and in the system's folders. Build it (sh cpp/run.sh) and set "
             "CONTCT_LIBRARY=.../build/release/libcontct.so") from error
     if found != _INTERFACE:
         raise ImportError(f"contct.py: {name} has interface {found}; allowed: {_INTERFACE}. Module and library must come "
-                          "from one version of CONTCT")
+                          "from the same version of CONTCT")
     counts = (ctypes.c_int,) * 4
     arguments: dict[str, Sequence[Any]] = {"about": (), "judge": (_kernel_function, ctypes.c_char_p),
                                            "call": (ctypes.c_char_p, *(_doubles,) * 5, *(_ints,) * 3, *counts)}
@@ -436,7 +436,7 @@ def _answer_of(function: Any, *arguments: Any) -> dict[str, Any]:
     """The answer of a function of the library. An error in the answer is raised."""
     text = function(*arguments)
     if not text:
-        raise MemoryError("libcontct: memory does not suffice for an answer")
+        raise MemoryError("libcontct: not enough memory for an answer")
     try:
         answer: dict[str, Any] = json.loads(ctypes.string_at(text).decode(errors="replace"))
     finally:
@@ -505,7 +505,7 @@ def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_out
                    f"{or_dict}")
     if b"\0" in source.text:  # the library would end the text there
         before = source.text[:source.text.index(b"\0")]
-        raise InputError("found a character of code 0; allowed: text", source.place, before.count(b"\n") + 1,
+        raise InputError("found a character with code 0; allowed: text without it", source.place, before.count(b"\n") + 1,
                          len(before) - before.rfind(b"\n"))
     return source
 
@@ -530,7 +530,7 @@ def _toml_text(text: str) -> str:
 
 def _toml_key(key: object, where: str) -> str:
     if not isinstance(key, str):
-        raise InputError(f"{where or 'problem'}: found the key {key!r}; allowed: a text")
+        raise InputError(f"{where or 'problem'}: found the key {key!r}; allowed: a text as key")
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _toml_text(key)
 
 
@@ -650,8 +650,8 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
             except InputError as error:
                 raise InputError(error.message, error.file and Path(error.file).name, error.line, error.column) from None
     if pairs or loads is not None or supports or labels is not None:
-        raise InputError("certify: found pairs, loads, supports or labels beside a problem, which has its own; allowed: these with a "
-                         "matrix")
+        raise InputError("certify: found pairs, loads, supports or labels with a problem, which has its own; allowed: "
+                         "these only with a matrix")
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)
     states = [state.tolist() if hasattr(state, "tolist") else state for state in states]
@@ -674,8 +674,8 @@ def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
     for (row, column), value in entries.items():
         across = entries.get((column, row), 0.0)
         if not abs(value - across) <= 1e-12 * largest:
-            raise InputError(f"matrix: found {value!r} in row {row}, column {column}, and {across!r} across the diagonal; allowed: a "
-                             "symmetric matrix of finite numbers")
+            raise InputError(f"matrix: found {value!r} in row {row}, column {column}, but {across!r} in row {column}, column {row}; "
+                             "allowed: a symmetric matrix of finite numbers")
     return [(row, column, value) for (row, column), value in entries.items() if row >= column]
 
 
@@ -685,7 +685,7 @@ def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, sup
     entries, size = _symmetric_entries(matrix), matrix.shape[0]
     names = [str(name) for name in labels] if labels is not None else [str(row) for row in range(size)]
     if len(names) != size:
-        raise InputError(f"labels: found {len(names)}; allowed: {size}, one for each dof")
+        raise InputError(f"labels: found {_count(len(names), 'label')}; allowed: {size}, one for each dof")
 
     def name_of(dof: Union[int, str], where: str) -> str:
         if isinstance(dof, str):

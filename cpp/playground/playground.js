@@ -50,12 +50,12 @@ function follow() {
 
 function withdrawVerdict(why) {
   byId("right").classList.add("stale");
-  byId("verdict").replaceChildren(element("li", { class: "note" }, `No verdict: ${why}. The picture is that of the last text that ran.`));
+  byId("verdict").replaceChildren(element("li", { class: "note" }, `No verdict: ${why}. The picture shows the last text that ran.`));
 }
 
 /** Shows the program's error message about the text. A click on it moves to the place of the error. */
 function complain(error) {
-  withdrawVerdict("the text is no problem that runs");
+  withdrawVerdict("the text cannot be run");
   const button = element("button", { type: "button", class: "bad" }, error.message);
   const lines = editor.value.split("\n");
   let [from, to] = [0, 0];
@@ -96,7 +96,7 @@ function recompute({ asked = false, state = current } = {}) {
 }
 
 function waitForButton() {
-  withdrawVerdict("the problem is large and waits for its button");
+  withdrawVerdict("the problem is large; press its button to run it");
   const button = element("button", { type: "button" }, `Run: ${model.dofs} dofs, ${model.steps.length} steps`);
   button.addEventListener("click", () => recompute({ asked: true }));
   byId("message").replaceChildren(button);
@@ -242,7 +242,7 @@ function explainState(f) {
   const story = byId("story");
   const quietly = (words) => story.replaceChildren(element("p", { class: "quiet" }, words));
   if (f.step === 0 || f.number === 0 || f.pairs.length === 0) return quietly("CONTCT is not called in this state.");
-  if (byId("kernels").value === "corrected") return quietly("The corrected rule is no listing. Choose FORTRAN and C++ to see the lines that run.");
+  if (byId("kernels").value === "corrected") return quietly("The listing has no lines for the corrected rule. Choose FORTRAN and C++ to see the lines that run.");
   const answer = askPath("explain", { step: f.step, increment: f.number });
   if (answer.error) return quietly(answer.error.message);
   const [told] = answer.result.increments;
@@ -268,7 +268,7 @@ function problemOfLink() {
   try {
     if (asked.has("text")) return decoded(asked.get("text"));
   } catch {
-    byId("link-said").textContent = "The link's problem cannot be read: it is cut off or changed.";
+    byId("link-said").textContent = "The link's problem cannot be read: the link is cut off or changed.";
   }
   const name = asked.get("problem");
   if (name in given.problems) byId("menu").value = name;

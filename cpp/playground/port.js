@@ -42,7 +42,7 @@ function answersOf(source, calls) {
   return new Promise((done) => {
     let number = 0;
     const end = (what) => { clearTimeout(clock); worker.terminate(); URL.revokeObjectURL(place); done(what); };
-    const clock = setTimeout(() => end({ error: `It does not answer call ${calls[number].name} in ${patience / 1000} seconds: is there a loop that does not end?` }), patience);
+    const clock = setTimeout(() => end({ error: `The kernel does not answer call ${calls[number].name} in ${patience / 1000} seconds: is there a loop that does not end?` }), patience);
     worker.onmessage = (e) => { if (e.data.number === undefined) end(e.data); else number = e.data.number; };
     worker.onerror = (e) => end({ error: e.message });
     worker.postMessage({ source, calls });
@@ -90,9 +90,9 @@ function hintOf(digest, first, quantity, right) {
   const same = known.filter((h) => h.digest === digest);
   if (same.length > 0) return ["All answers are those of this fault:", ...same.map((h) => h.says)];
   const stage = given.stages.find((s) => s.digests.includes(digest));
-  if (stage) return ["No fault: the answers are those of a port in the making. Next:", stage.next];
+  if (stage) return ["No fault: the answers match an unfinished port. Next:", stage.next];
   const alike = known.filter((h) => h.first === first && right > 0);
-  return alike.length > 0 ? ["The first wrong answer is that of these faults:", ...alike.slice(0, 3).map((h) => h.says)] : ["No known fault answers so.", given.where[quantity]];
+  return alike.length > 0 ? ["The first wrong answer matches these faults:", ...alike.slice(0, 3).map((h) => h.says)] : ["No known fault gives this answer.", given.where[quantity]];
 }
 
 // ---- the page ----
@@ -121,7 +121,7 @@ class KernelJudge {
     const { answers, error } = await answersOf(source, this.calls);
     this.button.disabled = false;
     this.picture.replaceChildren();
-    if (error) return this.say(`No golden call is judged. ${error}`);
+    if (error) return this.say(`No golden call was judged. ${error}`);
     const wrong = answers.map((a, i) => [this.calls[i], a, firstDifference(a, this.calls[i])]).filter(([, , difference]) => difference);
     const count = `${answers.length - wrong.length} of ${answers.length} golden calls are right to the bit.`;
     if (wrong.length === 0) return this.say(count, "This is CONTCT, as far as the golden set can tell.");

@@ -14,7 +14,7 @@ function answerOf(name, ...texts) {
   });
   const answer = program[`_contct_${name}`](...places);
   places.forEach((place) => program._free(place));
-  if (answer === 0) throw new Error("memory does not suffice");
+  if (answer === 0) throw new Error("not enough memory");
   const text = program.UTF8ToString(answer);
   program._contct_free(answer);
   return text;

@@ -356,8 +356,8 @@ class ContactScene {
       const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
       const winner = told.pairs.find((p) => p.s === told.s);
       const after = (frame.events ?? []).map((e) => `The beam ${e.change === "make" ? "meets" : "leaves"} stop ${e.pair}. `).join("");
-      words = `${after}The dashed beam is d*, what all the remaining load would do. ` + (meeting.length === 0 ? "No stop is met or left on the way: s_min = 1."
-        : `Stop ${winner.pair} is met first, at ${rough(100 * told.s)} % of it: s_min = ${rough(told.s)}.`);
+      words = `${after}The dashed beam is d*, the response to all of the remaining load. ` + (meeting.length === 0 ? "No stop is met or left before the full load: s_min = 1."
+        : `Stop ${winner.pair} is met first, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`);
     } else words = this.endWords(frame);
     if (this.words.textContent !== words) this.words.textContent = words;
   }
@@ -370,7 +370,7 @@ class ContactScene {
 
   throughWords(u) {
     const deepest = this.pairs.map((p) => ({ p, by: -p.side * (p.face - u[2 * p.at]) })).sort((a, b) => b.by - a.by)[0];
-    return deepest && deepest.by > 0 ? `Without s_min the beam goes through stop ${deepest.p.pair}, ${rough(deepest.by)} beyond its face. That is what s_min prevents.`
+    return deepest && deepest.by > 0 ? `Without s_min the beam goes through stop ${deepest.p.pair}, ${rough(deepest.by)} beyond its face. s_min prevents this.`
       : "Without s_min nothing is different here: no stop is in the way.";
   }
 

@@ -87,7 +87,7 @@ TEST_CASE("if only the path of the 1989 rule is lost, the answer is unchanged an
   const finished f = run_of(lifted, {"--strict", "--json", "out.json"}, dir);
   CHECK(f.exit == 0);
   CHECK(f.err.empty());
-  CHECK_THAT(f.out, Contains("the path of the 1989 rule is lost") && Contains("  ended    "));
+  CHECK_THAT(f.out, Contains("the path of the 1989 rule ends early") && Contains("  ended    "));
   CHECK(result_in(dir)["status"] == "solved");
   CHECK(result_in(dir)["rule_1989"]["status"] == "path-ended");
 }

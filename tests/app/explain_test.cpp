@@ -75,14 +75,14 @@ TEST_CASE(
   CHECK_THAT(f.out,
              Contains("\nThe smallest s\n"
                       "  42  SMIN = 0.25, not 1. Pair 1 wins.                                       (9)\n"
-                      "      No other pair has an event ahead of it.\n"));
+                      "      No other pair has an event to come.\n"));
   CHECK_THAT(f.out, Contains("\nPair 1: winner\n"
                              "  51  DIFF = 0: s is SMIN.\n"
                              "  52  Less than EPSMUL = 1/256: toggled.\n"
                              "  54  ISEP = 1: it was separated.\n"
                              "  55  ISEP = -1: in contact. Make.\n"));
   CHECK_THAT(f.out, Contains("0.25 of the residual load is applied: D + s d* is the new D (10)."));
-  CHECK_THAT(f.out, Contains("  42  SMIN is still 1: no event on the way."));
+  CHECK_THAT(f.out, Contains("  42  SMIN is still 1: no pair has an event."));
   CHECK_THAT(f.out, Contains("fortran and cpp are equal to the bit in the whole run"));
 }
 
@@ -145,17 +145,17 @@ TEST_CASE(
   refused({pb7, "--increment", "5.1"}, "--step: found 5; allowed: a step from 1 to 4");
   refused({pb7, "--increment", "4"}, "--increment: found 4; allowed: an increment from 1 to 3");
   refused({pb7, "--increment", "1.2"},
-          "--increment: found 1.2; allowed: an increment from 1 to 1, as many as step 1 has");
+          "--increment: found 1.2; allowed: an increment from 1 to 1, in step 1");
   refused({pb7, "--increment", "two"},
           "--increment: found two; allowed: a whole number from 1, or STEP.INCREMENT");
   refused({pb7, "--increment", "0"}, "--increment: found 0");
   refused({pb7, "--increment", "2."}, "--increment: found 2.");
-  refused({pb7, "--increment", "2.1", "--step", "3"}, "allowed: one step");
-  refused({pb7, "--kernels", "corrected"}, "has another rule, which is not in the listing");
-  refused({pb7, "--kernels", "fortran,corrected"}, "reference/corrected-rule.md");
+  refused({pb7, "--increment", "2.1", "--step", "3"}, "allowed: the same step");
+  refused({pb7, "--kernels", "corrected"}, "has the corrected rule, which is not in the listing");
+  refused({pb7, "--kernels", "fortran,corrected"}, "--free-run --kernels corrected,fortran");
   refused({pb7, "--kernels", "fortran,cpp-r4"}, "differ in precision");
   refused({pb7, "--kernels", "cpp,cpp"}, "named twice");
-  refused({pb7, "--kernels", "cpp,fortran,cpp"}, "found 3; allowed: one or two");
+  refused({pb7, "--kernels", "cpp,fortran,cpp"}, "found 3 kernels; allowed: one or two");
   refused({pb7, "--kernels", "pipe:cat"}, "is an external kernel and cannot lead");
   refused({pb7, "--engine", "warp"}, "allowed: auto, refactor, ");
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // explain accepts auto as run does
@@ -227,7 +227,7 @@ TEST_CASE("contct explain reports an event caused only by rounding near full loa
         CHECK(i["fraction"] == 1.0);
         CHECK_FALSE(i["winner"].is_null());
       }
-      CHECK((f.out.find("After this event only rounding would be left of the load") != std::string::npos) ==
+      CHECK((f.out.find("After this event the remaining load would be only rounding") != std::string::npos) ==
             here);
       undone += here ? 1 : 0;
     }
@@ -274,14 +274,15 @@ TEST_CASE("a call of a trace is explained, and a differing kernel's text and fau
   CHECK(f.exit == 1);
   CHECK_THAT(f.out, Contains("\nCall 4: ") && Contains("\nPair 2, node 2") && !Contains("\nCall 5"));
   CHECK_THAT(f.out, Contains("IF (DIFF.LT.EPSMUL) was false, exactly on the threshold"));
-  CHECK_THAT(f.err, Contains("the trace left ISEP; " + plugin + " took line 55, ISEP(I) = -1"));
+  CHECK_THAT(f.err, Contains("the trace kept ISEP; " + plugin + " took line 55, ISEP(I) = -1"));
   CHECK_THAT(f.err, Contains("at fault: line 52, IF (DIFF.LT.EPSMUL) THEN: explains all"));
 }
 
 TEST_CASE("contct explain finds no difference in a trace of the listing, and refuses --json for a trace") {
   const finished f = explained({"reference/traces/ties-r4.trace", "--increment", "1", "--pair", "1"});
   CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("fortran-r4 answers as the trace, to the bit") && !Contains("Pair 2, node"));
+  CHECK_THAT(f.out,
+             Contains("fortran-r4 gives the answers of the trace, to the bit") && !Contains("Pair 2, node"));
   CHECK(explained({"reference/traces/ties.trace", "--json", "-"}).exit == 2);
   const finished beyond = explained({"reference/traces/ties.trace", "--increment", "999"});
   CHECK(beyond.exit == 2);

@@ -59,9 +59,7 @@ TEST_CASE("the command that contct fuzz prints repeats its run") {
   CHECK(a.exit == 1);
 }
 
-TEST_CASE(
-    "contct fuzz finds a kernel that compares EPSMUL by .LE., reports a tie and shrinks the call to two "
-    "pairs") {
+TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and reduced to two pairs") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("less_equal"), "--calls", "20000", "--out",
                                 "found", "--json", "f.json"});
@@ -69,7 +67,7 @@ TEST_CASE(
   CHECK(f.exit == 1);
   CHECK_THAT(f.out, Contains("certificate"));
   CHECK_THAT(f.err, Contains("IF (DIFF.LT.EPSMUL) was false, exactly on the threshold: a tie"));
-  CHECK_THAT(f.err, Contains("shrunk to 1 call(s), 2 pair(s)"));
+  CHECK_THAT(f.err, Contains("reduced to 1 call(s), 2 pair(s)"));
   const nlohmann::json its = json_of(dir, "f.json").at("followers").at(0);
   CHECK(its.at("rung") == "certificate");
   CHECK(its.at("mismatches") > 0);

@@ -49,7 +49,7 @@ TEST_CASE(
   const scratch_folder dir;
   const finished f = judged(dir, "41.8614651", "5");
   CHECK(f.exit == 1);
-  CHECK_THAT(f.out, Contains("step 2, force, pair 1: found 41.8614651; exactly 1800/43: an error of"));
+  CHECK_THAT(f.out, Contains("step 2, force, pair 1: found 41.8614651; exact value 1800/43; error"));
 }
 
 TEST_CASE(

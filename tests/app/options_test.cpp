@@ -109,13 +109,13 @@ TEST_CASE("the options --help and --version print a text instead of running a co
 
 TEST_CASE("a command line without a meaning is refused, with a suggestion if a name is similar") {
   CHECK_THAT(refusal({"rnu"}),
-             StartsWith("\"rnu\" is no command of contct (did you mean \"run\"?); the commands "
+             StartsWith("\"rnu\" is not a command of contct (did you mean \"run\"?); the commands "
                         "are: run, check, explain, "));
   CHECK_THAT(refusal({"--versoin"}),
-             StartsWith("\"--versoin\" is no option of contct (did you mean \"--version\"?)"));
+             StartsWith("\"--versoin\" is not an option of contct (did you mean \"--version\"?)"));
   CHECK_THAT(refusal({"crane.toml"}),
-             StartsWith("\"crane.toml\" is no command of contct; a problem file is run "
-                        "by: contct run crane.toml\n"));
+             StartsWith("\"crane.toml\" is not a command of contct; to run a problem "
+                        "file: contct run crane.toml\n"));
   CHECK_THAT(refusal({"walk"}), !Contains("did you mean"));
   CHECK_THAT(refusal({}), StartsWith("a command is missing; the commands are: "));
   CHECK_THAT(refusal({"run", "f", "--josn=x"}),

@@ -50,7 +50,7 @@ TEST_CASE(
   const auto refuse = [&](const words& output, const std::string& problem, const std::string& name) {
     INFO(output[0] << " " << output[1] << " " << name);
     CHECK_THAT(refusal(dir, {output[0], problem, output[1], name}),
-               Contains(output[1] + " " + name + ": found the file of the problem's stiffness, loads"));
+               Contains(output[1] + " " + name + ": found the same file as a file that the problem names"));
     ++refused;
   };
   for (const words& output : {words{"run", "--json"},
@@ -77,7 +77,8 @@ TEST_CASE("the table of pairs, which --csv also writes, does not replace a file 
   dir.write("K.pairs.csv", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
   dir.write("p.toml",
             "[matrix]\nstiffness = \"K.pairs.csv\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
-  CHECK_THAT(refusal(dir, {"run", "p.toml", "--csv", "K.csv"}), Contains("K.pairs.csv: found the file of"));
+  CHECK_THAT(refusal(dir, {"run", "p.toml", "--csv", "K.csv"}),
+             Contains("K.pairs.csv: found the same file as"));
   CHECK_THAT(dir.read("K.pairs.csv"), Contains("MatrixMarket"));
 }
 
@@ -88,7 +89,8 @@ TEST_CASE("contct verify replaces neither its table verification.toml nor a refe
   for (const std::string file : {"verification.toml", "problems/pb07-three-gap-supports.toml"}) {
     const std::string before = dir.read(file);
     for (const char* option : {"--json", "--junit", "--markdown"})
-      CHECK_THAT(refusal(dir, {"verify", "--reference", ".", option, file}), Contains("found the file of"));
+      CHECK_THAT(refusal(dir, {"verify", "--reference", ".", option, file}),
+                 Contains("found the same file as"));
     CHECK(dir.read(file) == before);
   }
 }
@@ -106,7 +108,7 @@ TEST_CASE("every command refuses an output file with an empty name") {
                                {"verify", "--quiet", "--json", "--junit", "--markdown"}}) {
     for (std::size_t i = 2; i < command.size(); ++i) {
       const words given = {command[0], command[1], command[i], ""};
-      CHECK_THAT(refusal(dir, given), Contains(command[i] + ": found no name; allowed: a file"));
+      CHECK_THAT(refusal(dir, given), Contains(command[i] + ": found an empty name; allowed: a file name"));
       CHECK_THAT(refusal(dir, {command[0], command[1], command[i] + "="}), Contains(command[i] + ": "));
       ++refused;
     }
@@ -122,7 +124,7 @@ TEST_CASE("two outputs in one file are refused, whatever names the file has") {
   for (const char* log : {"out", "./out", "folder/../out", "link"}) {
     INFO(log);
     CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", "out", "--log", log}),
-               Contains(std::string("--log ") + log + ": found the file of --json"));
+               Contains(std::string("--log ") + log + ": found the same file as --json"));
   }
   CHECK(contct_program(dir.path(), {"run", "pb.toml", "--json", "/dev/null", "--log", "/dev/null"}).exit ==
         0);
@@ -135,8 +137,8 @@ TEST_CASE("an output in the problem's own file is refused, also through a link")
   fs::create_hard_link(dir.path() / "pb.toml", dir.path() / "hard");
   for (const char* out : {"pb.toml", "link", "hard"}) {
     INFO(out);
-    CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", out}), Contains("the file of the problem"));
-    CHECK_THAT(refusal(dir, {"run", "link", "--log", out}), Contains("the file of the problem"));
+    CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", out}), Contains("the same file as the problem"));
+    CHECK_THAT(refusal(dir, {"run", "link", "--log", out}), Contains("the same file as the problem"));
   }
   CHECK(dir.read("pb.toml") == good_problem);
 }
@@ -149,7 +151,7 @@ TEST_CASE(
   dir.write("out", "");
   CHECK_THAT(
       refusal(dir, {"run", "pb.toml", "--json", "out"}, {"", {}, false, (dir.path() / "out").string()}),
-      Contains("the file of standard output"));
+      Contains("the same file as standard output"));
 }
 
 TEST_CASE("an output through a symbolic link is written to the link's target") {
@@ -226,7 +228,7 @@ TEST_CASE("kernels that were never called are not reported as equal to the bit")
             "stiffness = 1\n[[step]]\nuniform = -1\n");
   const finished f = contct_program(dir.path(), {"run", "loose.toml"});
   CHECK(f.exit == 4);
-  CHECK_THAT(f.out, Contains("fortran and cpp were never called: nothing is compared"));
+  CHECK_THAT(f.out, Contains("fortran and cpp were never called, so nothing was compared"));
   CHECK_THAT(f.out, !Contains("equal to the bit"));
 }
 

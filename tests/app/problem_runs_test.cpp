@@ -69,7 +69,7 @@ TEST_CASE(
                  EndsWith("is not decided") && !Contains("--kernels"));
   early.has_equilibrium = true;
   CHECK_THAT(end_words(ten_pairs(), early), EndsWith("There is an equilibrium under the load of this step: "
-                                                     "--kernels corrected leads to it"));
+                                                     "--kernels corrected reaches it"));
   early.by_1989_rule = false;
   CHECK_THAT(end_words(ten_pairs(), early), EndsWith("There is an equilibrium under the load of this step"));
   path_end cycle = ended(path_status::cycle, {9});

@@ -338,7 +338,7 @@ def leaves_nothing_out(name):
     for title in ("Sums of forces", "Largest values"):
         rows = table("ends", title)[0]
         check(len(rows) == 1 + len(steps) == 28, f"{name}: {title}: every step has its row: {len(rows)}")
-    forces = table("ends", "Contact forces [kN]; of a separated pair the gap [m]")
+    forces = table("ends", "Contact forces [kN]; for a separated pair the gap [m]")
     check([len(rows) for rows in forces] == [3] * 5, f"{name}: both bolts are in every table of forces: {forces}")
     check(all("gap" in rows[2] for rows in forces), f"{name}: the gap of a separated bolt is told: {forces}")
     check(len(table("ends", "Contact forces of beds [kN], 24 of 27 steps")) == 4, f"{name}: the selection of the bed is told where it stands")

@@ -12,7 +12,7 @@ build=$(cd "${1:-build/release}" && pwd) || exit 1
 
 has_browser() { command -v chromium >/dev/null 2>&1 && command -v python3 >/dev/null 2>&1 && command -v pdftotext >/dev/null 2>&1; }
 has_browser || need "to open pages" chromium python3 fonts-dejavu-core poppler-utils || true
-has_browser || { echo "browser: SKIPPED: chromium or pdftotext cannot be had"; exit 77; }
+has_browser || { echo "browser: SKIPPED: chromium or pdftotext is not available"; exit 77; }
 
 work=$build/tests/browser
 rm -rf "$work"
@@ -24,7 +24,7 @@ page() {
   shift 3
   "$build/contct" run "$file" --quiet --html "$work/$name.html" --json "$work/$name.json" "$@" 2>"$work/said"
   status=$?
-  [ $status = "$expected" ] || { echo "browser: $name: exit $status, expected $expected"; cat "$work/said"; wrong=1; }
+  [ $status = "$expected" ] || { echo "browser: $name: found exit status $status; allowed: $expected"; cat "$work/said"; wrong=1; }
 }
 python3 tests/browser/problems.py "$work" || exit 1
 for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-three-gap-supports \

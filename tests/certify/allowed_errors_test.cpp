@@ -61,13 +61,14 @@ TEST_CASE(
   const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);
   const by_quantity allowed = sizes.of(b, 10.0);
   CHECK(worst_share(b.error, allowed) == Approx(5e-4));
-  CHECK(worst_bound(b.error, allowed) == "a deflection may be off by 0.001, 0.05 % of the largest");
+  CHECK(worst_bound(b.error, allowed) ==
+        "a deflection may be off by 0.001, 0.05 % of the largest of its kind");
   const error_bounds good = bounds(1e-9, 2.0, 1e-9, 50.0);
   problem in_metres;
   in_metres.geometry.kind = beam{};
   in_metres.units = {"m", "kN"};
   CHECK(worst_bound(b.error, allowed, &in_metres) ==
-        "a deflection may be off by 0.001 m, 0.05 % of the largest");
+        "a deflection may be off by 0.001 m, 0.05 % of the largest of its kind");
   CHECK(worst_bound(good.error, sizes.of(good, 10.0)).empty());
 }
 
@@ -76,7 +77,7 @@ TEST_CASE("an error of a quantity without an allowed error, or a NaN error, is t
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
   CHECK(worst_bound(error, allowed) ==
-        "a contact force may be off by 1e-20, and there is no load or number of its kind to compare it with");
+        "a contact force may be off by 1e-20, and no load or number of its kind is there to compare it with");
   error[quantity::force] = 0.0;
   CHECK(worst_share(error, allowed) == 0.0);
   error[quantity::w] = std::numeric_limits<double>::quiet_NaN();

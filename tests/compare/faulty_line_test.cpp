@@ -60,10 +60,11 @@ TEST_CASE("line 33 is reported for a kernel with EPSGAP = 1e-9, with the gaps th
   }
   note(all, four_pairs(2e-9), [](call_outputs&) {});
   REQUIRE(all.found());
-  CHECK(words_of(*all.found()) ==
-        "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 2 values that differ, in 2 call(s); there "
-        "ABS(GAP) was "
-        "2e-10 to 5e-10");
+  CHECK(
+      words_of(*all.found()) ==
+      "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 2 values that differ, in 2 call(s); in these "
+      "ABS(GAP) was "
+      "2e-10 to 5e-10");
 }
 
 TEST_CASE(

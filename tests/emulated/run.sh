@@ -17,7 +17,7 @@ for processor in "$@"; do
 done
 set -- "$@" --  # the names of the traces follow after --
 for trace in reference/traces/*.trace; do
-  [ -f "$trace" ] || { echo "reference/traces has no trace: nothing to replay" >&2; exit 1; }
+  [ -f "$trace" ] || { echo "reference/traces has no trace to replay" >&2; exit 1; }
   set -- "$@" "$trace"
 done
 need "to configure and build" cmake ninja-build libcli11-dev libfmt-dev || exit 1
@@ -81,7 +81,7 @@ for processor in $processors; do
     continue
   fi
   folder=build/$processor
-  if ! build "$folder" "$processor"; then fail "it does not build"; continue; fi
+  if ! build "$folder" "$processor"; then fail "the build failed"; continue; fi
   if ! replay "$folder" "$processor" "$@"; then fail "$(tail -n 1 "$log")"; continue; fi
   said=$(tail -n 1 "$log")
   if ! grep -q '^- floating point: strict$' "$report"; then

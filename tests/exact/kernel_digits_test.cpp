@@ -67,7 +67,8 @@ TEST_CASE("the first event in which a kernel's path differs from the exact path 
   const kernel_digits r = stop_run().with(0.0, 0.0, change::break_);
   CHECK_FALSE(r.same_events);
   CHECK(r.first_difference ==
-        "exactly, pair 1 makes in step 1 at share 0.333333333; here pair 1 breaks in step 1 at share "
+        "the exact path: pair 1 makes contact in step 1 at share 0.333333333; this kernel: pair 1 breaks "
+        "contact in step 1 at share "
         "0.333333333");
 }
 
@@ -80,7 +81,7 @@ TEST_CASE("a kernel's path that ends early does not count as having the exact pa
 TEST_CASE("events that only the kernel's path or only the exact path has are reported") {
   const stop_run run;
   const kernel_digits nothing = digit_counter(run.what, run.exactly).result("k", path_status::solved, 1e-9);
-  CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("nothing more happens"));
+  CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("no further event"));
   digit_counter counter(run.what, run.exactly);
   const std::vector<event> makes = {{0, change::make}};
   const std::vector<event> breaks = {{0, change::break_}};
@@ -88,7 +89,8 @@ TEST_CASE("events that only the kernel's path or only the exact path has are rep
   counter.incremented({2, 1, 0.0, 2.0 / 3.0, breaks});
   counter.incremented({2, 2, 0.0, 0.75, makes});
   CHECK_THAT(counter.result("k", path_status::solved, 1e-9).first_difference,
-             Contains("pair 1 makes in step 2 at share 0.75") && Contains("no event of the exact path"));
+             Contains("pair 1 makes contact in step 2 at share 0.75") &&
+                 Contains("does not happen on the exact path"));
 }
 
 TEST_CASE(

@@ -29,7 +29,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if ! { cmake --preset fuzz && cmake --build --preset fuzz; } >"$work/log" 2>&1; then
   tail -n 30 "$work/log"
-  echo "fuzzers: they do not build" >&2
+  echo "fuzzers: the build failed" >&2
   exit 1
 fi
 corpora=${CONTCT_CORPUS:-build/fuzz-corpus}
@@ -52,9 +52,9 @@ fuzz() {
   # shellcheck disable=SC2086 # options are words
   "build/fuzz/tests/fuzz/${name}_fuzz" "-max_total_time=$seconds" "-max_len=$longest" -print_final_stats=1 "-artifact_prefix=$corpora/$name-" \
     -dict=tests/fuzz/numbers.dict -timeout=10 -rss_limit_mb=2560 $options "$corpora/$name" "$seeds" >/dev/null 2>"$work/said" ||
-    { grep -v '^#' "$work/said" | tail -n 60; echo "$name: found an input that is not handled; it is beside $corpora/$name"; return 1; }
+    { grep -v '^#' "$work/said" | tail -n 60; echo "$name: found an input that fails; it is saved as $corpora/$name-*"; return 1; }
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/said")
-  echo "$name: $runs runs in $seconds s, nothing found; at least $least"
+  echo "$name: $runs runs in $seconds s without a failure; allowed: $least runs or more"
   [ "${runs:-0}" -ge "$least" ]
 }
 

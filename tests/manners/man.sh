@@ -24,4 +24,4 @@ for page in "contct 1 running" "contct-problem 5 problem-file" "contct-result 5 
     count=$((count + 1))
   done <"$folder/wanted"
 done
-[ "$count" -ge 250 ] || { echo "only $count headings and keys were looked at" >&2; exit 1; }
+[ "$count" -ge 250 ] || { echo "found $count headings and keys; allowed: 250 or more" >&2; exit 1; }

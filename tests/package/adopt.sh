@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh
 can_be_bare
 need "to link a static program, and for a bare Debian" g++ gfortran cmake ninja-build libcli11-dev libfmt-dev binutils debootstrap python3 ||
-  skip "debootstrap or a compiler cannot be had"
+  skip "debootstrap or a compiler is not available"
 
 work=$(mktemp -d)
 log=$work/log
@@ -26,7 +26,7 @@ ends() {
   "$@" >"$log" 2>&1
   found=$?
   [ $found = "$status" ] || { tail -n 20 "$log"; fail "$*: found exit status $found, allowed: $status"; }
-  grep -qF -e "$words" "$log" || { tail -n 20 "$log"; fail "$*: does not say \"$words\""; }
+  grep -qF -e "$words" "$log" || { tail -n 20 "$log"; fail "$*: the output has no \"$words\""; }
 }
 
 echo "-- the static program"
@@ -35,20 +35,20 @@ quietly cmake --workflow --preset static
 mkdir -p "$work/copy/deeper" && cp -r CMakeLists.txt CMakePresets.json cpp fortran reference "$work/copy/deeper" || exit 1
 quietly env -C "$work/copy/deeper" cmake --preset static -B "$work/again"
 quietly cmake --build "$work/again" --target contct-replay
-cmp $program "$work/again/contct-replay" || fail "built in another folder, it differs"
+cmp $program "$work/again/contct-replay" || fail "the program differs if it is built in another folder"
 size=$(stat -c %s $program)
 [ "$size" -lt 2000000 ] || fail "found $size bytes, allowed: fewer than 2000000"
 readelf -lW $program >"$log" || exit 1
 ! grep -q -e INTERP -e DYNAMIC "$log" || fail "$program is not static"
 ends 0 "50 passed, 0 failed" $program --kernel fortran,cpp,fortran-r4,cpp-r4 reference/traces/*.trace
-echo "$size bytes; built in another folder it is the same to the byte"
+echo "the static program has $size bytes, the same bytes if it is built in another folder"
 
 began=$(date +%s)
 for language in c fortran python; do
   quietly python3 tests/vectors/consumers.py . $language "" $program
-  [ "$(grep -c "{'vectors': '1, [0-9.]* s', 'static replay': '1, [0-9.]* s'}" "$log")" = 12 ] || { cat "$log"; fail "$language: of twelve faults not all are found"; }
+  [ "$(grep -c "{'vectors': '1, [0-9.]* s', 'static replay': '1, [0-9.]* s'}" "$log")" = 12 ] || { cat "$log"; fail "$language: not all of the twelve faults are found"; }
 done
-echo "twelve faults each in C, Fortran and Python are found by it and by the vectors, in $(($(date +%s) - began)) s"
+echo "the static program and the vectors find twelve faults each in C, Fortran and Python, in $(($(date +%s) - began)) s"
 
 echo "-- in an empty root folder"
 empty=$work/empty
@@ -66,7 +66,7 @@ traces=$(cd reference/traces && ls ./*.trace)
   began=$(date +%s%N)
   ends 1 "IF (ABS(GAP).LT.EPSGAP)" chroot "$empty" ./contct-replay --kernel pipe:./bad $traces
   seconds=$(($(date +%s%N) - began))
-  ends 2 "a static program loads no shared library" chroot "$empty" ./contct-replay --kernel plugin:./good ./ties.trace
+  ends 2 "a static program cannot load a shared library" chroot "$empty" ./contct-replay --kernel plugin:./good ./ties.trace
 }
 echo "a kernel that is CONTCT passes; a fault is found, and its IF named, in $((seconds / 1000000)) ms"
 
@@ -81,8 +81,8 @@ ends 1 "223 calls, 10 differ" in_bare sh /project/reference/adopt/judge.sh /job/
 quietly in_bare cc -O2 -ffp-contract=off -I /project/cpp -o /job/mine /project/reference/adopt/pipe_main.c /job/mine.c -lm
 ends 1 "IF (ABS(GAP).LT.EPSGAP)" in_bare sh -c "contct-replay --kernel pipe:/job/mine /project/reference/traces/*.trace"
 seconds=$(($(date +%s) - installed))
-[ $seconds -lt 60 ] || fail "found $seconds s from a compiler to the IF that is wrong; allowed: fewer than 60"
-echo "a fault is found twice, and its IF named, in $seconds s; before it, $((installed - began)) s to install a compiler"
+[ $seconds -lt 60 ] || fail "found $seconds s from a compiler to the wrong IF; allowed: fewer than 60 s"
+echo "a fault is found twice, and its IF named, in $seconds s, after $((installed - began)) s to install a compiler"
 
 echo "-- the jobs of reference/adopt, line by line in the bare Debian"
 quietly in_bare sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends git'

@@ -6,7 +6,7 @@ if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
     ! unshare --mount --propagation $propagation true 2>/dev/null ||
       CONTCT_NAMESPACE=own exec unshare --mount --propagation $propagation sh "$0" "$@"
   done
-  echo "$title: SKIPPED: mounts of our own are not allowed"
+  echo "$title: SKIPPED: no private mounts are allowed here"
   exit 77
 fi
 sources=/etc/apt/sources.list.d/debian.sources
@@ -16,9 +16,9 @@ fail() { echo "$title: $1" >&2; exit 1; }
 # value NAME: prints a value of /etc/os-release.
 value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
 can_be_bare() {
-  [ "$(value ID)" = debian ] || skip "this is no Debian, and has packages for itself only"
+  [ "$(value ID)" = debian ] || skip "this system is not Debian"
   [ "$(id -u)" = 0 ] || skip "only root can make a bare Debian"
-  [ -f $sources ] || skip "$sources is not there"
+  [ -f $sources ] || skip "there is no file $sources"
 }
 remove_root() {
   umount "$root/proc" "$root/dev" 2>/dev/null

@@ -21,7 +21,7 @@ if ! grep -q 'LANGUAGES Fortran' "$program/CMakeLists.txt" && grep '^CMAKE_Fortr
 fi
 # The templates in our headers must be compiled with strict floating point.
 if grep '"command":.*\.cpp"' "$work/compile_commands.json" | grep -v -e ' -ffp-contract=off '; then
-  echo "compiled without -ffp-contract=off (above)" >&2
+  echo "a file was compiled without -ffp-contract=off (above)" >&2
   exit 1
 fi
 cd "$work"

@@ -12,8 +12,8 @@ cd "$here/../.." || exit 1
 . cpp/install.sh
 
 can_be_bare
-need "to make and check packages" dpkg-dev lintian debootstrap python3 || skip "lintian or debootstrap cannot be had"
-need "for all that the packages offer" libsuitesparse-dev libgmp-dev || skip "libraries cannot be had"
+need "to make and check packages" dpkg-dev lintian debootstrap python3 || skip "lintian or debootstrap is not available"
+need "for all that the packages offer" libsuitesparse-dev libgmp-dev || skip "libsuitesparse-dev or libgmp-dev is not available"
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
@@ -25,21 +25,21 @@ if [ $# = 0 ]; then
 else
   rm -f "$given"/*.deb
   { cmake --build "$given" && (cd "$given" && cpack -G DEB); } >"$log" 2>&1
-fi || { tail -n 40 "$log"; fail "they are not made"; }
+fi || { tail -n 40 "$log"; fail "the packages cannot be made"; }
 set -- "$given"/*.deb
 [ $# = 3 ] || fail "found $# packages in $given, allowed: 3"
 work=$given/bare
 mkdir -p "$work/again" || exit 1
 
-echo "-- packed again, they are the same to the byte"
-(cd "$given" && cpack -G DEB -B "$work/again" >"$log" 2>&1) || { cat "$log"; fail "they cannot be packed again"; }
+echo "-- packed again, the packages are the same to the byte"
+(cd "$given" && cpack -G DEB -B "$work/again" >"$log" 2>&1) || { cat "$log"; fail "the packages cannot be packed again"; }
 for package in "$@"; do cmp "$package" "$work/again/$(basename "$package")" || fail "$package differs when it is packed again"; done
 installed=$work/installed
 rm -rf "$installed"
 for package in "$@"; do dpkg-deb -x "$package" "$installed" || exit 1; done
 count=$(find "$installed" -type f | wc -l)
 [ "$count" -ge 200 ] || fail "found $count files in the packages, allowed: 200 or more"
-if grep -rlF -e "$PWD" "$installed" >&2; then fail "the folder of the sources is named in what is installed (above)"; fi
+if grep -rlF -e "$PWD" "$installed" >&2; then fail "installed files name the folder of the sources (above)"; fi
 echo "$count files, none of which names $PWD"
 
 echo "-- lintian"
@@ -49,7 +49,7 @@ echo "-- lintian"
 lintian --no-cfg --pedantic --display-info --display-experimental --tag-display-limit 0 \
   --fail-on error,warning,info,pedantic,experimental --suppress-tags \
   initial-upload-closes-no-bugs,possible-documentation-but-no-doc-base-registration,missing-prerequisite-for-gfortran-module,spelling-error-in-binary \
-  "$@" || fail "lintian has tags for them"
+  "$@" || fail "lintian reports tags for the packages (above)"
 
 echo "-- a bare Debian $(value VERSION_CODENAME)"
 root=$work/root

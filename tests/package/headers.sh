@@ -8,7 +8,7 @@ shift 2
 count=0
 for header in $(sed -n 's/^| `\(contct\/[^`]*\)`.*/\1/p' "$source/reference/library.md"); do
   for absent in "$@"; do case $header in contct/$absent/*) continue 2 ;; esac; done
-  [ -f "$prefix/include/$header" ] || { echo "$header is documented, and not installed" >&2; exit 1; }
+  [ -f "$prefix/include/$header" ] || { echo "$header is documented, but not installed" >&2; exit 1; }
   # shellcheck disable=SC2086 # flags are words
   case $header in
     *.h) $CC $CFLAGS -std=c99 -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" -include "$prefix/include/$header" \
@@ -18,9 +18,9 @@ for header in $(sed -n 's/^| `\(contct\/[^`]*\)`.*/\1/p' "$source/reference/libr
   esac
   count=$((count + 1))
 done
-[ "$count" -ge 20 ] || { echo "only $count headers were compiled" >&2; exit 1; }
+[ "$count" -ge 20 ] || { echo "found $count headers to compile; allowed: 20 or more" >&2; exit 1; }
 if find "$prefix" -path '*/lab*' | grep . >&2; then
-  echo "the laboratory is installed (above)" >&2
+  echo "files of contct/lab are installed (above)" >&2
   exit 1
 fi
 echo "$count public headers compile alone"

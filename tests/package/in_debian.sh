@@ -17,14 +17,14 @@ remove() {
   quietly apt-get autoremove -y --purge
   files /tmp/after
   diff /tmp/before /tmp/after || fail "$*: files are left behind (>) or missing (<), above"
-  echo "-- $*: removed; the $(wc -l </tmp/after) names of files are those of before"
+  echo "-- $*: removed; the $(wc -l </tmp/after) names of files are the same as before"
 }
 # says WORDS COMMAND..: checks that a line of the command's output contains WORDS.
 says() {
   words=$1
   shift
   said=$("$@" 2>&1) || { echo "$said"; fail "$*: failed"; }
-  echo "$said" | grep -qF -e "$words" || { echo "$said"; fail "$*: \"$words\" is not said"; }
+  echo "$said" | grep -qF -e "$words" || { echo "$said"; fail "$*: the output has no \"$words\""; }
 }
 quietly apt-get update
 quietly apt-get install -y ca-certificates
@@ -40,8 +40,8 @@ says "libcholmod" ldd /usr/bin/contct
 contct verify | tee verified | tail -n 4 | tr '\n' ' ' | grep -q '^7[0-9][0-9] numbers in 5[0-9] problems; .*; 0 failed ' ||
   { tail -n 4 verified; fail "contct verify: failed"; }
 says "0 mismatches" contct-replay /usr/share/contct/reference/traces/ties.trace
-for link in problems structures traces; do [ -d /usr/share/doc/contct/reference/$link/. ] || fail "$link leads nowhere"; done
-[ -f /usr/share/doc/contct/reference/CHANGELOG.md ] || fail "the pages are not there"
+for link in problems structures traces; do [ -d /usr/share/doc/contct/reference/$link/. ] || fail "the link $link is broken"; done
+[ -f /usr/share/doc/contct/reference/CHANGELOG.md ] || fail "the pages are not installed"
 rm verified
 cd /given
 echo "-- contct: runs, verifies and replays"
@@ -56,7 +56,7 @@ for page in "1 contct" "1 contct-replay" "5 contct-problem" "5 contct-result"; d
 done
 says "/usr/share/man/man1/contct.1.gz" man -w contct-replay
 says "-F _contct contct" bash -c '. /usr/share/bash-completion/bash_completion; _completion_loader contct; complete -p contct'
-echo "-- contct: man and bash find what is theirs"
+echo "-- contct: man and bash find their files"
 remove contct
 
 install g++ cmake ninja-build pkgconf

@@ -14,7 +14,7 @@ block() {
 shown() {
   block "$1" | sed 's/^ *//; s/ *$//' | grep -v '^$' >lines-of-page || { echo "the page has no $1" >&2; exit 1; }
   while read -r line; do
-    grep -qF -e "$line" "$here/$2" || { echo "the page shows, but $2 has not: $line" >&2; exit 1; }
+    grep -qF -e "$line" "$here/$2" || { echo "the page shows a line that $2 does not have: $line" >&2; exit 1; }
   done <lines-of-page
 }
 
@@ -28,4 +28,4 @@ shown c c/mine.c
 shown cpp cxx/mine.cpp
 shown fortran fortran/mine.f90
 rm -r "$PWD"
-echo "all lines stand in the programs"
+echo "the programs have all lines of the page"

@@ -5,7 +5,7 @@ set -eu
 bin=$1
 data=$2
 "$bin/contct" --version
-"$bin/contct" --version | grep -qx "contct $3" || { echo "that is not version $3" >&2; exit 1; }
+"$bin/contct" --version | grep -qx "contct $3" || { echo "the program's version is not $3" >&2; exit 1; }
 "$bin/contct" verify | tail -n 4 | tr '\n' ' ' | grep '^[1-9][0-9]* numbers in [1-9][0-9]* problems; .*; 0 failed '
 
 mkdir -p "$data/away"

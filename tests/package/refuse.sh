@@ -15,7 +15,7 @@ refused() {
   fi
   tr -s ' \n' ' ' <"$work/said" | grep -qF -e "$2" || { cat "$work/said" >&2; exit 1; }
 }
-refused "REQUIRED COMPONENTS cxx finite-volumes" 'no component "finite-volumes"; there are: c, cxx, fortran, '
+refused "REQUIRED COMPONENTS cxx finite-volumes" 'no component "finite-volumes"; allowed: c, cxx, fortran, '
 refused "REQUIRED COMPONENTS cxx finite-volumes" ', core'
 refused "99.0 REQUIRED" 'requested version "99.0"'
-echo "all are refused"
+echo "find_package refuses all of them"

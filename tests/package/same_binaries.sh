@@ -23,7 +23,7 @@ cmake --build "$made" --target $targets >"$work/log" 2>&1 || { tail -n 30 "$work
 
 count=0
 for file in "$given/contct" "$given/contct-replay" "$given"/libcontct.so.*.*.* "$given/contct_petsc.so"; do
-  [ -f "$file" ] || { [ "$file" = "$given/contct_petsc.so" ] && continue; fail "$file is not there"; }
+  [ -f "$file" ] || { [ "$file" = "$given/contct_petsc.so" ] && continue; fail "there is no file $file"; }
   other=$made/$(basename "$file")
   cmp "$file" "$other" || { strings -a "$other" | grep -F -e "$work" | sort -u | head -n 5; fail "$(basename "$file") differs in another folder"; }
   count=$((count + 1))

@@ -45,7 +45,8 @@ TEST_CASE("in a free run, a different event, a different order and a different e
   other.events[1].what.what = change::make;
   free_run_difference d = compare_paths(leader, other, 1e-9, 2);
   CHECK_FALSE(d.same_events);
-  CHECK(d.first_difference == "step 4: pair 1 breaks against step 4: pair 1 makes");
+  CHECK(d.first_difference ==
+        "the leader: step 4, pair 1 breaks contact; this kernel: step 4, pair 1 makes contact");
   other = leader;
   other.events.pop_back();
   d = compare_paths(leader, other, 1e-9, 2);

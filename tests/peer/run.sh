@@ -11,7 +11,7 @@ build=${1:-build/release}
 
 need "as peers" calculix-ccx python3-siconos python3-numpy || true
 if ! command -v ccx >/dev/null 2>&1 || ! python3 -c "import siconos.numerics" 2>/dev/null; then
-  echo "CalculiX and Siconos as peers: SKIPPED: one is not found and cannot be installed"
+  echo "CalculiX and Siconos as peers: SKIPPED: CalculiX or Siconos is not found and cannot be installed"
   exit 77
 fi
 need_core || exit 1
@@ -23,7 +23,7 @@ trap 'rm -rf "$work"' EXIT
 if ! { cmake --preset release -B "$build" -DCONTCT_BUILD_TESTS=ON &&
   cmake --build "$build" --target contct; } >"$work/log" 2>&1; then
   tail -n 30 "$work/log"
-  echo "CalculiX as a peer: it does not build" >&2
+  echo "CalculiX as a peer: the build failed" >&2
   exit 1
 fi
 # CalculiX's last digits depend on the number of threads.

@@ -11,8 +11,8 @@ build=$(cd "${1:-build/release}" && pwd) || exit 1
 
 has_browser() { command -v chromium >/dev/null 2>&1 && command -v python3 >/dev/null 2>&1; }
 has_browser || need "to open pages" chromium python3 fonts-dejavu-core || true
-has_browser || { echo "playground: SKIPPED: chromium cannot be had"; exit 77; }
-[ "$(uname -m)" = x86_64 ] || { echo "playground: SKIPPED: the page's long double is that of x86_64"; exit 77; }
+has_browser || { echo "playground: SKIPPED: chromium is not available"; exit 77; }
+[ "$(uname -m)" = x86_64 ] || { echo "playground: SKIPPED: this processor is not x86_64, whose long double the page has"; exit 77; }
 sh cpp/playground.sh || exit $?
 
 # The page uses reference LAPACK, so the program must use it too.

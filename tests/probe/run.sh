@@ -58,30 +58,30 @@ wrong=0
 expect() {  # expect WORDS CONDITION..: checks a fact
   words=$1
   shift
-  "$@" || { echo "NOT SO: $words"; wrong=1; }
+  "$@" || { echo "FAILED: $words"; wrong=1; }
 }
 all_say() { [ -s "$work/compared" ] && ! grep -v -e "$1" "$work/compared"; }
 
 replay "$strict" "$doctored"
-expect "the strict build calls the doctored trace a mismatch" all_say ': mismatch; '
-expect "and exits 1" [ $status = 1 ]
+expect "the strict build reports a mismatch for the doctored trace" all_say ': mismatch; '
+expect "the strict build exits 1" [ $status = 1 ]
 
 replay "$work/replay" "$doctored"
-expect "this build calls the doctored trace environment" all_say ': environment; '
-expect "and exits 1" [ $status = 1 ]
-expect "and says what is wrong with it" grep -q "^environment, not kernel: .*$says" "$work/complaints"
-expect "in its report, too" grep -q "^- floating point: .*$says" "$work/report"
+expect "this build blames the environment for the doctored trace" all_say ': environment; '
+expect "this build exits 1" [ $status = 1 ]
+expect "this build names the fault of its environment" grep -q "^environment, not kernel: .*$says" "$work/complaints"
+expect "the report names the fault of the environment, too" grep -q "^- floating point: .*$says" "$work/report"
 
 replay "$work/replay" "$source"/reference/traces/*.trace
-expect "no verdict on the golden set leaves the environment out" \
+expect "every verdict on the golden set names the environment" \
   all_say "\(: environment; \|: equal to the bit, but the environment is not strict (.*$says.*)\)"
 differing=$(grep -c ': environment; ' "$work/compared" || true)
 if [ "$kind" = fused ]; then
-  expect "nothing differs" [ "$differing" = 0 ]
-  expect "and it exits 0" [ $status = 0 ]
+  expect "no replay of the golden set differs" [ "$differing" = 0 ]
+  expect "the replay of the golden set exits 0" [ $status = 0 ]
 else
-  expect "something differs" [ "$differing" -gt 0 ]
-  expect "and it exits 1" [ $status = 1 ]
+  expect "a replay of the golden set differs" [ "$differing" -gt 0 ]
+  expect "the replay of the golden set exits 1" [ $status = 1 ]
 fi
 [ $wrong = 0 ] || exit 1
-echo "$kind: $(wc -l <"$work/compared") replays, $differing of them differ; every one names the environment: $says"
+echo "$kind: $(wc -l <"$work/compared") replays, $differing of them differ; every verdict names the environment: $says"

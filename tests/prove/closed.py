@@ -16,14 +16,14 @@ CASES = {  # a kernel's body, and the reason that the prover must give
     "cpuid": "this mnemonic is not known",
     ".rept 5000\nnop\n.endr": "no end of the path after 4000 instructions",
     "jmp *%rax": "an address that is not known to be in one region",
-    "mov 4(%r9), %eax": "a subscript of ID that is not the next pair's",
+    "mov 4(%r9), %eax": "a subscript of ID that is not that of the next pair",
     "mov here(%rip), %eax\n.data\nhere: .long 1\n.text": "static data is read",
     "mov (%rax), %rax": "an address that is not known to be in one region",
-    "mov %rax, (%rdi)": "DD is written, which is not the function's",
+    "mov %rax, (%rdi)": "DD is written, which the function may not change",
     "mov -4(%rdi), %eax": "32 bits of DD",
     "mov %rax, -12(%rip)": "IMAGE is written",
-    "call abort@plt": "abort is called, of which nothing is known",
-    "mov %rdi, (%rsp)\nret": "where does it lead?",
+    "call abort@plt": "abort is called, whose effect is not known",
+    "mov %rdi, (%rsp)\nret": "the target of the jump is not known",
     "mov %rax, -4096(%rsp)": "a write below the red zone",
 }  # fmt: skip
 

@@ -81,7 +81,7 @@ def test_supports_are_fixed_or_springs():
     ({"pairs": [("x", "below", 0.0, 1.0)]}, 'contact[1].dof: found "x"'),
     ({"loads": [1.0]}, "loads: found 1 number; allowed: 3, one for each dof, or a dict"),
     ({"loads": None}, "loads: found 0 numbers; allowed: 3"),
-    ({"labels": ["a"]}, "labels: found 1; allowed: 3, one for each dof"),
+    ({"labels": ["a"]}, "labels: found 1 label; allowed: 3, one for each dof"),
     ({"supports": [-1]}, "supports: found dof -1"),
     ({"closed": [2]}, "closed: found 2; allowed: pairs from 1 to 1"),
 ])
@@ -92,7 +92,7 @@ def test_what_is_wrong_beside_a_matrix_is_refused(wrong, words):
 
 
 @pytest.mark.parametrize("matrix, words", [
-    (Coo(2, [(0, 0, 1.0), (1, 0, -1.0), (1, 1, 1.0)]), "matrix: found -1.0 in row 1, column 0, and 0.0 across the diagonal; allowed: a symm"),
+    (Coo(2, [(0, 0, 1.0), (1, 0, -1.0), (1, 1, 1.0)]), "matrix: found -1.0 in row 1, column 0, but 0.0 in row 0, column 1; allowed: a symm"),
     (Coo(2, [(0, 0, float("nan")), (1, 1, 1.0)]), "allowed: a symmetric matrix of finite numbers"),
     (Coo(2, [(0, 0, 1.0)], columns=3), "matrix: found 2 rows and 3 columns; allowed: a square matrix"),
     (Coo(2, [(0, 0, -1.0), (1, 1, 1.0)]), "a stiffness matrix is positive semidefinite"),
@@ -104,7 +104,7 @@ def test_a_matrix_that_is_not_a_stiffness_matrix_is_refused(matrix, words):
 
 
 def test_what_belongs_to_a_matrix_is_refused_beside_a_problem(beam):
-    with pytest.raises(contct.InputError, match="beside a problem, which has its own"):
+    with pytest.raises(contct.InputError, match="with a problem, which has its own"):
         contct.certify(beam, [0.0] * 6, loads=[0.0] * 6)
 
 

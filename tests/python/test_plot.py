@@ -100,7 +100,7 @@ def test_what_cannot_be_drawn_is_refused(simple, monkeypatch):
     result = contct.run(simple, kernels="corrected")
     with pytest.raises(contct.InputError, match="found quantity 'mx' of a beam; allowed: w, moment, shear"):
         result.plot("mx")
-    with pytest.raises(contct.InputError, match="allowed: what contct.run follows"):
+    with pytest.raises(contct.InputError, match="allowed: a result of contct.run without final_only"):
         contct.certify(simple, [[0.0] * 6]).plot()
     monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
     with pytest.raises(ImportError, match="It needs matplotlib"):

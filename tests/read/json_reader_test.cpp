@@ -48,9 +48,9 @@ TEST_CASE("text that is not JSON is refused with line and column") {
           {"{\"a\": 1e999}", "f.json:1:7: ", "\"1\"", "a number"},
           {"{\"a\": null}", "f.json:1:7: ", "\"n\"", "a number"},
           {"{\"a\": \"x}", "f.json:1:7: ", "\"\"\"", "a text"},
-          {"{\"a\": 1} {", "f.json:1:10: ", "\"{\"", "nothing behind"},
-          {"{\"a\": 1,\n \"a\": 2}", "f.json:2:2: ", "\"\"\"", "\"a\" is there twice"},
-          {"{\"a\": " + std::string(1000, '['), "f.json:1:23: ", "\"[\"", "at most 16 deep"},
+          {"{\"a\": 1} {", "f.json:1:10: ", "\"{\"", "the end of the text"},
+          {"{\"a\": 1,\n \"a\": 2}", "f.json:2:2: ", "\"\"\"", "\"a\" occurs twice"},
+          {"{\"a\": " + std::string(1000, '['), "f.json:1:23: ", "\"[\"", "nested at most 16 deep"},
       },
       verdict_of);
 }

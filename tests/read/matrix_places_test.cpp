@@ -64,9 +64,9 @@ TEST_CASE(
           {good_places + "c 1 # 2\n", "K.xyz:5", "a line of 7 bytes", "name x y"},
           {good_places + "c 1 2 3 4\n", "K.xyz:5", "a line of 9 bytes", "name x y"},
           {good_places + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as the lines before"},
-          {good_places + "b 1 2\n", "K.xyz:5", "node \"b\" again, which line 4 has", "each node once"},
+          {good_places + "b 1 2\n", "K.xyz:5", "node \"b\" a second time, after line 4", "each node once"},
           {good_places + "c nan 2\n", "K.xyz:5", "\"nan\" for x", "finite"},
-          {good_places + "c 1 2", "K.xyz:5", "a line of 5 bytes without a line's end", "a line's end"},
+          {good_places + "c 1 2", "K.xyz:5", "a line of 5 bytes without a line end", "a line end"},
       },
       of_coordinates);
   CHECK(of_coordinates(good_places) == "accepted");
@@ -231,8 +231,8 @@ TEST_CASE(
           {nodes + "7\n", "job.inp:6", "\"7\"", "number, x, y, z"},
           {nodes + "7,1,nan,3\n", "job.inp:6", "\"nan\" for a coordinate", "finite"},
           {nodes + "4,9,9,9\n", "job.inp:6", "node 4 again, at another place", "one place"},
-          {nodes + "7,1,2,3", "job.inp:6", "\"7,1,2,3\" without a line's end", "a line's end"},
-          {nodes + std::string("7,1\0,2,3\n", 9), "job.inp:6", "a byte of 0", "text"},
+          {nodes + "7,1,2,3", "job.inp:6", "\"7,1,2,3\" without a line end", "a line end"},
+          {nodes + std::string("7,1\0,2,3\n", 9), "job.inp:6", "a byte with the value 0", "a text file"},
           {nodes + "*ELEMENT\n1,1,2,3,4\n", "job.inp:6", "*ELEMENT without TYPE", "TYPE="},
           {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:7", "node 9 in an element", "*NODE has"},
           {nodes + "*INCLUDE,INPUT=a\n*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:8", "node 9 in an element",

@@ -117,7 +117,7 @@ TEST_CASE(
   CHECK_THAT(places("").notes.at(0),
              Catch::Matchers::Contains("no label of a dof, such as \"2.3\", names a node of "));
   CHECK_THAT(message_of(with_mesh("mesh = \"job.inp\"\n")),
-             Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node in") &&
+             Catch::Matchers::Contains("p.toml:3:8: calculix.mesh: found no node of") &&
                  Catch::Matchers::Contains("allowed: labels NODE.DIRECTION"));
   CHECK_THAT(message_of(with_mesh("mesh = \"none.inp\"\n")),
              Catch::Matchers::Contains("none.inp: cannot be read"));

@@ -73,10 +73,10 @@ TEST_CASE("a matrix without labels accepts its dofs' numbers in one spelling onl
 
 TEST_CASE("nodes are given in exactly one way, and the message about missing nodes lists all ways") {
   CHECK_THAT(refusal(a_beam, "x = 0\nnodes = [1]"),
-             Contains("f.toml:2:9: nodes: found this beside x; allowed: either nodes or x"));
+             Contains("f.toml:2:9: nodes: found this key together with x; allowed: either nodes or x"));
   CHECK_THAT(refusal(a_beam, ""),
-             Contains("node: found nothing: this key is missing; allowed: a whole number from 1 to 4, or "
-                      "nodes or x in its place"));
-  CHECK_THAT(refusal(a_plate, ""), Contains("or nodes or at in its place"));
+             Contains("node: found nothing: this key is missing; allowed: a whole number from 1 to 4; or "
+                      "nodes or x instead of node"));
+  CHECK_THAT(refusal(a_plate, ""), Contains("; or nodes or at instead of node"));
   CHECK_THAT(refusal(a_matrix(), ""), Contains("dof: found nothing: this key is missing; allowed: a label"));
 }

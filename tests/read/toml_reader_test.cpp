@@ -108,7 +108,7 @@ TEST_CASE("a key that excludes another is refused with its place") {
   };
   CHECK(refusal("a = 1", either) == "accepted");
   CHECK(refusal("a = 1\nc = 2", either) ==
-        "f.toml:2:5: c: found this beside a; allowed: either a, or b and c");
+        "f.toml:2:5: c: found this key together with a; allowed: either a, or b and c");
 }
 
 TEST_CASE("messages describe a value of each kind, such as an array or a date") {
@@ -130,7 +130,7 @@ TEST_CASE(
   std::string dotted = "a";
   for (int i = 0; i < 1001; ++i) dotted += ".a";
   CHECK_THAT(verdict([&] { (void)parse_toml(dotted + " = 1\n", "f.toml"); }),
-             Contains("a key of over 1000 parts"));
+             Contains("a key of more than 1000 parts"));
   CHECK(verdict([] { (void)parse_toml("a = \"" + std::string(999, '.') + "\"\n", "f.toml"); }) == "accepted");
 }
 
@@ -144,16 +144,16 @@ TEST_CASE("a single number applies to all items, and an array must have one numb
   CHECK(value("n = 4", three) == std::vector<double>{4});
   CHECK(value("n = [1, 2.5, 3]", three) == std::vector<double>{1, 2.5, 3});
   CHECK(refusal("n = [1, 2.5]", three) ==
-        "f.toml:1:5: n: found an array of 2; allowed: one number, or 3: one for each thing");
+        "f.toml:1:5: n: found an array of 2; allowed: one number, or 3 numbers, one for each thing");
   CHECK_THAT(refusal("n = [1, 2, 3, 4, 5, 6]", three),
-             Contains("found an array of 6 (a number takes a decimal point, 4.0 for 4,0)"));
+             Contains("found an array of 6 (write a decimal point, 4.0 instead of 4,0)"));
   CHECK_THAT(refusal("n = [1.5, 2, 3, 4, 5, 6]", three), !Contains("decimal point"));
   CHECK_THAT(refusal("n = []", three), Contains("found an empty array"));
 }
 
 TEST_CASE("a message about invalid TOML has a hint if a number has a decimal comma, and only then") {
   const auto nothing = [](const toml_value&) { return 0; };
-  const std::string hint = "(a number takes a decimal point, 4.0 for 4,0)";
+  const std::string hint = "(write a decimal point, 4.0 instead of 4,0)";
   for (const char* line : {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]",
                            "n = { a = 1, w = -60,5 }", "n = 10.000,5", "n = { w = -1.250.000,75 }"}) {
     INFO(line);
@@ -171,10 +171,10 @@ TEST_CASE("a message about invalid TOML has a hint if text has no quotes or a na
   const auto nothing = [](const toml_value&) { return 0; };
   for (const char* line : {"n = Crane", "n = tower", "n=below", "n = { a = crane }", "n = [w, theta]"}) {
     INFO(line);
-    CHECK_THAT(refusal(line, nothing), Contains("not TOML") && Contains("(text stands in quotes)"));
+    CHECK_THAT(refusal(line, nothing), Contains("not TOML") && Contains("(write text in quotes)"));
   }
   for (const char* line : {"Q pos. 1 = 1.5", "n = { Q pos. 1 = 1.5 }"})
-    CHECK_THAT(refusal(line, nothing), Contains("(a name with blanks stands in quotes)"));
+    CHECK_THAT(refusal(line, nothing), Contains("(write a name with blanks in quotes)"));
   for (const char* line : {"n = 4 5", "n = [1, 2", "n = \"Crane", "n 4", "n =", "= 1"}) {
     INFO(line);
     CHECK_THAT(refusal(line, nothing), Contains("not TOML") && !Contains("in quotes"));

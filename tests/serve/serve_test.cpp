@@ -113,7 +113,7 @@ TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the m
       {R"({"max_increments": -1})", "max_increments: found -1"},
       {R"({"final_only": true, "trace": true})", "final_only"},
       {"[]", "allowed: an object"},
-      {"{", "found no JSON"},
+      {"{", "found text that is not JSON"},
   };
   const std::string problem = problem_text("pb07-three-gap-supports");
   for (const auto& [options, words] : wrong) {

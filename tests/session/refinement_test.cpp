@@ -127,5 +127,5 @@ TEST_CASE(
     "Refinement of a matrix is refused, and the message suggests a finer mesh from the program of the "
     "matrix") {
   CHECK_THROWS_WITH(refined(parse_problem(portal_frame(), "frame.toml", reach::anywhere)),
-                    Catch::Matchers::Contains("finer mesh with the program that it is from"));
+                    Catch::Matchers::Contains("finer mesh with the program that wrote this one"));
 }

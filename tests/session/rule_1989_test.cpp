@@ -101,7 +101,7 @@ TEST_CASE("a lost path of the 1989 rule does not change the answer, and is repor
   CHECK_FALSE(lost.beside().rows.at(0).back().reached);
   CHECK(lost.beside().differences.empty());
   const std::string words = rule_1989_words(lost.run.result).at(0);
-  CHECK_THAT(words, Contains("the path of the 1989 rule is lost") && Contains("There is an equilibrium") &&
+  CHECK_THAT(words, Contains("the path of the 1989 rule ends early") && Contains("There is an equilibrium") &&
                         !Contains("--kernels"));
 }
 

@@ -6,6 +6,6 @@ cd "$(dirname "$0")/../.."
 need "for the sources' form" clang-format
 sources=$(find cpp tests -name '*.[ch]pp' -o -name '*.[ch]')
 count=$(echo "$sources" | wc -l)
-[ "$count" -ge 300 ] || { echo "only $count sources were found" >&2; exit 1; }
+[ "$count" -ge 300 ] || { echo "found $count sources; allowed: 300 or more" >&2; exit 1; }
 echo "$sources" | xargs clang-format --dry-run --Werror
 echo "clang-format: $count sources"

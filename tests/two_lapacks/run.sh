@@ -54,7 +54,7 @@ recorded() {
   grep -q '"lockstep": {"calls":[1-9][0-9]*,"values_compared":[1-9][0-9]*,"mismatches":0}' "$file.json" ||
     fail "$2 under $1: lockstep is not equal: $(grep '"lockstep"' "$file.json")"
   "$build/contct-replay" --kernel $kernels --quiet -- "$file.trace" >"$file.said" 2>&1 ||
-    { fail "$2, recorded under $1, is not answered without LAPACK"; cat "$file.said"; }
+    { fail "the replay of $2, recorded under $1, fails without LAPACK"; cat "$file.said"; }
 }
 inputs() { grep -v '^lapack ' "$1"; }
 
@@ -78,12 +78,12 @@ other=$(sed -n 's/^lapack //p' "$work"/openblas-*.trace | sort -u)
 echo "   this system's: $one"
 echo "   the other:     $other"
 if [ $wrong = 0 ]; then
-  case $one in *OpenBLAS*) skip "this system's LAPACK is OpenBLAS already; all was equal under it" ;; esac
+  case $one in *OpenBLAS*) skip "this system's LAPACK is OpenBLAS already; with it all was equal" ;; esac
 fi
-[ -n "$one" ] && [ "$one" != "$other" ] || fail "the traces do not name two LAPACKs"
-case $other in *OpenBLAS*) ;; *) fail "the other is not OpenBLAS" ;; esac
+[ -n "$one" ] && [ "$one" != "$other" ] || fail "the traces do not name two different LAPACKs"
+case $other in *OpenBLAS*) ;; *) fail "the other LAPACK is not OpenBLAS" ;; esac
 # Solves of two LAPACKs differ in their last digits, so paths without any difference would mean that only one was used.
-[ $different -gt 0 ] || fail "every call's numbers are the same under both: it was one LAPACK"
+[ $different -gt 0 ] || fail "the numbers of every call are the same, so only one LAPACK was used"
 
 for room in compare model path certify lab; do
   said=$(under openblas "$build/tests/contct_${room}_tests" 2>&1)

@@ -12,7 +12,7 @@ build=$(cd "${1:-build/release}" && pwd) || exit 1
 python=/usr/bin/python3
 reads() { $python -c 'from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader' >/dev/null 2>&1; }
 reads || need "to read grids back" python3-vtk9 || true
-reads || { echo "VTK: SKIPPED: python3-vtk9 cannot be had"; exit 77; }
+reads || { echo "VTK: SKIPPED: python3-vtk9 is not available"; exit 77; }
 
 work=$build/tests/vtk
 rm -rf "$work"

@@ -47,8 +47,8 @@ const std::string falling =
 TEST_CASE("the text of an exact path has every event with its exact share and load") {
   const std::string text =
       exact_text(followed_exactly(reference("pb07-three-gap-supports")).result(), 20, {});
-  CHECK_THAT(text, Contains("\nstep 2\n  share 3/38, load -2400/19: pair 1 (node 5, below) makes, "
-                            "pair 3 (node 13, below) makes\n  share 1, load -200\n"));
+  CHECK_THAT(text, Contains("\nstep 2\n  share 3/38, load -2400/19: pair 1 (node 5, below) makes contact, "
+                            "pair 3 (node 13, below) makes contact\n  share 1, load -200\n"));
   CHECK_THAT(text, Contains("  largest w -1664/160625 at node 9\n"));
   CHECK_THAT(text, Contains("  pair 1 (node 5, below): w -927/128500, force 31200/257\n"));
   CHECK_THAT(text, Contains("  pair 2 (node 9, below): w -2/375, gap 7/1500\n"));
@@ -71,7 +71,7 @@ TEST_CASE(
              Contains("\nfortran: 15.4 digits of displacements, 14.0 of forces, 15.1 of the events' shares; "
                       "the same events\n"));
   CHECK_THAT(text, Contains("other events: exactly, so; here otherwise\n"));
-  CHECK_THAT(text, Contains("\nearly: no step's end to compare; other events: the path ends early\n"));
+  CHECK_THAT(text, Contains("\nearly: no end of a step to compare; other events: the path ends early\n"));
   const exact_json kernels = run.document()["kernels"];
   CHECK(kernels[0] == exact_json{{"name", "fortran"},
                                  {"same_events", true},

@@ -183,7 +183,7 @@ TEST_CASE("the explanation says that an event exactly at full load does not coun
       p, [](const explained_increment&) {}, &keeps);
   p.pairs[0].face = end.at(2);
   CHECK_THAT(explained_text(p, 0, 100),
-             Contains("Exactly at the full load: the listing takes this for no event."));
+             Contains("Exactly at the full load: the listing treats this as no event."));
   CHECK_THAT(explained_text(0, 100), !Contains("Exactly at the full load"));
 }
 

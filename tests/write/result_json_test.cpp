@@ -346,7 +346,7 @@ TEST_CASE("the page's structure of a matrix has labels, and coordinates and edge
   CHECK(placed["dofs"][16] == nlohmann::json({{"dof", "6.y"}, {"at", 6}, {"direction", 2}}));
   CHECK(placed["edges"][0] == nlohmann::json({1, 2, 1}));
   CHECK(placed["pairs"][0]["dof"] == "6.y");
-  CHECK(placed["notes"] == nlohmann::json({"Rotations, 11 of 33 dofs, are not drawn."}));
+  CHECK(placed["notes"] == nlohmann::json({"Rotations (11 of 33 dofs) are not drawn."}));
   const nlohmann::json bare =
       structure_json(parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere));
   CHECK(bare["nodes"].empty());

@@ -153,8 +153,9 @@ std::string certain_contacts::search(std::span<const double_double> u, const lon
     if (!proves(balanced ? holding(u, b.closed) : b.closed))
       return "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
     if (!balanced && last_digits_decide())
-      return "the last digits of the matrix decide whether it is held: give the number of its rigid-body "
-             "motions as `free_motions`";
+      return "the last digits of the matrix decide whether the structure is held; set free_motions, the "
+             "number "
+             "of its rigid-body motions";
     const std::optional<double> rho = norm_of(r);
     if (!rho) return "the numbers are too large or too small";
     if (erase_doubtful(u, *rho, b.closed)) continue;

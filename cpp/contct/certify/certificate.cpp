@@ -112,7 +112,7 @@ certificate certifier::proof_of(const step_state& s) {
   certificate c;
   if (!prover_) {
     c.problem =
-        "no error bound is proved: its factors take too much memory or time, or CHOLMOD is not built in";
+        "no error bound is proved: the proof takes too much memory or time, or CHOLMOD is not built in";
     return c;
   }
   const reported_state handed = reported_state_at(problem_, s);
@@ -143,7 +143,7 @@ std::string certifier::status_words(std::size_t pair, const step_state& s) const
   const std::vector<double> v = from_faces(s.step, s.displacement);
   const double off = p.surface * (p.face - structure_.seen_by_pair(pair, v));
   char text[120];
-  (void)std::snprintf(text, sizeof text, "pair %zu is given as %s, but it is %s its face by %.2g", pair + 1,
+  (void)std::snprintf(text, sizeof text, "pair %zu is reported %s, but it is %s its face by %.2g", pair + 1,
                       s.isep[pair] == in_contact ? "in contact" : "separated",
                       s.isep[pair] == in_contact ? "off" : "beyond", std::abs(off));
   return text + unit_of(problem_, quantity::gap);
@@ -160,11 +160,11 @@ std::string certifier::worst_of(const certificate& c) const {
                         {c.shape_error, "the displacements are off", 0.0},
                         {c.penetration, "a separated pair is beyond its face", largest_length()},
                         {c.tension, "a pair in contact pulls: it is off its face", largest_length()},
-                        {c.equilibrium, "loads and forces do not balance: they differ", 0.0}};
+                        {c.equilibrium, "loads and forces do not balance: they move the structure", 0.0}};
   for (const auto& [share, words, whole] : parts) {
     if (share <= certified_share) continue;
     const std::string of_largest = percent_words(share) + " of the largest";
-    if (whole == 0.0) return std::string(words) + " by " + of_largest;
+    if (whole == 0.0) return std::string(words) + " by " + of_largest + " displacement";
     char size[40];
     (void)std::snprintf(size, sizeof size, " by %.2g", share * whole);
     return words + (size + unit_of(problem_, quantity::w)) + ", " + of_largest + " deflection";
@@ -205,9 +205,8 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
         "work";
   } else if (answer.how == outcome::none_seen) {
     c.problem =
-        "there is no reference solution: as far as double precision shows, the load drives a rigid-body "
-        "motion "
-        "that nothing stops; whether there is an equilibrium is not decided";
+        "there is no reference solution: in double precision, the load drives a rigid-body motion that "
+        "nothing stops. Whether an equilibrium exists is not decided";
   } else if (answer.how == outcome::not_found) {
     c.problem = "there is no reference solution: the stiffness is too ill-conditioned";
   } else {

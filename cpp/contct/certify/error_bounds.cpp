@@ -329,8 +329,8 @@ bool error_prover::rests(const reported_state& told, error_bounds& b) {
   b.rho = 0.0;
   if (b.unique || !told.numbers.element_values.empty()) return true;
   b.not_proved =
-      "only contact holds the structure, and a structure given by its matrix has no moments to prove that "
-      "it is not bent";
+      "only contact holds the structure, and a structure given by its matrix has no moments, by which the "
+      "proof shows that it is not bent";
   return false;
 }
 
@@ -366,8 +366,8 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
   if (!found) return contacts_.find_balanced(l.step, state_.u, state_.left, b);
   if (!is_semidefinite()) {
     b.not_proved =
-        "it is not certain that the matrix is positive semidefinite. If its body has too few supports, "
-        "rounded entries may be the cause: a [[support]] with a weak spring at such a dof helps";
+        "it is not certain that the matrix is positive semidefinite. If the structure has too few supports, "
+        "rounded entries may be the cause: add a [[support]] with a weak spring";
     return false;
   }
   (void)contacts_.proves(b.closed);  // is_semidefinite() may have replaced the factor and its proof
@@ -379,7 +379,7 @@ error_bounds error_prover::bound(const reported_state& told) {
   const long_loads& l = loads_of(told.step);
   if (system_.is_below_range(l)) {
     b.not_proved =
-        "the problem has numbers, or cubes of lengths, below 1e-280: too near the smallest normal double, "
+        "the problem has numbers, or cubes of lengths, below 1e-280, too near the smallest normal double, "
         "2e-308";
     return b;
   }

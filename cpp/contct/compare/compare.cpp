@@ -94,10 +94,9 @@ std::string margin_words(const mismatch_report& f) {
   const bool with_nan = least->ulps == std::numeric_limits<std::uint64_t>::max();
   const bool tie = least->ulps <= tie_ulps;
   return "branch margin: " + words_of(*least) +
-         (tie ? ": a tie, which rounding may decide the other way"
-          : with_nan
-              ? ""
-              : "; the other margins on which the value depends are as large or larger: not a tie, so a bug");
+         (tie        ? ": a tie, which rounding may decide the other way"
+          : with_nan ? ""
+                     : "; no margin on which the value depends is smaller: not a tie, so a bug");
 }
 
 }  // namespace

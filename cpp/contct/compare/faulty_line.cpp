@@ -543,11 +543,11 @@ std::string lines_in(const call<Real>& c, const answered_call& right, const call
   if (p.responds && p.is_stationary) words += ", SSCHK = " + short_decimal(p.sschk);
   if (i == ss) {
     const std::string way = way_words(p, static_cast<Real>(other.ss[i]));
-    return words + "; " + leader + " took " + way_words(p, c.ss[i]) + "; " + follower + " has the SS of " +
-           (way.empty() ? "no line" : way);
+    return words + "; " + leader + " took " + way_words(p, c.ss[i]) + "; " + follower +
+           (way.empty() ? " has an SS that no line gives" : " has the SS of " + way);
   }
   const auto set_by = [before](int status) {
-    return status == before ? "left ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
+    return status == before ? "kept ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
   };
   return words + "; " + leader + " " + set_by(right.c.isep[i]) + "; " + follower + " " +
          set_by(other.isep[i]);
@@ -566,7 +566,7 @@ std::string words_of(const faulty_line& f) {
                       (f.explained == f.differ ? "all " : std::to_string(f.explained) + " of ") +
                       std::to_string(f.differ) + " values that differ, in " + std::to_string(f.calls) +
                       " call(s)";
-  if (!f.compared.empty()) words += "; there " + f.compared;
+  if (!f.compared.empty()) words += "; in these " + f.compared;
   return words;
 }
 

@@ -120,8 +120,9 @@ std::string digit_counter::words(const placed_event& e) {
   const double step = std::floor(e.place);
   char share[32];
   (void)std::snprintf(share, sizeof share, "%.9g", e.place - step);
-  return "pair " + std::to_string(e.what.pair + 1) + (e.what.what == change::make ? " makes" : " breaks") +
-         " in step " + std::to_string(static_cast<int>(step) + 1) + " at share " + share;
+  return "pair " + std::to_string(e.what.pair + 1) +
+         (e.what.what == change::make ? " makes contact" : " breaks contact") + " in step " +
+         std::to_string(static_cast<int>(step) + 1) + " at share " + share;
 }
 
 /// Compares the events of both paths in order; events within `tie` of each other are first sorted by pair.
@@ -143,10 +144,10 @@ void digit_counter::compare_events(kernel_digits& r, double tie) const {
     if (r.same_events)
       error = std::max(error, std::abs(seen[i].place - exactly[i].place));
     else if (i >= exactly.size())
-      r.first_difference = words(seen[i]) + ", which is no event of the exact path";
+      r.first_difference = words(seen[i]) + ", which does not happen on the exact path";
     else
-      r.first_difference = "exactly, " + words(exactly[i]) + "; here " +
-                           (i < seen.size() ? words(seen[i]) : "nothing more happens");
+      r.first_difference = "the exact path: " + words(exactly[i]) +
+                           "; this kernel: " + (i < seen.size() ? words(seen[i]) : "no further event");
   }
   r.event_digits = digits_of(error);
 }
@@ -159,7 +160,7 @@ kernel_digits digit_counter::result(const std::string& name, path_status ended, 
   if (r.same_events && (ended != exactly_.status)) {
     r.same_events = false;
     r.first_difference = exactly_.status == path_status::solved
-                             ? "the path ends early; the exact path does not"
+                             ? "the path ends before the full load; the exact path does not"
                              : "the path ends differently from the exact path";
   }
   for (std::size_t kind = 0; kind < error_.size(); ++kind)

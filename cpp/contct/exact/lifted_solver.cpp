@@ -214,8 +214,7 @@ void lifted_solver::factor(const std::vector<added_spring>& springs) {
   }
   for (const std::uint64_t prime : primes)
     if (factor_modulo(prime) && find_free_motions()) return;
-  throw std::runtime_error(
-      "the stiffness matrix is indefinite; that of a structure is positive semidefinite");
+  throw std::runtime_error("the stiffness matrix is indefinite; allowed: a positive semidefinite matrix");
 }
 
 rational lifted_solver::entry(std::size_t row, int column, const rational& k) const {

@@ -37,7 +37,7 @@ void refuse_beyond_limits(const call<double>& c, std::span<const int> isep) {
       refuse("pair " + std::to_string(i + 1),
              "ISEP " + std::to_string(isep[i]) + " and ISURF " + std::to_string(c.isurf[i]) +
                  ", whose product is " + std::to_string(product),
-             "a product of 32 bits, -2147483648 to 2147483647");
+             "a product within 32 bits, -2147483648 to 2147483647");
   }
 }
 

@@ -91,12 +91,12 @@ class child_process {
   explicit child_process(const std::function<void(int channel)>& body) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-      fail_to_start("no channel to an external kernel");
+      fail_to_start("cannot open a channel to an external kernel");
     pid_ = fork();
     if (pid_ < 0) {
       close(ends[0]);
       close(ends[1]);
-      fail_to_start("no process for an external kernel");
+      fail_to_start("cannot start a process for an external kernel");
     }
     if (pid_ == 0) {
       detach_from_parent(ends[1]);
@@ -206,7 +206,7 @@ class kernel_in_child final : public kernel {
   }
 
  private:
-  static constexpr const char* too_slow = "did not load within its time";
+  static constexpr const char* too_slow = "did not load within the time limit";
 
   [[nodiscard]] clock::time_point deadline() const { return clock::now() + limits_.patience; }
 
@@ -347,9 +347,9 @@ void answer_calls(kernel_procedure* ask, int channel) {
 void host_plugin(const std::string& path, int channel) {
   if (is_static)
     return say(channel,
-               "a static program loads no shared library; allowed: pipe:COMMAND, with a command that "
-               "reference/adopt/pipe_main.c makes of the kernel's source");
-  fortran::forget_unit_26();  // unit 26 is the parent's file, and a FORTRAN plug-in may write to it
+               "a static program cannot load a shared library; allowed: pipe:COMMAND, with a command "
+               "built from the kernel's source and reference/adopt/pipe_main.c");
+  fortran::forget_unit_26();  // the plug-in may be FORTRAN and write to its own unit 26
   // "./" is added because dlopen searches a name without a slash only among the system's libraries.
   void* const library =
       dlopen((path.find('/') == std::string::npos ? "./" + path : path).c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -118,7 +118,7 @@ std::string unit_26::take() {
   ssize_t got = 0;
   do {
     got = pread(file_, block, sizeof block, static_cast<off_t>(taken_ + text.size()));
-    if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read what unit 26 wrote");
+    if (got < 0) throw std::system_error(errno, std::generic_category(), "cannot read the file of unit 26");
     text.append(block, got);
   } while (got == sizeof block);
   taken_ += text.size();
@@ -129,7 +129,7 @@ std::string unit_26::take() {
 void unit_26::begin_anew() {
   listing_.log.rewind();
   if (ftruncate(file_, 0) != 0)
-    throw std::system_error(errno, std::generic_category(), "cannot empty unit 26's file");
+    throw std::system_error(errno, std::generic_category(), "cannot empty the file of unit 26");
   taken_ = 0;
 }
 

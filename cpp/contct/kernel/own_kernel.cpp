@@ -91,7 +91,7 @@ void refuse_name_of_function(const std::string& name) {
   if (name.empty() || name.find_first_of(":,\"") != std::string::npos ||
       std::ranges::find(known, name) != known.end())
     throw std::invalid_argument("name: found \"" + name +
-                                "\"; allowed: a name that no kernel has, without colon, comma or quote");
+                                "\"; allowed: a new name, without colon, comma or quote");
 }
 
 std::unique_ptr<kernel> make_function_kernel(const std::string& name, kernel_procedure* procedure) {

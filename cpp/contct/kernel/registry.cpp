@@ -135,7 +135,7 @@ const entry& built_in_named(std::string_view name) {
     if (name == e.facts.name) return e;
   const std::vector<std::string> known = kernel_names();
   throw std::invalid_argument("no kernel is named \"" + std::string(name) + "\"" + did_you_mean(name, known) +
-                              "; there are: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
+                              "; allowed: " + joined(known, ", ") + ", plugin:LIBRARY, pipe:COMMAND");
 }
 
 /// The part of `name` after `prefix`; nothing if `name` does not start with `prefix` or is equal to `prefix`.

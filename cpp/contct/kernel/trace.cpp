@@ -186,7 +186,7 @@ std::string_view trace_reader::need_line(std::string_view allowed) {
 }
 
 trace_header trace_reader::read_header() {
-  const std::string allowed = "\"" + std::string(trace_format) + "\" as its first line";
+  const std::string allowed = "\"" + std::string(trace_format) + "\" as the first line";
   const std::string_view first = need_line(allowed);
   if (first == std::string(trace_format) + "\r") refuse("a line that ends in CR LF", "lines that end in LF");
   if (first != trace_format)
@@ -197,7 +197,7 @@ trace_header trace_reader::read_header() {
     const std::string_view line = lines_.here();
     const std::string_view key = line.substr(0, line.find(' '));
     if (key != "about" && std::ranges::find(keys, key) != keys.end())
-      refuse(line, "each line of the header once, but for about");
+      refuse(line, "each key of the header once, except about");
     keys.push_back(key);
     read_header_line(line, h);
   }
@@ -242,7 +242,7 @@ bool trace_reader::next_inputs(recorded_call& c) {
     if (!lines_.next()) return false;
   } while (lines_.here().empty());
   if (!trace_words(lines_.here()).whole("call", c.number, last_call_ + 1, most_calls).done())
-    refuse(lines_.here(), "\"call N\", N greater than that of the call before, up to 10^18");
+    refuse(lines_.here(), "\"call N\", N greater than in the call before, up to 10^18");
   last_call_ = c.number;
   c.note.clear();
   if (lines_.rest().starts_with("note ")) c.note = need_line("").substr(5);
@@ -267,7 +267,7 @@ void trace_reader::read_layout(call_inputs<double>& in) {
            .done())
     refuse(layout, dofs_line);
   if (nc > lines_.rest().size() / shortest_pair)
-    refuse(layout, "as many pairs as the rest of the text has lines for");
+    refuse(layout, "at most as many pairs as the rest of the text has lines");
   forget_dofs(in);
   in.dd.resize(dofs, unknown);
   in.dtest.resize(dofs, unknown);
@@ -309,8 +309,8 @@ void trace_reader::read_pairs(call_inputs<double>& in) {
   in.isurf.resize(nc);
   for (std::size_t i = 0; i < nc; ++i) {
     const std::string allowed = "\"pair " + std::to_string(i + 1) +
-                                " id N isep S isurf S cc X\", N a node from 1, the S and their product "
-                                "from -2147483647 to 2147483647";
+                                " id N isep S isurf S cc X\", N from 1, each S and their product from "
+                                "-2147483647 to 2147483647";
     const std::string_view line = need_line(allowed);
     std::size_t number = 0;
     if (!trace_words(line)
@@ -328,14 +328,14 @@ void trace_reader::read_pairs(call_inputs<double>& in) {
              "1 to " + std::to_string(in.dd.size()) + ", the number in the line \"dofs\"");
   }
   const std::string_view line = need_line("\"ask\"");
-  if (line != "ask") refuse(line, "\"ask\", behind the last pair");
+  if (line != "ask") refuse(line, "\"ask\" after the last pair");
 }
 
 void trace_reader::refuse_missing_dofs(const call_inputs<double>& in) const {
   for (std::size_t i = 0; i < in.pairs(); ++i) {
     if (is_given_[in.dof_of_pair(i)] != 0) continue;
     refuse("no line \"dof " + std::to_string(in.dof_of_pair(i) + 1) + " ...\" in this call",
-           "one for every pair; pair " + std::to_string(i + 1) + " is at that dof");
+           "a line for the dof of every pair; pair " + std::to_string(i + 1) + " is at this dof");
   }
 }
 

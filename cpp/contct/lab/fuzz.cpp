@@ -141,7 +141,7 @@ class fuzzing final : public observer {
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs delays every try
     if (auto small = shrunk_case(
             *leader, [&] { return make_(total.name); }, first->calls, field, most_tries)) {
-      lines.push_back("shrunk to " + std::to_string(small->calls.size()) + " call(s), " +
+      lines.push_back("reduced to " + std::to_string(small->calls.size()) + " call(s), " +
                       std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
     } else {
@@ -237,7 +237,7 @@ std::string floors_missed(const fuzz_result& r) {
   }
   if (missed.empty()) return "";
   return "too little was compared: found " + missed + "; allowed: at least " + std::to_string(floor) +
-         " each";
+         " of each";
 }
 
 fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const kernel_maker& make) {

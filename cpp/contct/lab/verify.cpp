@@ -266,9 +266,11 @@ std::string exact_disagreement(const expected_number& e, double computed, double
   const double exactly = exact_value(e);
   if (allowed == 0.0) allowed = e.tolerance * (exactly == 0.0 ? 1.0 : std::abs(exactly));
   if (!(std::abs(computed - exactly) <= allowed))
-    return fmt::format("computed {:.17g}, exactly {}; allowed: {:.0e} apart", computed, e.exact, allowed);
+    return fmt::format("computed {:.17g}, exact value {}; allowed: a difference of {:.0e}", computed, e.exact,
+                       allowed);
   if (!agrees(exactly, e.value, e.tolerance))
-    return fmt::format("exactly {}; allowed: {:.0e} of {}", e.exact, e.tolerance, e.value);
+    return fmt::format("exact value {}; allowed: a difference of {:.0e} of the expected {}", e.exact,
+                       e.tolerance, e.value);
   return {};
 }
 
@@ -330,11 +332,11 @@ verified_case verify_case(const verification_case& c, const problem& p) {
   if (out.calls == 0) out.failure = "the kernels were never called";
   if (out.mismatches > 0) out.failure = "FORTRAN and C++ differ";
   if (listing.path.result.end.status != path_status::solved)
-    out.failure = "FORTRAN's path does not reach its end";
+    out.failure = "FORTRAN's path does not reach the full load";
   if (corrected.path.result.end.status != path_status::solved)
-    out.failure = "the corrected path does not reach its end";
+    out.failure = "the corrected path does not reach the full load";
   else if (!corrected.path.result.judged.all_certified())
-    out.failure = "the corrected kernel is not certified";
+    out.failure = "the corrected path has a state that is not certified";
   for (const expected_number& e : c.checks) out.numbers.push_back(judged_number(e, listing, corrected));
   return out;
 }

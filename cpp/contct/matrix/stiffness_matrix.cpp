@@ -130,7 +130,7 @@ double& sparse_columns::at(int row, int column) {
   const auto last = rows.begin() + starts[column + 1];
   const auto place = std::lower_bound(first, last, row);
   if (place == last || *place != row)
-    throw std::out_of_range("no place (" + std::to_string(row) + ", " + std::to_string(column) + ")");
+    throw std::out_of_range("no entry at (" + std::to_string(row) + ", " + std::to_string(column) + ")");
   return values[place - rows.begin()];
 }
 

@@ -156,7 +156,7 @@ void add_consistent_loads(const model& m, const load& l, std::span<double> f) {
 
 std::vector<double> tributary_shares(const model& m) {
   if (const auto* a = std::get_if<assembled>(&m.kind))
-    throw std::invalid_argument(a->name + ": a matrix knows no lengths or areas");
+    throw std::invalid_argument(a->name + ": a matrix has no lengths or areas");
   return std::visit([](const auto& kind) { return elements_of<double>(kind).shares(); }, m.kind);
 }
 

@@ -39,7 +39,7 @@ std::string short_words(double x) {
   throw std::invalid_argument(
       "the matrix is not positive semidefinite: with its diagonal scaled to 1 it has "
       "an eigenvalue " +
-      size + "; allowed: none below -" + short_words(negative_beyond));
+      size + "; allowed: no eigenvalue below -" + short_words(negative_beyond));
 }
 
 /// Returns D K D with 1 on the diagonal; `d` becomes the diagonal of D.
@@ -205,14 +205,13 @@ void refuse_count(const numbers& values, int in_doubt, std::optional<int> known)
   if (values.front() < -negative_beyond) refuse_negative("of " + short_words(values.front()));
   const std::size_t declared = known.value_or(0);
   if (declared > values.size() || (declared > 0 && values[declared - 1] > free_if_declared))
-    throw std::invalid_argument(
-        "free_motions: found " + std::to_string(declared) +
-        "; allowed: the number of rigid-body motions of the matrix on its supports, " +
-        std::to_string(in_doubt));
+    throw std::invalid_argument("free_motions: found " + std::to_string(declared) +
+                                "; allowed: " + std::to_string(in_doubt) +
+                                ", the number of rigid-body motions of the matrix with its supports");
   if (!known && in_doubt > most_rigid_motions)
-    throw std::invalid_argument(
-        "the matrix, on its supports, has more than " + std::to_string(most_rigid_motions) +
-        " rigid-body motions; allowed: those of one body, or parts that supports hold");
+    throw std::invalid_argument("the matrix, with its supports, has more than " +
+                                std::to_string(most_rigid_motions) +
+                                " rigid-body motions; allowed: one free body, or parts that supports hold");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ std::string describe(const floating_point& found) {
       {found.flushes_results, "subnormal results are flushed to zero"},
       {found.flushes_operands, "subnormal operands count as zero"},
       {found.extra_precision, "intermediate results carry extra precision"},
-      {found.rearranges, "the compiler was allowed to rearrange sums and to forget NaN"}};
+      {found.rearranges, "the compiler was allowed to rearrange sums and to ignore NaN"}};
   std::string what;
   for (const auto& [wrong, words] : faults)
     if (wrong) what += (what.empty() ? "" : "; ") + std::string(words);

@@ -9,8 +9,8 @@ namespace {
 std::string words_at(const std::vector<timed_event>& events, std::size_t i) {
   if (i >= events.size()) return "no further event";
   const timed_event& e = events[i];
-  return "step " + std::to_string(e.step) + ": pair " + std::to_string(e.what.pair + 1) +
-         (e.what.what == change::make ? " makes" : " breaks");
+  return "step " + std::to_string(e.step) + ", pair " + std::to_string(e.what.pair + 1) +
+         (e.what.what == change::make ? " makes contact" : " breaks contact");
 }
 
 void compare_events(const path_record& leader, const path_record& other, free_run_difference& d) {
@@ -20,7 +20,7 @@ void compare_events(const path_record& leader, const path_record& other, free_ru
     const std::string its = words_at(other.events, i);
     if (led != its) {
       d.same_events = false;
-      if (d.first_difference.empty()) d.first_difference.append(led).append(" against ").append(its);
+      if (d.first_difference.empty()) d.first_difference = "the leader: " + led + "; this kernel: " + its;
       return;
     }
     d.fraction = std::max(d.fraction, std::abs(leader.events[i].fraction - other.events[i].fraction));

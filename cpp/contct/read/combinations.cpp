@@ -58,7 +58,7 @@ class combination_reader {
     const auto* const b = std::get_if<beam>(&model_.kind);
     if (b == nullptr)
       t.refuse(std::holds_alternative<plate>(model_.kind) ? "a train on a plate" : "a train with a matrix",
-               "a train on a beam; elsewhere a [[combination]] for each place of a load");
+               "a train on a beam; for other structures, a [[combination]] for each place of a load");
     const std::string name = unique_name(t, names_);
     const std::vector<point> axles = read_axles(t["axles"]);
     const double factor = t.has("factor") ? t["factor"].real(any_real) : 1.0;
@@ -105,7 +105,7 @@ class combination_reader {
       const std::string name = printable(key.str());
       if (std::ranges::find(names, name) == names.end())
         terms[key.str()].refuse("no [[case]] of this name" + did_you_mean(name, names),
-                                names.empty() ? "the name of a [[case]]; the file has none"
+                                names.empty() ? "the name of a [[case]]; the file has no [[case]]"
                                               : "the name of a [[case]]: " + joined(names, ", "));
     }
     for (const load& c : cases_)
@@ -128,7 +128,8 @@ class combination_reader {
   [[nodiscard]] static int places_of(const toml_value& t, const rational& from, const rational& by) {
     constexpr int most = 10'000;
     const rational way = decimal_of(t["to"].real(any_real)) - from;
-    if (way < 0) t["to"].refuse(fmt::format("a number from {} on, where the train begins", rounded(from)));
+    if (way < 0)
+      t["to"].refuse(fmt::format("a number of at least {}, where the train begins", rounded(from)));
     const rational steps = way / by;
     if (steps >= most)
       t["by"].refuse(fmt::format("{}, which makes more than {} places", t["by"].found(), most),
@@ -153,14 +154,14 @@ class combination_reader {
 /// Refuses [[step]] beside [[combination]] or [[train]], and [[case]] without [[combination]] and [[train]].
 void refuse_mixed(const toml_value& top) {
   constexpr const char* allowed =
-      "[[step]]s, each going on from the one before, or [[combination]]s and [[train]]s of [[case]]s, each "
-      "from the unloaded structure";
+      "[[step]]s, each of which continues the step before, or [[combination]]s and [[train]]s of [[case]]s, "
+      "which start from the unloaded structure";
   for (const char* key : {"combination", "train"})
     if (top.has(key)) return top.refuse_beside({"step"}, key, allowed);
   if (top.has("case"))
     top["case"].refuse("cases, but neither a [[combination]] nor a [[train]]",
-                       "[[combination]] with terms = { NAME = 1.0 }, which names a case and its factor; a "
-                       "load that acts by itself is a [[step]]");
+                       "at least one of them, such as [[combination]] with terms = { NAME = 1.0 }; a load "
+                       "that acts alone is a [[step]]");
 }
 
 }  // namespace

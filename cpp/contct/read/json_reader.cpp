@@ -17,7 +17,7 @@ class json_parser {
   toml::table document() {
     if (next() != '{') refuse("an object");
     toml::table whole = object();
-    if (next() != '\0') refuse("nothing behind the object");
+    if (next() != '\0') refuse("the end of the text after the object");
     return whole;
   }
 
@@ -41,9 +41,9 @@ class json_parser {
   }
 
   [[noreturn]] void refuse(std::string_view allowed) const {
-    throw input_error(fmt::format(
-        "{}:{}:{}: not JSON that we read: found {}; allowed: {}", file_, here().line, here().column,
-        at_ == text_.size() ? "the end" : in_quotes(text_.substr(at_, 1)), allowed));
+    throw input_error(
+        fmt::format("{}:{}:{}: JSON cannot be read: found {}; allowed: {}", file_, here().line, here().column,
+                    at_ == text_.size() ? "the end" : in_quotes(text_.substr(at_, 1)), allowed));
   }
 
   /// Reads a text, a number, true or false.
@@ -66,7 +66,7 @@ class json_parser {
     constexpr int deepest = 16;
     const char begins = next();
     const toml::source_position at = here();
-    if (++depth_ > deepest) refuse("values that are at most 16 deep");
+    if (++depth_ > deepest) refuse("values nested at most 16 deep");
     const toml::node* made = nullptr;
     if (begins == '{') {
       made = put(object());
@@ -96,7 +96,7 @@ class json_parser {
       const auto key = token().get<std::string>();
       if (t.contains(key)) {
         at_ = begins;
-        refuse("each key once in an object; " + in_quotes(key) + " is there twice");
+        refuse("each key once in an object; " + in_quotes(key) + " occurs twice");
       }
       if (!take(':')) refuse("\":\"");
       value([&](auto&& read) { return &t.insert(key, std::forward<decltype(read)>(read)).first->second; });

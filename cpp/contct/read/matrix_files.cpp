@@ -109,7 +109,7 @@ read_entry parse_entry(number_lines& lines, int rows, entry_format format) {
     lines.refuse(fmt::format("row {} and column {}, {} the diagonal", e.row + 1, e.column + 1,
                              is_upper ? "below" : "above"),
                  is_upper ? "the upper triangle, row <= column, as CalculiX writes it"
-                          : "the lower triangle, row >= column: what symmetric means in this format");
+                          : "the lower triangle, row >= column, as symmetric requires in this format");
   if (is_upper) std::swap(e.row, e.column);
   return e;
 }
@@ -120,9 +120,9 @@ void refuse_repeated(std::span<const read_entry> entries, std::string_view file)
       [](const read_entry& a, const read_entry& b) { return a.row == b.row && a.column == b.column; });
   if (same == entries.end()) return;
   refuse_line(file, std::next(same)->line,
-              fmt::format("the place of row {} and column {} again, which line {} has", same->row + 1,
+              fmt::format("row {} and column {} a second time, after line {}", same->row + 1,
                           same->column + 1, same->line),
-              "each place once: write the sum of its entries");
+              "each row and column once: write the sum of the entries");
 }
 
 /// Refuses a negative diagonal entry, and an entry in a row or column whose diagonal entry is 0.
@@ -138,7 +138,7 @@ void refuse_indefinite(std::span<const read_entry> entries, int order, std::stri
   for (const read_entry& e : entries) {
     const int bare = stiff[e.row] == 0 ? e.row : e.column;
     if (e.value == 0 || stiff[bare] != 0) continue;
-    refuse_line(file, e.line, fmt::format("{:g} in row {}, which has 0 on its diagonal", e.value, bare + 1),
+    refuse_line(file, e.line, fmt::format("{:g} in row {}, whose diagonal entry is 0", e.value, bare + 1),
                 "a matrix that is positive semidefinite");
   }
 }
@@ -199,7 +199,8 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
   int count = 0;
   for (; lines.next(); ++count) {
     if (count == said)
-      lines.refuse(fmt::format("more {}", kind), fmt::format("{}, as line {} says", said, size_line));
+      lines.refuse(fmt::format("more than {} {}", said, kind),
+                   fmt::format("{}, as line {} declares", said, size_line));
     read(count);
   }
   if (count < said)
@@ -215,7 +216,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
                   line_numbers& line_of) {
   const auto [before, is_new] = line_of.try_emplace(name, lines.line());
   if (!is_new)
-    lines.refuse(fmt::format("{} {} again, which line {} has", what, field_words(name), before->second),
+    lines.refuse(fmt::format("{} {} a second time, after line {}", what, field_words(name), before->second),
                  fmt::format("each {} once", what));
 }
 
@@ -240,7 +241,7 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
   std::vector<read_entry> entries;
   // The declared entry count alone is not used to allocate memory.
   entries.reserve(std::min<std::size_t>(count, lines.rest().size() / least_bytes_of_entry + 1));
-  read_lines(lines, count, "entries than that",
+  read_lines(lines, count, "entries",
              [&](int) { entries.push_back(parse_entry(lines, rows, entry_format::matrix_market)); });
   lines.warn(warnings);
   return matrix_of(std::move(entries), rows, file);
@@ -261,12 +262,12 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
   const bool array = read_header(lines, "general", true);
   go_to_size(lines, array ? 2 : 3, array ? "rows and columns" : "rows, columns and the number of entries");
   if (lines.whole(0, 1, most_rows, "the rows") != rows)
-    lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as the matrix has", rows));
+    lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as in the matrix", rows));
   (void)lines.whole(1, 1, 1, "the columns");
   const int count = array ? rows : lines.whole(2, 0, rows, "the number of entries");
   std::vector<double> values(rows, 0.0);
   std::vector<std::int64_t> line_of(rows, 0);
-  read_lines(lines, count, array ? "numbers than rows" : "entries than that", [&](int row) {
+  read_lines(lines, count, array ? "numbers" : "entries", [&](int row) {
     if (array) {
       lines.expect(1, "one number a line");
       values[row] = lines.number(0, "a load");
@@ -274,7 +275,7 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
     }
     const read_entry e = entry_in(lines, rows, 1, "a load");
     if (line_of[e.row] != 0)
-      lines.refuse(fmt::format("row {} again, which line {} has", e.row + 1, line_of[e.row]),
+      lines.refuse(fmt::format("row {} a second time, after line {}", e.row + 1, line_of[e.row]),
                    "each row once");
     line_of[e.row] = e.line;
     values[e.row] = e.value;
@@ -313,7 +314,7 @@ std::vector<placed_node> parse_coordinates(std::string_view text, std::string_vi
     if (alike == 0) alike = fields;
     if (fields != alike)
       lines.refuse(fmt::format("{} coordinates for node {}", fields - 1, field_words(lines.field(0))),
-                   fmt::format("{}, as the lines before have", alike - 1));
+                   fmt::format("{}, as in the lines before", alike - 1));
     refuse_again(lines, "node", lines.field(0), line_of);
     nodes.push_back({std::string(lines.field(0)),
                      {lines.real(1, "x"), lines.real(2, "y"), fields == 4 ? lines.real(3, "z") : 0.0}});

@@ -42,11 +42,11 @@ void say_what_is_not_drawn(const assembled& a, placed_nodes& places) {
   if (lost > 0) {
     const auto first = std::ranges::find(places.dofs, -1, &placed_dof::node) - places.dofs.begin();
     places.notes.push_back(fmt::format(
-        "{} of {} dofs have no known node and direction by their labels, as {}, and are not drawn.", lost,
+        "{} of {} dofs are not drawn: their labels, such as {}, name no known node and direction.", lost,
         a.dofs(), in_quotes(a.label_of(static_cast<int>(first)))));
   }
   if (turns > 0)
-    places.notes.push_back(fmt::format("Rotations, {} of {} dofs, are not drawn.", turns, a.dofs()));
+    places.notes.push_back(fmt::format("Rotations ({} of {} dofs) are not drawn.", turns, a.dofs()));
 }
 
 /// Finds the node of each dof by its label. If two labels name the same node and direction, ignores the
@@ -92,8 +92,8 @@ void add_coupling_edges(const assembled& a, placed_nodes& places) {
   for (mesh_edge& e : places.edges) e.elements = 1;
   if (places.edges.size() <= most_couplings_of_a_node * places.nodes.size()) return;
   places.notes.push_back(fmt::format(
-      "No edges are drawn, only nodes: the matrix couples {} pairs of its {} nodes, and such couplings are "
-      "drawn where there are at most {} for each node, as in frames.",
+      "Only nodes are drawn, no edges: the matrix couples {} pairs of its {} nodes. Couplings are drawn as "
+      "edges if there are at most {} for each node, as in frames.",
       places.edges.size(), places.nodes.size(), most_couplings_of_a_node));
   places.edges.clear();
 }
@@ -212,7 +212,7 @@ class inp_reader {
       if (!lines_.next()) return false;
       line_ = trimmed(lines_.here());
       if (line_.find('\0') != std::string_view::npos)
-        lines_.refuse("a byte of 0", "text: is it a binary file?");
+        lines_.refuse("a byte with the value 0", "a text file, not a binary file");
     } while (line_.empty() || line_.starts_with("**"));
     if (line_.front() != '*') lines_.refuse_unended();
     return true;
@@ -228,7 +228,7 @@ class inp_reader {
     const std::size_t at = line.find(parameter);
     const std::size_t from = at + parameter.size();
     type_ = at == std::string::npos ? "" : line.substr(from, line.find(',', from) - from);
-    if (type_.empty()) lines_.refuse("*ELEMENT without TYPE", "*ELEMENT, TYPE=..., as C3D8");
+    if (type_.empty()) lines_.refuse("*ELEMENT without TYPE", "*ELEMENT, TYPE=..., such as TYPE=C3D8");
     solid_ = solid_of(type_);
     holds_ = solid_ != nullptr ? data::solids : data::others;
     continues_ = false;
@@ -286,9 +286,9 @@ class inp_reader {
   [[nodiscard]] int index_of(int number, std::int64_t line_of_element) const {
     const auto at = index_.find(number);
     if (at == index_.end())
-      refuse_line(
-          lines_.file(), line_of_element, fmt::format("node {} in an element", number),
-          includes_ ? "nodes that *NODE has in this file: *INCLUDE is not followed" : "nodes that *NODE has");
+      refuse_line(lines_.file(), line_of_element, fmt::format("node {} in an element", number),
+                  includes_ ? "nodes that *NODE in this file defines; *INCLUDE is not followed"
+                            : "nodes that *NODE defines");
     return at->second;
   }
 
@@ -306,14 +306,14 @@ class inp_reader {
   [[nodiscard]] std::vector<std::string> left_out() const {
     std::vector<std::string> notes;
     if (includes_)
-      notes.push_back(
-          fmt::format("*INCLUDE in {} is not followed: what such files hold is not drawn.", lines_.file()));
+      notes.push_back(fmt::format(
+          "*INCLUDE in {} is not followed: the contents of included files are not drawn.", lines_.file()));
     std::string types;
     for (const auto& [type, count] : others_)
       types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count, in_quotes(type));
     if (!types.empty())
       notes.push_back(
-          fmt::format("Of {}, elements whose edges are not known are not drawn: {}.", lines_.file(), types));
+          fmt::format("Elements of {} whose edges are not known are not drawn: {}.", lines_.file(), types));
     return notes;
   }
 

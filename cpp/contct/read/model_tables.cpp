@@ -68,7 +68,8 @@ void add_section(const toml_value& t, int elements, beam& b) {
   for (const auto& [key, value] : more_of_sections) {
     if (t.has(key)) s.*value = t[key].real(positive_real);
     if (!b.sections.empty() && (b.sections.front().*value > 0.0) != t.has(key))
-      t.refuse(fmt::format("{} in some pieces and not in others", key), "it in each piece, or in none");
+      t.refuse(fmt::format("{} in some pieces and not in others", key),
+               fmt::format("{} in every piece, or in no piece", key));
   }
   b.sections.insert(b.sections.end(), elements, s);
   b.EI.insert(b.EI.end(), elements, product_of<double>(s.E, s.I));
@@ -92,7 +93,7 @@ void read_stiffness(const toml_value& t, beam& b) {
     });
   const std::size_t elements = b.elements();
   if (t.has("element_size") && t["EI"].is_array())
-    t["EI"].refuse("one number, or pieces { to = .., value = .. }: element_size sets the elements");
+    t["EI"].refuse("one number, or pieces { to = .., value = .. }, because element_size sets the elements");
   b.EI = t["EI"].reals_for(positive_real, elements, "element");
   b.EI.resize(elements, b.EI.front());
 }
@@ -106,7 +107,7 @@ void check_elements(const toml_value& t, const beam& b) {
     const double smallest = EI / h;
     if (!std::isnormal(h) || !std::isnormal(largest) || !std::isnormal(smallest) ||
         !std::isfinite(largest * h) || !std::isfinite(12 * smallest)) {
-      t.refuse(fmt::format("element {} of length {:g} and EI {:g}", e + 1, h, EI),
+      t.refuse(fmt::format("element {} of length {:g} and EI = {:g}", e + 1, h, EI),
                "elements whose stiffness 12 EI / h^3 is within the range of double precision");
     }
   }
@@ -150,7 +151,7 @@ void check_size(const toml_value& t, std::int64_t along_x, std::int64_t along_y)
   if (entries > most_band_entries)
     t.refuse(fmt::format("{} x {} elements, whose stiffness matrix takes {:.1f} GB", along_x, along_y,
                          static_cast<double>(entries) / gigabyte),
-             fmt::format("at most {:.1f} GB: it grows with the square of the shorter side",
+             fmt::format("at most {:.1f} GB; the matrix grows with the square of the shorter side",
                          static_cast<double>(most_band_entries) / gigabyte));
 }
 
@@ -180,7 +181,7 @@ void read_material(const toml_value& t, plate& p) {
   p.nu = t["nu"].real(poisson);
   if (t.has("D")) {
     t.refuse_beside({"E", "thickness"}, "D", "either D, or E and thickness");
-    t.refuse_beside({"weight"}, "D", "weight beside E and thickness");
+    t.refuse_beside({"weight"}, "D", "weight together with E and thickness");
     p.D = t["D"].real(positive_real);
     return;
   }
@@ -206,8 +207,8 @@ void check_elements(const toml_value& t, const plate& p) {
     const double width = p.width_of(e);
     const double height = p.height_of(e);
     if (!sound(width, height) || !sound(height, width))
-      t.refuse(fmt::format("element {}, {:g} by {:g}, and D {:g}", e + 1, width, height, p.D),
-               "elements whose stiffness, as D b / a^3, is within the range of double precision");
+      t.refuse(fmt::format("element {} of size {:g} x {:g} and D = {:g}", e + 1, width, height, p.D),
+               "elements whose stiffness, such as D b / a^3, is within the range of double precision");
   }
 }
 
@@ -234,7 +235,7 @@ std::int64_t bytes_of_run(const assembled& a) {
 /// "band" or "sparse"; empty if the table has no storage.
 std::string read_storage(const toml_value& t) {
   if (!t.has("storage")) return "";
-  constexpr const char* allowed = R"("band", or "sparse" where CHOLMOD is built in)";
+  constexpr const char* allowed = R"("band"; also "sparse" if CHOLMOD is built in)";
   std::string storage = t["storage"].text(allowed);
   if (storage != "band" && (storage != "sparse" || !sparse_factor::available()))
     t["storage"].refuse(in_quotes(storage) + (storage == "sparse" ? " without CHOLMOD" : ""), allowed);
@@ -289,7 +290,8 @@ void finish(const toml_value& t, assembled& a) {
 /// Refuses a file of nodes if no label names one of its nodes: the file is of another structure.
 void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
   if (a.places.known()) return;
-  named.refuse(fmt::format("no node in {} of any label, as {}", shown_name(path), in_quotes(a.label_of(0))),
+  named.refuse(fmt::format("no node of {} that a label names; the first label is {}", shown_name(path),
+                           in_quotes(a.label_of(0))),
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
 }
 
@@ -363,7 +365,7 @@ model read_model(const toml_value& top, const named_files& files, std::vector<st
   if (top.has("plate")) return {read_plate(top["plate"].table())};
   if (top.has("matrix")) return {read_matrix(top["matrix"].table(), files, warnings)};
   if (top.has("calculix")) return {read_calculix(top["calculix"].table(), files, warnings)};
-  top.refuse("neither beam nor plate, matrix or calculix", allowed);
+  top.refuse("none of [beam], [plate], [matrix] and [calculix]", "exactly one of them");
 }
 
 }  // namespace contct

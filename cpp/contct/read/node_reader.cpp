@@ -80,10 +80,10 @@ std::vector<int> node_reader::read(const toml_value& t) const {
   const toml_value named = t[key];
   const int count = nodes(structure_);
   if (key == "nodes") return named.numbers(count);
-  const std::string allowed =
-      on_matrix()
-          ? labels_allowed()
-          : fmt::format("a whole number from 1 to {}, or {} or {} in its place", count, keys_[1], keys_[2]);
+  const std::string allowed = on_matrix()
+                                  ? labels_allowed()
+                                  : fmt::format("a whole number from 1 to {}; or {} or {} instead of node",
+                                                count, keys_[1], keys_[2]);
   const toml::array* const point = named.required(allowed).as_array();
   if (key == "node") return {named.integer(1, count) - 1};
   if (key == "at" && point != nullptr && !point->empty() && point->front().is_number())
@@ -93,7 +93,7 @@ std::vector<int> node_reader::read(const toml_value& t) const {
   for (const toml_value& entry : named.each(list_words(key))) {
     list.push_back(node_at(entry));
     if (!seen.insert(list.back()).second)
-      entry.refuse(place_words(structure_, list.back()) + ", a second time", "each of them once");
+      entry.refuse(place_words(structure_, list.back()) + ", a second time", "each place once");
   }
   return list;
 }
@@ -102,7 +102,7 @@ std::vector<int> node_reader::labelled(const toml_value& named, std::size_t coun
   std::vector<int> list;
   for (const toml_value& entry : named.each(list_words("dofs"))) list.push_back(dof_at(entry));
   if (list.size() != 1 && list.size() != count)
-    named.refuse(fmt::format("{} labels", list.size()), fmt::format("one, or {}, one for each pair", count));
+    named.refuse(fmt::format("{} labels", list.size()), fmt::format("1, or {}: one for each pair", count));
   list.resize(count, list.front());
   return list;
 }
@@ -121,7 +121,7 @@ void node_reader::refuse_hinge(const toml_value& named, int node, int dof) const
   named.refuse(
       fmt::format("theta at node {}, where a hinge has one slope on its left and another on its right",
                   node + 1),
-      "w there, and theta at a node beside the hinge");
+      "w at this node, and theta at a neighbouring node");
 }
 
 }  // namespace contct

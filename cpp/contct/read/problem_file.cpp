@@ -52,8 +52,8 @@ class problem_reader {
     nodes_.emplace(problem_.geometry);
     fixed_.assign(dofs(problem_.geometry), 0);
     if (nodes_->on_matrix() && top_.has("bed"))
-      top_["bed"].refuse("this with a matrix",
-                         "a [[contact]] at each dof: a matrix knows no lengths or areas");
+      top_["bed"].refuse("a bed with a matrix",
+                         "a [[contact]] at each dof, because a matrix has no lengths or areas");
     for (const toml_value& t : top_["hinge"].optional_tables()) read_hinge(t);
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
@@ -87,14 +87,14 @@ class problem_reader {
   /// Reads a hinge. Refuses a hinge at an end of the beam: no moment acts there unless a support holds theta.
   void read_hinge(const toml_value& t) {
     beam* const b = std::get_if<beam>(&problem_.geometry.kind);
-    if (b == nullptr) t.refuse("this without a beam", "a [[hinge]] of a [beam]");
+    if (b == nullptr) t.refuse("a hinge without a beam", "a [[hinge]] of a [beam]");
     t.allow_only(nodes_->keys_with({}));
     for (const int node : nodes_->read(t)) {
       if (node == 0 || node + 1 == b->nodes())
         t.refuse(fmt::format("a hinge at node {}, where the beam ends", node + 1),
-                 "a node between others; an end carries no moment unless a [[support]] holds its theta");
+                 "a node between the ends; an end carries no moment unless a [[support]] holds its theta");
       if (b->has_hinge(node))
-        t.refuse(fmt::format("a second hinge at node {}", node + 1), "one hinge a node");
+        t.refuse(fmt::format("a second hinge at node {}", node + 1), "one hinge at each node");
       b->hinges.insert(std::lower_bound(b->hinges.begin(), b->hinges.end(), node), node);
     }
   }
@@ -162,14 +162,12 @@ class problem_reader {
       const auto faces = t["face"].each("");
       faces[std::min(i, faces.size() - 1)].refuse(
           found + ": the face is inside the undeformed structure",
-          fmt::format("at {} 0 for a face {}; to push the structure with it, face = 0 and move in a [[step]]",
+          fmt::format("at {} 0 for a face {}; to push the structure, write face = 0 and move in a [[step]]",
                       f.surface < 0 ? "most" : "least", f.surface < 0 ? "below" : "above"));
     }
     if (f.closed == true && face != 0)
-      t["state"].refuse(
-          fmt::format("\"contact\" with face {}", found),
-          "\"contact\" only where face = 0: nothing touches a face elsewhere before the structure "
-          "deflects");
+      t["state"].refuse(fmt::format("\"contact\" with face {}", found),
+                        "\"contact\" only if face = 0: the undeformed structure touches no other face");
     return {node, f.surface, face, 0.0, f.closed.value_or(face == 0)};
   }
 
@@ -179,17 +177,18 @@ class problem_reader {
     if (!t.has("other")) return none;
     const toml_value other = t["other"];
     if (!nodes_->on_matrix())
-      other.refuse("this key with a beam or a plate",
-                   "a face, which a step can move; structures with a gap between them are one [matrix]");
+      other.refuse("other with a beam or a plate",
+                   "face, which a [[step]] can move; for a gap between two structures, one [matrix] of both");
     std::vector<int> others = nodes_->labelled(other, at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (others[i] == at[i])
-        other.refuse(place_words(problem_.geometry, at[i]) + ", which the pair itself is at", "another dof");
+        other.refuse(place_words(problem_.geometry, at[i]) + ", which is also the pair's dof", "another dof");
       for (const int dof : {at[i], others[i]})
         if (fixed_[dof] != 0)
-          other.refuse(place_words(problem_.geometry, dof) + ", which a support fixes, in a pair of two dofs",
-                       "dofs that no support fixes. For a pair with a fixed dof leave out other; if its "
-                       "support settles, use move");
+          other.refuse(
+              place_words(problem_.geometry, dof) + ", which a support fixes, in a pair of two dofs",
+              "dofs that no support fixes; against a fixed dof, write the pair without other, and move "
+              "for a settlement of that dof");
     }
     return others;
   }
@@ -214,7 +213,7 @@ class problem_reader {
         problem_.warnings.push_back(fmt::format(
             "{}: {} is fixed{}; the pair cannot change the deflections, and the support carries its force, "
             "but "
-            "the listing may toggle it",
+            "the 1989 rule may change its status",
             t.where(), place_words(problem_.geometry, at[i]), nodes_->on_matrix() ? "" : " in w"));
     }
   }
@@ -227,10 +226,10 @@ class problem_reader {
     if (!face.is_table()) return face.reals_for(any_real, at.size(), "node of the bed, fixed or not");
     face.allow_only({"polynomial"});
     coefficients = read_polynomial(face, problem_.geometry,
-                                   "numbers for face: only along a beam it may be a polynomial");
+                                   "numbers for face; a polynomial is allowed only along a beam");
     std::vector<double> values = values_at<double>(std::get<beam>(problem_.geometry.kind), coefficients, at);
     if (!std::ranges::all_of(values, [](double c) { return std::isfinite(c); }))
-      face["polynomial"].refuse("coefficients whose value is finite at every node");
+      face["polynomial"].refuse("coefficients of a polynomial that is finite at every node");
     return values;
   }
 
@@ -273,9 +272,8 @@ class problem_reader {
       if (b.length_of(e) <= worst * most) continue;
       worst = b.length_of(e) / most;
       warning = fmt::format(
-          "{0}: the mesh is coarse for this bed: nodes {1} and {2} are {3:.6g} apart; allowed: at most half "
-          "of "
-          "(4 EI / modulus)^(1/4), {4:.3g}. element_size = {4:.3g} in [beam] makes such a mesh",
+          "{0}: the mesh is coarse for this bed: nodes {1} and {2} are {3:.6g} apart; allowed: {4:.3g}, "
+          "half of (4 EI / modulus)^(1/4); set element_size = {4:.3g} in [beam]",
           t.where(), e + 1, e + 2, b.length_of(e), rounded_down(most));
     }
     if (!warning.empty()) problem_.warnings.push_back(warning);

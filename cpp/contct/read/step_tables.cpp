@@ -38,8 +38,8 @@ class step_reader {
     if (!on_matrix) keys.emplace_back("self_weight");
     t.allow_only(keys);
     if (std::all_of(keys.begin() + 1, keys.end(), [&t](std::string_view key) { return !t.has(key); }))
-      t.refuse("a step without loads, settlements and moves of faces",
-               fmt::format("at least one of {}, point{}, settlement and move; {} takes all load off", whole,
+      t.refuse("a step without a load, settlement or move",
+               fmt::format("at least one of {}, point{}, settlement and move; {} removes all load", whole,
                            of_beam() != nullptr ? ", curvature" : "",
                            on_matrix ? "a load of 0 at any dof" : "uniform = 0"));
     load l;
@@ -70,11 +70,12 @@ class step_reader {
   void refuse_curvature(const toml_value& t) const {
     if (!t.has("curvature") || of_beam() != nullptr) return;
     t["curvature"].refuse(
-        nodes_.on_matrix() ? "this with a matrix" : "this with a plate",
+        nodes_.on_matrix() ? "curvature with a matrix" : "curvature with a plate",
         nodes_.on_matrix()
-            ? "curvature along a beam; with a matrix, the loads at dofs that stand for temperatures"
-            : "curvature along a beam. For a uniform curvature of a plate give its free edges the moment "
-              "D (1 + nu) curvature per length, as point loads wx and wy");
+            ? "curvature along a beam; with a matrix, the loads at dofs that replace the curvature"
+            : "curvature along a beam; for a uniform curvature of a plate, load its free edges with the "
+              "moment "
+              "D (1 + nu) curvature per length, by point loads wx and wy");
   }
 
   enum class hold : char { none, spring, fixed };
@@ -131,12 +132,12 @@ class step_reader {
     };
     if (const auto* p = std::get_if<plate>(&nodes_.structure().kind)) {
       if (p->weight == 0.0)
-        t.refuse("a plate without weight", "this with E, thickness and weight in [plate]");
+        t.refuse("a plate without weight", "self_weight with E, thickness and weight in [plate]");
       return add(p->weight, p->thickness, {});
     }
     const std::vector<beam_section>& all = std::get<beam>(nodes_.structure().kind).sections;
     if (all.empty() || all[0].weight == 0.0 || all[0].A == 0.0)
-      t.refuse("a beam without weight or area", "this with A and weight in section of [beam]");
+      t.refuse("a beam without weight or area", "self_weight with A and weight in section of [beam]");
     for (std::size_t e = 0; e < all.size();) {
       std::vector<int> alike;
       const beam_section& s = all[e];
@@ -161,7 +162,7 @@ class step_reader {
     if (t.has("value") == t.has("polynomial"))
       t.refuse("both or neither of value and polynomial", "one of them");
     if (t.has("value")) return {t["value"].real(any_real)};
-    return read_polynomial(t, nodes_.structure(), "value: only a beam's load may be a polynomial");
+    return read_polynomial(t, nodes_.structure(), "value; a polynomial is allowed only for a beam's load");
   }
 
   /// Reads a distributed load on a part of a beam, or on a rectangle of a plate.
@@ -186,7 +187,7 @@ class step_reader {
 
   static void refuse_reversed(const toml_value& to, double from, double end) {
     if (!(from < end))
-      to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this begins", from));
+      to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this part begins", from));
   }
 
   /// Reads `from` and `to` along a beam. A missing `from` is the start of the beam, a missing `to` its end.
@@ -235,8 +236,9 @@ class step_reader {
       const double x = nodes_along(b->x).place_of(named);
       const std::optional<int> node = find_coordinate(b->x, x);
       if (!seen.insert(x).second)
-        named.refuse(node ? place_words(nodes_.structure(), *node) + ", a second time" : "this a second time",
-                     "each of them once");
+        named.refuse(node ? place_words(nodes_.structure(), *node) + ", a second time"
+                          : fmt::format("{} a second time", x),
+                     "each place once");
       all.push_back({node, x});
     }
     return all;
@@ -263,13 +265,13 @@ class step_reader {
     const hold here = held_[node * nodes_.dof_names().size() + dof];
     if (here == hold::fixed) return;
     const std::string what = nodes_.on_matrix() ? "which" : fmt::format("whose {}", name);
-    t[name].refuse(
-        fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
-                    here == hold::spring ? "is on a spring, so that its displacement is part of the answer"
-                                         : "no support holds, so that loads decide where it goes"),
-        paired_.contains(node) && dof == 0 ? "a dof that fix of a [[support]] names; to move the face of a "
-                                             "pair, use move, written like settlement"
-                                           : "a dof that fix of a [[support]] names");
+    t[name].refuse(fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
+                               here == hold::spring ? "has a spring, so that its displacement is a result"
+                                                    : "is free, so that its displacement is a result"),
+                   paired_.contains(node) && dof == 0
+                       ? "a dof that a [[support]] fixes; to move the face of a pair, use "
+                         "move, written like settlement"
+                       : "a dof that a [[support]] fixes");
   }
 
   void read_settlements(const toml_value& t, load& l) const {
@@ -280,7 +282,7 @@ class step_reader {
         if (!moved.insert({*at.node, dof}).second)
           s[nodes_.dof_names()[dof]].refuse(
               place_words(nodes_.structure(), *at.node) + ", a second time in this step",
-              "each dof once: a settlement is its whole displacement");
+              "each dof once: the value is the whole displacement");
         l.settlements.push_back({*at.node, dof, value});
       });
     }
@@ -297,13 +299,13 @@ class step_reader {
       for (const int node : at) {
         const std::string place = place_words(nodes_.structure(), node);
         if (others_.contains(node))
-          m.refuse(place + ", which is the other dof of a pair",
-                   "the dof of that pair; or exchange its dof and other");
+          m.refuse(place + ", named by the key other of a pair",
+                   "the dof of the pair; or exchange dof and other of the pair");
         if (!paired_.contains(node))
           m.refuse("no pair at " + place, "places at which a [[contact]] or a [[bed]] has a pair");
         if (!moved.insert(node).second)
           m[name].refuse(place + ", a second time in this step",
-                         "each place once: a move is the whole distance");
+                         "each place once: the value is the whole distance");
         l.moves.push_back({node, 0, value});
       }
     }

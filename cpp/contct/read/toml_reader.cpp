@@ -33,15 +33,15 @@ void refuse_endless_keys(std::string_view text, std::string_view file) {
   for (const char ch : text) {
     if (ch == '.') {
       if (++dots > most_dots)
-        throw input_error(
-            fmt::format("{0}: found a key of over {1} parts; allowed: at most {1}", file, most_dots));
+        throw input_error(fmt::format("{0}: found a key of more than {1} parts; allowed: at most {1} parts",
+                                      file, most_dots));
     } else if (ch == ',' || ch == '=' || ch == '\n' || ch == '[' || ch == '{') {
       dots = 0;
     }
   }
 }
 
-constexpr std::string_view point_not_comma = " (a number takes a decimal point, 4.0 for 4,0)";
+constexpr std::string_view point_not_comma = " (write a decimal point, 4.0 instead of 4,0)";
 
 /// A hint if an array has twice as many whole numbers as `meant`: 4,0 is read as two numbers.
 std::string_view comma_hint(const toml::node& node, std::size_t meant) {
@@ -79,13 +79,13 @@ std::string_view line_of(std::string_view text, std::size_t number) {
 /// A hint that quotes may be missing, as in "title = Crane". `column`: where parsing failed, from 1.
 std::string_view quotes_hint(std::string_view line, std::size_t column, std::string_view description) {
   if (description.find("expected '='") != std::string_view::npos)
-    return line.find('=', column) == std::string_view::npos ? "" : " (a name with blanks stands in quotes)";
+    return line.find('=', column) == std::string_view::npos ? "" : " (write a name with blanks in quotes)";
   const std::size_t equals = line.rfind('=', column);
   const std::size_t first =
       equals == std::string_view::npos ? equals : line.find_first_not_of(" \t[", equals + 1);
   const bool is_text =
       first != std::string_view::npos && ((line[first] | 0x20) >= 'a' && (line[first] | 0x20) <= 'z');
-  return is_text ? " (text stands in quotes)" : "";
+  return is_text ? " (write text in quotes)" : "";
 }
 
 /// The first and the last number in "a..b", or 1 and `count` for "all"; 0 for a number that cannot be read.
@@ -208,8 +208,9 @@ std::vector<double> toml_value::reals_for(const real_range& range, std::size_t c
   if (!node.is_array() || (count == 1 && !comma_hint(node, 1).empty())) return {real(range)};
   std::vector<double> values = reals(range, 1);
   if (values.size() != count)
-    refuse(found().append(comma_hint(node, count)),
-           count == 1 ? "one number" : fmt::format("one number, or {}: one for each {}", count, things));
+    refuse(
+        found().append(comma_hint(node, count)),
+        count == 1 ? "one number" : fmt::format("one number, or {} numbers, one for each {}", count, things));
   return values;
 }
 
@@ -255,7 +256,7 @@ toml_value toml_value::operator[](std::string_view key) const {
 void toml_value::refuse_beside(std::initializer_list<std::string_view> others, std::string_view beside,
                                std::string_view allowed) const {
   for (const std::string_view other : others)
-    if (has(other)) (*this)[other].refuse(fmt::format("this beside {}", beside), allowed);
+    if (has(other)) (*this)[other].refuse(fmt::format("this key together with {}", beside), allowed);
 }
 
 void toml_value::allow_only(const std::vector<std::string_view>& keys) const {
@@ -273,12 +274,13 @@ named_files::named_files(std::string_view problem_file, reach allowed)
 
 std::string named_files::path_of(const toml_value& named, std::string_view ending) const {
   const std::string name = named.text().append(ending);
-  if (name.find('\0') != std::string::npos)  // a system function would end the name at this character
-    named.refuse(in_quotes(name), "the name of a file, which has no character \\u0000");
+  if (name.find('\0') != std::string::npos)  // system functions would end the name there
+    named.refuse(in_quotes(name), "a file name without the character \\u0000");
   const std::string path = (fs::path(folder_) / name).string();
   if (allowed_ == reach::own_folder && !is_below(path))
-    named.refuse(in_quotes(name) + ", which is not below the folder of the problem file",
-                 "a file below it, or any with --allow-outside (\"allow_outside\" in the library)");
+    named.refuse(
+        in_quotes(name) + ", which is not below the folder of the problem file",
+        "a file below this folder; with --allow-outside (\"allow_outside\" in the library) any file");
   // The file "-" gets the path "./-", because the path "-" means standard input.
   return all_->emplace_back(path == "-" ? "./-" : path);
 }

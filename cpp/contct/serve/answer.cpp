@@ -64,7 +64,7 @@ void refuse_deep(int depth) {
   constexpr int deepest = 16;
   if (depth > deepest)
     throw std::invalid_argument(
-        fmt::format("options: found values more than {0} deep; allowed: at most {0}", deepest));
+        fmt::format("options: found values nested more than {0} deep; allowed: at most {0}", deepest));
 }
 
 }  // namespace
@@ -77,16 +77,16 @@ request::request(const char* text, std::initializer_list<std::string_view> known
       return true;
     });
   } catch (const nlohmann::json::exception& e) {
-    constexpr std::size_t longest = 300;  // bytes of e.what(), which quotes the options
-    throw std::invalid_argument(
-        fmt::format("options: found no JSON: {}; allowed: an object", printable(e.what(), longest)));
+    constexpr std::size_t longest = 300;  // the message quotes the text of the options
+    throw std::invalid_argument(fmt::format("options: found text that is not JSON: {}; allowed: an object",
+                                            printable(e.what(), longest)));
   }
   if (!options_.is_object())
     throw std::invalid_argument(fmt::format("options: found {}; allowed: an object", options_.type_name()));
   for (const auto& [name, value] : options_.items())
     if (std::ranges::find(known, std::string_view(name)) == known.end())
       throw std::invalid_argument(
-          fmt::format("options: found \"{}\"; allowed: {}", name, fmt::join(known, ", ")));
+          fmt::format("options: found the key \"{}\"; allowed: {}", name, fmt::join(known, ", ")));
 }
 
 template <class Value, class Fits>
@@ -107,7 +107,7 @@ std::string request::text(std::string_view name, std::string_view otherwise) con
 }
 
 std::vector<std::string> request::texts(std::string_view name, std::vector<std::string> otherwise) const {
-  return get(name, std::move(otherwise), "a list of texts, at least one", [](const auto& value) {
+  return get(name, std::move(otherwise), "a list of one or more texts", [](const auto& value) {
     return value.is_array() && !value.empty() &&
            std::all_of(value.begin(), value.end(), [](const auto& entry) { return entry.is_string(); });
   });
@@ -161,7 +161,7 @@ char* answered(const std::function<void(served_answer&)>& find) noexcept {
     try {
       find(a);
     } catch (const std::bad_alloc&) {
-      error = "memory does not suffice for this problem";
+      error = "not enough memory for this problem";
     } catch (const std::exception& e) {
       error = e.what();
     }

@@ -41,7 +41,8 @@ void tell_about(served_answer& a) {
 
 std::string answer_call(const char* name, call<double> c, double* smin) {
   if (name == nullptr)
-    throw std::invalid_argument("call: found no kernel's name; allowed: one of contct_about's");
+    throw std::invalid_argument(
+        "call: found null for the kernel's name; allowed: a kernel that contct_about lists");
   refuse_beyond_limits(c, c.isep);
   const std::scoped_lock mine(turn());
   const std::unique_ptr<kernel> k = make_kernel(name);
@@ -60,8 +61,8 @@ void replay_trace(const char* text, const char* options, served_answer& a) {
   const std::unique_ptr<kernel> k = make_kernel(name);
   if (!comparable(h, k->facts()))
     throw std::invalid_argument(fmt::format(
-        "options: kernel: found {}, of {}-byte REAL and {}; allowed: one of {}-byte REAL and {}, "
-        "as the trace",
+        "options: kernel: found {}, of {}-byte REAL and {}; allowed: a kernel of {}-byte REAL and {}, "
+        "as in the trace",
         name, k->facts().real_bytes, rule_words(k->facts().rule), h.real_bytes, rule_words(h.rule)));
   const replay_report found = replay(h, calls, *k);
   if (found.calls == 0) throw std::invalid_argument("trace: found no call; allowed: one or more");
@@ -98,7 +99,7 @@ char* contct_call(const char* kernel, const double dd[], const double dtest[], c
          (cc == nullptr || ss == nullptr || id == nullptr || isep == nullptr || isurf == nullptr)) ||
         (ndof > 0 && (dd == nullptr || dtest == nullptr)))
       throw std::invalid_argument(
-          "call: found null, or a length below 0; allowed: arrays as long as nc and ndof say");
+          "call: found a null pointer or a negative length; allowed: arrays of the lengths nc and ndof");
     const auto pairs = static_cast<std::size_t>(nc);
     const auto dofs = static_cast<std::size_t>(ndof);
     const std::string text = contct::answer_call(kernel,

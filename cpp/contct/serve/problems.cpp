@@ -63,10 +63,11 @@ run_request read_run_request(const request& r) {
   wanted.kernels.clear();
   if (r.flag("log") || r.flag("trace"))
     throw std::invalid_argument(
-        "options: found final_only with log or trace; allowed: a path, which calls kernels");
+        "options: found final_only with log or trace; allowed: log and trace with a path");
   if (r.flag("page") || wanted.pictures || wanted.envelope)
     throw std::invalid_argument(
-        "options: found final_only with page, states or envelope; allowed: these with a path");
+        "options: found final_only with page, states or envelope; allowed: page, states and envelope with a "
+        "path");
   return wanted;
 }
 
@@ -173,7 +174,8 @@ void explain_path(const char* text, const char* options, served_answer& a) {
   if (end.status == path_status::not_factored || run.told.explained() == 0)
     throw std::invalid_argument(
         end.status == path_status::solved
-            ? fmt::format("{}: found no increment to explain: the path has none of this number", r.file())
+            ? fmt::format("{}: found no increment to explain: the path has no increment of this number",
+                          r.file())
             : r.file() + ": " + end_words(p, end));
   written.finish(status_name(end.status, run.equal()), run.told);
   for (const std::string& line : end_lines(p, end)) a.messages.push_back(r.file() + ": " + line);
@@ -217,8 +219,8 @@ given_states read_states(const request& r, const problem& p, const linear_struct
   const std::size_t count = states.displacement.size();
   if (count == 0 || count > p.steps.size())
     throw std::invalid_argument(
-        fmt::format("options: displacement: found {} states; allowed: one for each of the first "
-                    "steps, from 1 to {}",
+        fmt::format("options: displacement: found {} states; allowed: 1 to {}, one for each of the "
+                    "first steps",
                     count, p.steps.size()));
   if (r.has("closed") && closed.size() != count)
     throw std::invalid_argument(fmt::format(

@@ -18,7 +18,7 @@ void refuse_too_many_dofs(const problem& p, const std::string& file) {
   if (dofs(p.geometry) > most_exact_dofs)
     throw std::invalid_argument(
         fmt::format("{}: found {} dofs; allowed: at most {} in exact arithmetic, whose numbers grow with "
-                    "them. Use fewer elements",
+                    "the dofs. Use fewer elements",
                     file, dofs(p.geometry), most_exact_dofs));
 }
 
@@ -50,9 +50,10 @@ void refuse_indefinite(const assembled& a, const problem& of, const exact_proble
       std::ranges::max_element(motion, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
   const rational size = abs(*largest);
   throw std::invalid_argument(fmt::format(
-      "{}: not positive semidefinite: found work {}, in exact arithmetic, on a displacement whose largest "
-      "component, 1, is at dof {}; allowed: 0 or more on every displacement that the supports allow. Rounded "
-      "entries can cause this, as in the matrix of a body without supports",
+      "{}: not positive semidefinite: found u'Ku = {}, exactly, for a displacement u whose largest component "
+      "is "
+      "1, at dof {}; allowed: 0 or more for every u that the supports allow. Rounded entries can cause this, "
+      "as in the matrix of a body without supports",
       a.name, short_words(found.shown->work / (size * size), 6),
       a.label_of(static_cast<int>(largest - motion.begin()))));
 }
@@ -88,7 +89,7 @@ exact_path follow_exactly(const exact_problem& p, const std::string& rule, const
       return path;
     } catch (const too_long& e) {
       throw std::invalid_argument(
-          fmt::format("exact numbers became too long: found {}; allowed: at most {} bits. Use numbers of "
+          fmt::format("exact numbers became too long: found {}; allowed: at most {} bits. Use numbers with "
                       "fewer digits, or fewer elements",
                       e.what(), p.longest));
     }

@@ -73,8 +73,8 @@ void halve(plate& p) {
 void halve(assembled& a) {
   throw std::invalid_argument(
       "--refine: found a structure given by its matrix, " + a.name +
-      "; allowed: [beam] and [plate]. Write the matrix of a finer mesh with the program that it is from, and "
-      "compare the two results");
+      "; allowed: [beam] and [plate]. Write the matrix of a finer mesh with the program that wrote this one, "
+      "and compare the two results");
 }
 
 std::vector<char> fixed_in(const problem& p, int dof) {

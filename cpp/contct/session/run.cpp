@@ -136,19 +136,19 @@ void refuse_other_rules(const std::vector<std::string>& kernels) {
   for (const std::string& name : kernels) {
     if (facts_of_kernel(name).rule != contact_rule::listing)
       throw std::invalid_argument(
-          fmt::format("--kernels: \"{}\" has another rule, which is not in the listing; allowed: kernels "
-                      "with the 1989 rule. reference/corrected-rule.md describes the other; contct run "
-                      "--free-run --kernels {},fortran compares the two",
+          fmt::format("--kernels: \"{}\" has the corrected rule, which is not in the listing; allowed: "
+                      "kernels with the 1989 rule. To compare the two rules: contct run --free-run "
+                      "--kernels {},fortran",
                       name, name));
   }
   if (kernels[0].find(':') != std::string::npos)
     throw std::invalid_argument(
         fmt::format("--kernels: \"{}\" is an external kernel and cannot lead; allowed: a built-in kernel "
-                    "first and this one second: --kernels fortran,{}",
+                    "first, such as --kernels fortran,{}",
                     kernels[0], kernels[0]));
   if (kernels.size() > 2)
     throw std::invalid_argument(
-        fmt::format("--kernels: found {}; allowed: one or two, the first one leads", kernels.size()));
+        fmt::format("--kernels: found {} kernels; allowed: one or two; the first one leads", kernels.size()));
   if (kernels.size() == 2 && kernels[0] == kernels[1])
     throw std::invalid_argument("--kernels: \"" + kernels[0] + "\" is named twice");
 }

@@ -96,7 +96,7 @@ class condensed_engine final : public spring_engine {
   explicit condensed_engine(const linear_structure& s) : spring_engine(s) {
     if (!can_be_condensed(s))
       throw std::invalid_argument(
-          "engine \"condensed\": found another structure; allowed: a beam with pairs");
+          "engine \"condensed\": found a structure of another kind; allowed: a beam with pairs");
     for (const contact_pair& p : s.pairs) kept_.push_back(p.node);
     std::sort(kept_.begin(), kept_.end());
     kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());

@@ -65,7 +65,7 @@ void refuse_unknown_engine(std::string_view name) {
   const std::vector<std::string> names = engine_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   throw std::invalid_argument("no engine is named \"" + std::string(name) + "\"" + did_you_mean(name, names) +
-                              "; there are: " + joined(names, ", "));
+                              "; allowed: " + joined(names, ", "));
 }
 
 std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linear_structure& s) {
@@ -74,8 +74,8 @@ std::unique_ptr<stiffness_engine> make_engine(std::string_view name, const linea
   if (name == "updated") return make_updated_engine(s, quickest_factor(s));
   if (name == "petsc" && has_pairs_of_two(s))
     throw std::invalid_argument(
-        "engine \"petsc\": found a pair between two dofs; allowed: pairs with a face that stands still. "
-        "--engine updated takes all");
+        "engine \"petsc\": found a pair between two dofs; allowed: pairs with a fixed face. "
+        "--engine updated allows all pairs");
   if (name == "petsc") return make_updated_engine(s, factored_by::ranks);
   return std::make_unique<refactor_engine>(s);
 }

@@ -52,8 +52,7 @@ namespace {
 stiffness_factor factor_of(const stiffness_matrix& k, factored_by how) {
   if (how != factored_by::ranks) return stiffness_factor(k);
   mpi_job* const job = joined_job();
-  if (job == nullptr)
-    throw std::logic_error("this process has joined no MPI job, which factors the stiffness");
+  if (job == nullptr) throw std::logic_error("this process has joined no MPI job to factor the stiffness");
   return {k, job->share(k.columns())};
 }
 

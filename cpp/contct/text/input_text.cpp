@@ -40,7 +40,8 @@ std::string read_input(const std::string& path, const std::string& kind, std::si
   while ((got = std::fread(block, 1, sizeof block, file.get())) > 0) {
     text.append(block, got);
     if (text.size() >> 20 >= most_mib)
-      refuse_line(name, 0, std::to_string(most_mib) + " MiB or more", "a " + kind + " below that size");
+      refuse_line(name, 0, std::to_string(most_mib) + " MiB or more",
+                  "a " + kind + " of less than " + std::to_string(most_mib) + " MiB");
   }
   if (std::ferror(file.get()) != 0) throw input_error(name + ": cannot be read to its end");
   return text;
@@ -72,7 +73,7 @@ double text_lines::real(std::string_view field, std::string_view what, bool fort
   if (!value && fortran) value = number_in<double>(escaped(without_plus(field), exponents));
   if (!value || !std::isfinite(*value))
     refuse(field_words(field).append(" for ").append(what),
-           "a finite number within the range of double precision, as 1.5 or -2e-3");
+           "a finite number within the range of double precision, such as 1.5 or -2e-3");
   return *value;
 }
 
@@ -82,8 +83,8 @@ void text_lines::refuse(std::string_view found, std::string_view allowed) const 
 
 void text_lines::refuse_unended() const {
   if (!ended_)
-    refuse(field_words(here_, "a line") + " without a line's end: the file may be cut short",
-           "a line's end behind it");
+    refuse(field_words(here_, "a line") + " without a line end: the file may be cut short",
+           "a line end after every line");
 }
 
 bool field_lines::next() {

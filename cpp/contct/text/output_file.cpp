@@ -136,7 +136,7 @@ void output_file::give_name() const {
 
 void output_file::fail(int error) const {
   if (is_standard_output() && error == EPIPE)
-    throw reader_gone("standard output: cannot be written: its reader has ended");
+    throw reader_gone("standard output: cannot be written: the program that reads it has ended");
   throw output_error((is_standard_output() ? std::string("standard output") : path_) +
                      ": cannot be written: " + std::strerror(error));
 }
@@ -151,7 +151,7 @@ void flush_standard_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   const int error = errno != 0 ? errno : why_lost;
   const std::string words = std::string("standard output: cannot be written: ") +
-                            (error != 0 ? std::strerror(error) : "what was printed before is lost");
+                            (error != 0 ? std::strerror(error) : "earlier output is lost");
   if (error == EPIPE) throw reader_gone(words);
   throw output_error(words);
 }

@@ -77,7 +77,8 @@ class exact_printer {
     for (const exact_increment& i : s.increments) {
       std::vector<std::string> events;
       for (const event& e : i.events)
-        events.push_back(pair_words(r_.what, e.pair) + (e.what == change::make ? " makes" : " breaks"));
+        events.push_back(pair_words(r_.what, e.pair) +
+                         (e.what == change::make ? " makes contact" : " breaks contact"));
       if (i.snaps) events.emplace_back("a rigid-body motion at constant load");
       out_ +=
           fmt::format("  share {}, load {}{}{}\n", number(i.fraction), number(before + i.fraction * added),
@@ -122,7 +123,7 @@ class exact_printer {
 
   void print_kernel(const kernel_digits& k) {
     out_ += k.steps == 0
-                ? fmt::format("{}: no step's end to compare; ", k.name)
+                ? fmt::format("{}: no end of a step to compare; ", k.name)
                 : fmt::format(
                       "{}: {:.1f} digits of displacements, {:.1f} of forces, {:.1f} of the events' shares; ",
                       k.name, k.digits, k.force_digits, k.event_digits);

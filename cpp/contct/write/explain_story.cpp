@@ -33,7 +33,7 @@ sentence check_of_sign(const explained_pair& p) {
                     open ? "pushes the structure against the face" : "lifts it off the face", number(p.s)),
         "(12)"};
   return {listing::if_check_positive,
-          fmt::format("SSCHK is not positive: the load {}. No event; the mark stays.",
+          fmt::format("SSCHK is not positive: the load {}. No event: s stays 1.",
                       open ? "moves the structure away from the face" : "keeps the pair in contact")};
 }
 
@@ -46,7 +46,7 @@ std::string meaning_of_s(const explained_pair& p) {
     return fmt::format("{}: it {} at {} of the residual load.", is_separated(p) ? "Advancing" : "Receding",
                        advances, per_cent(p.s));
   }
-  if (p.s == 1) return "Exactly at the full load: the listing takes this for no event.";
+  if (p.s == 1) return "Exactly at the full load: the listing treats this as no event.";
   return fmt::format("More than 1: the residual load ends before it {}.", advances);
 }
 
@@ -63,13 +63,13 @@ sentence competition(const explained_pair& p) {
 
 /// The sentence about the pair with the next larger s.
 std::string runner_up(const explained_call& c) {
-  if (c.next < 0) return "No other pair has an event ahead of it.";
+  if (c.next < 0) return "No other pair has an event to come.";
   if (c.ulps_ahead == 0) return fmt::format("Pair {} has the same s, to the bit.", c.next + 1);
   const double next = c.pairs[c.next].s;
   const double later = (next - c.smin) / c.smin;
   return fmt::format("Next would be pair {}, s = {}: {}.", c.next + 1, number(next),
                      later < rounding_share(c.real_bytes)
-                         ? fmt::format("later by {} ULP, which is rounding", c.ulps_ahead)
+                         ? fmt::format("later by {} ULP, a rounding difference", c.ulps_ahead)
                          : fmt::format("{:.4g} times the load", next / c.smin));
 }
 
@@ -77,16 +77,17 @@ std::string runner_up(const explained_call& c) {
 std::string reason_for_toggle(const explained_pair& p) {
   if (p.why == why_toggled::too_early)
     return fmt::format(
-        "TOO EARLY: {}, {:.3g} from its face. Its own s is {}; the listing does not wait for it.",
+        "TOO EARLY: {}, {:.3g} from its face. Its own s is {}, but the listing toggles it at SMIN.",
         is_separated(p) ? "it is put in contact before it touches"
-                        : "it is separated before it comes to its face",
+                        : "it is separated before it reaches its face",
         p.distance, number(p.s));
   if (p.why == why_toggled::by_mark)
     return fmt::format(
-        "BY ITS MARK: this pair has no event. Its s = 1 is only the mark for that, but SMIN is so near to 1 "
-        "that the mark lies within EPSMUL. It is {:.3g} from its face. The paper's step 14 does not do this.",
+        "BY ITS MARK: this pair has no event, and s = 1 only marks this; but SMIN is so near to 1 that DIFF "
+        "is "
+        "below EPSMUL. The pair is {:.3g} from its face. The paper's step 14 does not toggle such a pair.",
         p.distance);
-  if (p.why == why_toggled::same_moment) return "It comes to its face at the same moment as the winner.";
+  if (p.why == why_toggled::same_moment) return "The pair reaches its face at the same moment as the winner.";
   return "";
 }
 
@@ -135,7 +136,7 @@ std::vector<sentence> scale_factor_story(const explained_pair& p) {
 std::vector<sentence> winner_story(const explained_call& c) {
   if (c.winner < 0)
     return {{listing::if_no_events,
-             "SMIN is still 1: no event on the way. All of the residual load can be applied."},
+             "SMIN is still 1: no pair has an event. All of the residual load can be applied."},
             {listing::no_events_return, "RETURN. No pair is toggled."}};
   return {{listing::if_no_events,
            fmt::format("SMIN = {}, not 1. Pair {} wins.", number(c.smin), c.winner + 1), "(9)"},

@@ -134,7 +134,7 @@ class increment_printer {
     out_ += "\n";
     if (i_.left_undone) {
       say(paint::quiet,
-          "After this event only rounding would be left of the load. The driver, not CONTCT, restores ISEP "
+          "After this event the remaining load would be only rounding. The driver, not CONTCT, restores ISEP "
           "and applies the whole residual load.");
     }
     if (i_.what.s == 1.0) {
@@ -170,7 +170,8 @@ std::vector<std::string> summary_words(const explained_increment& i) {
   constexpr std::size_t most_named = 12;
   const std::span<const event> events = i.what.events;
   std::vector<std::string> words = {event_names(events.first(std::min(events.size(), most_named)))};
-  if (events.empty()) words[0] = i.left_undone ? "no event: the load left after it is rounding" : "no event";
+  if (events.empty())
+    words[0] = i.left_undone ? "no event: the load after it would be only rounding" : "no event";
   if (events.size() > most_named) words[0] += fmt::format(", {} more", events.size() - most_named);
   if (i.left_undone) return words;
   if (const std::string early = pairs_toggled(i.call, why_toggled::too_early); !early.empty())
@@ -202,7 +203,7 @@ std::string summary_line(const terminal& t, const explained_increment& i) {
 std::string summary_end(const terminal& t, std::size_t increments) {
   const std::vector<std::string> advice = {
       fmt::format("{} increments; share: share of the step applied so far", increments),
-      "explain one with --increment STEP.INCREMENT, a step with --step, all with --all"};
+      "to explain an increment: --increment STEP.INCREMENT; a step: --step STEP; all: --all"};
   std::string text = "\n";
   for (const std::string& line : wrap(advice, t.width)) text += line + "\n";
   return text;

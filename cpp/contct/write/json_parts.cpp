@@ -318,10 +318,11 @@ json step_json(const step_proof& s) {
 }
 
 std::string reason_without_proof(const std::optional<certificate>& c) {
-  if (!c) return "the step did not reach its load";
+  if (!c) return "the step did not reach its full load";
   if (!c->proved) return c->problem;
   if (!c->unique)
-    return "the structure can move as a rigid body without work of the load, which this proof does not cover";
+    return "the structure can move as a rigid body without work of the load; this proof does not cover this "
+           "case";
   return "the bounds are proved with a sparse factor, which is not written";
 }
 

@@ -393,7 +393,7 @@ class table_printer {
     words.emplace_back("digits: correct in every number");
     if (const auto* const b = std::get_if<beam>(&problem_.geometry.kind);
         b != nullptr && !b->sections.empty() && b->sections.front().W > 0.0)
-      words.emplace_back("stress: M / W of the lower fibre, the upper one has the other sign");
+      words.emplace_back("stress: M / W of the lower fibre; the upper fibre has the opposite sign");
     return words;
   }
 

@@ -42,7 +42,7 @@ std::vector<std::string> first_of(std::vector<std::string> lines) {
   if (lines.size() <= most) return lines;
   const std::size_t more = lines.size() - most;
   lines.resize(most);
-  lines.push_back(fmt::format("and {} more combinations; the result of --json has each", more));
+  lines.push_back(fmt::format("and {} more combinations; --json has all of them", more));
   return lines;
 }
 
@@ -119,8 +119,8 @@ std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
                                     "proved: " + digits_words(worst) + " of every number"};
   const auto loose = std::ranges::find_if(steps, [](const auto& c) { return c && !c->unique; });
   if (loose != steps.end())
-    items.push_back(fmt::format("but displacements of {} are not proved: a rigid-body motion remains free",
-                                name_of(loose)));
+    items.push_back(fmt::format(
+        "but the displacements of {} are not proved: a rigid-body motion remains free", name_of(loose)));
   return items;
 }
 
@@ -151,7 +151,7 @@ std::string words_of_pairs(const problem& p, const std::vector<int>& pairs) {
 std::string mechanism_words(const problem& p, const path_end& end) {
   if (end.pairs.empty())
     return "no equilibrium: the load of this step drives a rigid-body motion that no support and no pair "
-           "stops. Add a support, or a pair in its way";
+           "stops. Add a support or a pair that stops it";
   return "no equilibrium: when " + words_of_pairs(p, end.pairs) +
          " separated, the structure became a mechanism";
 }
@@ -172,7 +172,7 @@ std::string verdict_words(const path_end& end, bool is_answer) {
     return ". Whether there is an equilibrium under the load of this step is not decided";
   if (!*end.has_equilibrium) return ". There is no equilibrium under the load of this step";
   return std::string(". There is an equilibrium under the load of this step") +
-         (end.by_1989_rule && is_answer ? ": --kernels corrected leads to it" : "");
+         (end.by_1989_rule && is_answer ? ": --kernels corrected reaches it" : "");
 }
 
 }  // namespace
@@ -223,10 +223,10 @@ std::string passage_warning(const problem& p, std::span<const step_record> steps
   if (!worst) return "";
   const contact_pair& left = p.pairs[worst->first];
   return fmt::format(
-      "{}: between pairs {} and {} the beam passes through the face at {:g} that both have, by {:.2g}{} at x "
-      "= "
-      "{:.6g}. Where these are separate stops, this is as it should be; where one surface runs between them, "
-      "put pairs closer together (at the nodes of a finer mesh: element_size)",
+      "{}: between pairs {} and {} the beam passes through their common face at {:g} by {:.2g}{} at x = "
+      "{:.6g}. "
+      "This is right if the pairs are separate stops; if one surface extends between them, put pairs closer "
+      "together (at the nodes of a finer mesh: element_size)",
       step_words(p, step), worst->first + 1, worst->second + 1, left.face, worst->depth, unit_words(p, "w"),
       worst->x);
 }
@@ -271,8 +271,8 @@ std::string concentration_warning(const problem& p, std::span<const step_record>
       rank = here;
       most = size;
       warning = fmt::format(
-          "{}: largest {} at {}, under {}: the moments of a thin plate grow there with every finer mesh. "
-          "A load, or the force of a bolt, spread over an area (uniform with from and to) has a largest "
+          "{}: largest {} at {}, under {}: there the moments of a thin plate grow with every finer mesh. "
+          "Spread the load, or the force of a bolt, over an area (uniform with from and to) for a finite "
           "stress",
           step_words(p, s.end.step), here == 0 ? "von Mises" : v.name, place_words(p.geometry, at), what);
     }
@@ -316,9 +316,9 @@ std::string stiffness_advice(const run_result& r) {
     most = stiffness / own;
     const double digit = std::pow(10.0, std::floor(std::log10(rigid * own)));
     words = fmt::format(
-        "the cause may be the stiffness {:g} of {}, {:.0e} times that of the structure there: the rounding "
-        "of w may change its force by as much as the force itself. The largest useful stiffness is {:.0e}: "
-        "a stiffer one changes no more than the 7th digit",
+        "the cause may be the stiffness {:g} of {}, {:.0e} times the structure's stiffness at this dof: the "
+        "rounding of w may change the contact force by as much as the force itself. The largest useful "
+        "stiffness is {:.0e}; a larger stiffness changes only the 7th digit and later digits",
         stiffness, pair_words(r.what, i), most, std::floor(rigid * own / digit) * digit);
   }
   return words;
@@ -383,7 +383,7 @@ std::vector<std::string> refinement_words(const run_result& r) {
   }
   if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
-                                      : "beams are exact between nodes, a bed has twice as many pairs");
+                                      : "beams are exact between nodes, but a bed has twice as many pairs");
   return items;
 }
 
@@ -398,7 +398,7 @@ std::string size_words(const run_result& r, const state_difference& d) {
 std::string wrong_words(const run_result& r, const state_difference& d) {
   const std::string unit = unit_of(r.what, d.what);
   return fmt::format(
-      "the 1989 rule is wrong in step {}: the {} of {} is {:.6g}{}, right is {:.6g}{}: off by {}", d.step,
+      "the 1989 rule is wrong in step {}: the {} of {} is {:.6g}{} instead of {:.6g}{}: off by {}", d.step,
       name_of_kind(d.what), d.at, d.value, unit, d.right, unit, size_words(r, d));
 }
 
@@ -409,7 +409,7 @@ std::string agreement_words(const run_result& r, std::span<const state_differenc
   const std::string start = fmt::format("the 1989 rule comes to the same states{}",
                                         r.beside->same_events ? "" : " by other events");
   if (worst->share < ten_digits) return start + ": every number agrees to 10 digits or more";
-  return fmt::format("{}: the largest difference is that of the {} of {} in step {}: {}", start,
+  return fmt::format("{}: the largest difference is in the {} of {} in step {}: {}", start,
                      name_of_kind(worst->what), worst->at, worst->step, size_words(r, *worst));
 }
 
@@ -418,7 +418,7 @@ std::string ended_words(const run_result& r) {
   if (end.status == path_status::solved) return "";
   if (end.status == r.end.status && end.step == r.end.step)
     return "the path of the 1989 rule ends in the same way";
-  return "the path of the 1989 rule is lost (the answer does not depend on it): " +
+  return "the path of the 1989 rule ends early (the answer does not depend on it): " +
          end_words(r.what, end, false);
 }
 
@@ -437,10 +437,11 @@ std::vector<std::string> rule_1989_words(const run_result& r) {
     if (++wrong <= most_named) lines.push_back(wrong_words(r, d));
     if (first == 0) first = d.step;
   }
-  if (wrong > most_named) lines.push_back(fmt::format("it is wrong in {} more steps", wrong - most_named));
+  if (wrong > most_named)
+    lines.push_back(fmt::format("the 1989 rule is wrong in {} more steps", wrong - most_named));
   if (wrong > 0)
-    lines.push_back(
-        fmt::format("contct explain {} --step {} shows which line of the listing does it", r.file, first));
+    lines.push_back(fmt::format(
+        "contct explain {} --step {} shows which line of the listing causes the error", r.file, first));
   if (wrong == 0 && !all.empty()) lines.push_back(agreement_words(r, all));
   return lines;
 }

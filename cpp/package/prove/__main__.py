@@ -94,7 +94,7 @@ def _refuted(path: str, kernel: Kernel, machine: Machine, why: str) -> tuple[int
         found = replay.search(os.path.abspath(path), machine.constants)
     except Exception as failure:  # a missing library or a crash: no call was compared
         return UNDECIDED, f"undecided: {why}; run with contct.py: {failure}"
-    return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; no call that differs was found")
+    return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; no call with a difference was found")
 
 
 def main() -> int:

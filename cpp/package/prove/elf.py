@@ -28,7 +28,7 @@ class Image:
             self.data = file.read()
         found = struct.unpack_from(_HEADER, self.data) if len(self.data) >= 64 else (b"", 0)
         if found[:2] != (b"\x7fELF\x02\x01", _X86_64):
-            raise Undecided(f"{path}: found no ELF file of x86-64, the only machine code that is read")
+            raise Undecided(f"{path}: found no ELF file of x86-64; allowed: machine code of x86-64 in an ELF file")
         programs, sections, program_size, program_count, section_size, section_count = found[2:]
         self._segments = self._rows("<IIQQQQQQ", programs, program_size * program_count)
         sections = self._rows("<IIQQQQIIQQ", sections, section_size * section_count)
@@ -68,7 +68,7 @@ class Image:
     def symbol(self, name: str) -> Symbol:
         """The symbol `name`."""
         if name not in self.symbols:
-            raise Undecided(f"{self.path}: found no symbol {name}; a stripped file keeps exported symbols only")
+            raise Undecided(f"{self.path}: found no symbol {name}; a stripped file has only exported symbols")
         return self.symbols[name]
 
     def code_of(self, name: str) -> bytes:

@@ -60,7 +60,7 @@ class Proof:
 
     def prove(self) -> None:
         if not comparisons_are_ieee(self.spec.width) or not self.spec.is_kept():
-            raise Undecided("the specification's own lemmas do not hold")
+            raise Undecided("the lemmas of the specification are not proved")
         for _ in range(MOST_ROUNDS):
             arrivals = self._arrivals()
             new = [a for a in arrivals if a.s.pc and a.s.pc not in self.heads]
@@ -166,7 +166,7 @@ class Proof:
         below_1 = lambda: self.machine.holds(a.s, at.smin != self.spec.one)
         if a.s.pc == 0:
             if not ended() or (at.loop == 1 and not smin_is_1()):
-                raise Differs(f"the function returns in loop {at.loop}, which has not come to its end")
+                raise Differs(f"the function returns in loop {at.loop} before the end of this loop")
             return at._replace(loop=0)
         if a.s.pc in self.heads:
             if self.heads[a.s.pc].loop != at.loop and not (at.loop == 1 and ended() and below_1()):
@@ -182,7 +182,7 @@ class Proof:
         for a in arrivals:
             self._judge(a)
             if a.s.pc in self.heads and a.origin and not a.s.pairs and self.heads[a.s.pc].loop == a.at.loop:
-                raise Undecided(f"the loop at {a.s.pc:#x} may turn without end")
+                raise Undecided(f"the loop at {a.s.pc:#x} may never end")
 
     def _judge(self, a: Arrival) -> None:
         self.machine.begin(a.at, a.facts)
@@ -190,16 +190,16 @@ class Proof:
         for (array, k), value in listing.elements.items():
             found = s.elements.get((array, k), None if array == "SS" else self.spec.element(array, a.at.i + k))
             if found is None or not same(s, found, value):
-                raise Differs(f"another {array} of a pair")
+                raise Differs(f"a pair has another {array}")
         if any(key not in listing.elements for key in s.elements if key[0] != "EVENTS"):
-            raise Differs("an element is written that the listing leaves as it is")
+            raise Differs("an element is written that the listing does not change")
         happened = [t for t in listing.toggles if self.machine.holds(s, t.happens)]
         if not all(self.machine.holds(s, z3.Not(t.happens)) for t in listing.toggles if t not in happened):
-            raise Differs("this path does not tell whether a pair has an event")
+            raise Differs("this path does not determine whether a pair has an event")
         expected = self.interface.expected(happened, listing.to.loop == 0 and a.at.loop == 1)
         found = self.interface.told(s)
         if len(found) != len(expected) or not all(same(s, *both) for both in zip(found, expected)):
-            raise Differs("other events")
+            raise Differs("the events differ")
         fault = "" if s.pc else fault_of_return(self.machine, self.interface, s, listing.to.smin, listing.to.toggled)
         if fault:
             raise Differs(fault)

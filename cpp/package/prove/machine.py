@@ -105,7 +105,7 @@ class Machine:
             if self._stands_at(s, array, i, offset) and self.holds(s, z3.ULT(i, self.spec.pairs)):
                 s.pairs |= {k} if array == "SS" else set()
                 return k
-        raise self.undecided(s, f"a subscript of {array} that is not the next pair's: {offset}")
+        raise self.undecided(s, f"a subscript of {array} that is not that of the next pair: {offset}")
 
     def _stands_at(self, s: State, array: str, i: z3.BitVecRef, offset: z3.BitVecRef) -> bool:
         """True if pair `i`'s element has this offset and is inside the array, provided that the pair exists. The answer
@@ -171,7 +171,7 @@ class Machine:
                 raise self.undecided(s, "a write below the red zone")
             s.write(region, offset, value)
         else:
-            raise self.undecided(s, f"{region} is written, which is not the function's")
+            raise self.undecided(s, f"{region} is written, which the function may not change")
 
     def push(self, s: State, value: z3.BitVecRef) -> None:
         s.set_register("rsp", s.register("rsp") - 8)
@@ -188,7 +188,7 @@ class Machine:
         if address not in self._decoded:
             found = next(self._decoder.disasm(self.image.bytes_at(address, 15)[0], address, 1), None)
             if found is None:
-                raise Undecided(f"{self.image.path}, at {address:#x}: no instruction that capstone knows")
+                raise Undecided(f"{self.image.path}, at {address:#x}: capstone does not know this instruction")
             self._decoded[address] = found
         return self._decoded[address]
 
@@ -266,7 +266,7 @@ class Machine:
             return [s]
         region, place = self.locate(s, target)
         if region != "IMAGE":
-            raise self.undecided(s, f"where does it lead? {target}")
+            raise self.undecided(s, f"the target of the jump is not known: {target}")
         s.pc = place
         return [s]
 

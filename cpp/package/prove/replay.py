@@ -19,7 +19,7 @@ def search(path: str, constants: set[int]) -> str:
             if ours != listing:
                 arguments = [f"  {name.upper()}: {value[:8]}" for name, value in call.items() if isinstance(value, list)]
                 numbers = f"  NC {len(call['cc'])}, INDOF {call['indof']}, NDOFPN {call['ndofpn']}"
-                return "\n".join([f"{name} is {ours}, by the 1989 code {listing}, in the call", *arguments, numbers])
+                return "\n".join([f"{name} is {ours}, but {listing} by the 1989 code, in the call", *arguments, numbers])
     return ""
 
 

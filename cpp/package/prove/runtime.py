@@ -21,7 +21,7 @@ CHANGED = {region for region, _, _ in REGISTERS.values()} - {*KEPT, "rsp"}
 def call(machine, s: State, name: str) -> None:
     """Apply the effect of a call of `name` to `s`. The return address is on the stack."""
     if name not in (BEGIN, INTEGER, REAL, DONE) or not (s.events or name == BEGIN):
-        raise machine.undecided(s, f"{name} is called, of which nothing is known here")
+        raise machine.undecided(s, f"{name} is called, whose effect is not known")
     block, top = machine.stack_offset(s, "rdi"), machine.stack_offset(s, "rsp")
     if name == BEGIN:
         s.events.append(z3.BitVecVal(_label(machine, s, block), 32))
@@ -51,7 +51,7 @@ def _label(machine, s: State, block: int) -> int:
     format_ = "".join(piece if piece.startswith("'") else piece.replace(" ", "") for piece in pieces)
     labels = [label for label, known in FORMATS.items() if known == format_]
     if not labels:
-        raise machine.undecided(s, f"a FORMAT that the listing does not have: {format_}")
+        raise machine.undecided(s, f"the FORMAT is not in the listing: {format_}")
     return labels[0]
 
 

@@ -98,7 +98,7 @@ def _sum(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
 
 def _multiply(o: Operands) -> None:
     if len(o.list) == 1:
-        raise o.machine.undecided(o.s, "imul of one operand is not read")
+        raise o.machine.undecided(o.s, "imul with one operand is not supported")
     a, b = o.both() if len(o.list) == 2 else (o.get(1), o.get(2, o.width(0)))
     o.set(0, reals.product(a, b))
     o.s.flags = dict
@@ -107,7 +107,7 @@ def _multiply(o: Operands) -> None:
 def _shift(o: Operands, work: Callable) -> None:
     by = o.list[1].imm if len(o.list) == 2 and o.list[1].type == names.X86_OP_IMM else 1 if len(o.list) == 1 else 0
     if not 0 < by < o.width(0):
-        raise o.machine.undecided(o.s, "a shift by a number that is not constant, or by nothing")
+        raise o.machine.undecided(o.s, "a shift by a number that is 0 or not constant")
     o.set(0, _sum(o, work(o.get(0), z3.BitVecVal(by, o.width(0)))))
 
 

@@ -61,7 +61,7 @@ with_face() { sed "/^node *= 13\$/,/^face/ s/^face.*/face      = $1/" "$file"; }
 
 # Does the listing without rounding take pairs 1 and 3 together in the first increment of step 2? The share where it does.
 taken_together() {
-  with_face "$1" | "$contct" exact - --rule 1989 2>/dev/null | sed -n '/^step 2/{n;s/^  share \([^,]*\),.*pair 1 .* makes, pair 3 .* makes$/\1/p;}'
+  with_face "$1" | "$contct" exact - --rule 1989 2>/dev/null | sed -n '/^step 2/{n;s/^  share \([^,]*\),.*pair 1 .* makes contact, pair 3 .* makes contact$/\1/p;}'
 }
 
 case $1 in

@@ -119,11 +119,11 @@ def hints(found, quantity, table):
         return "All answers are those of this fault:", same
     after = [stage["adds"] for before, stage in zip(STAGES, STAGES[1:]) if found["digest"] in before["digests"]]
     if after:
-        return "No fault: the answers are those of a port in the making. Next:", after
+        return "No fault: the answers match an unfinished port. Next:", after
     alike = [t["says"] for t in table.values() if t["first"] == found["first"] and found["right"] > 0]
     if alike:
-        return "The first wrong answer is that of these faults:", alike[:3]
-    return "No known fault answers so.", [WHERE[quantity]]
+        return "The first wrong answer matches these faults:", alike[:3]
+    return "No known fault gives this answer.", [WHERE[quantity]]
 
 
 def read_table(file=ROOT / "reference/course/hints.toml"):

@@ -39,7 +39,8 @@ void succeed(PetscErrorCode code) {
   if (code == PETSC_ERR_MEM) throw std::bad_alloc();
   const char* words = nullptr;
   (void)PetscErrorMessage(code, &words, nullptr);
-  throw std::runtime_error("PETSc failed: " + std::string(words != nullptr ? words : "it does not say why"));
+  throw std::runtime_error("PETSc failed: " +
+                           std::string(words != nullptr ? words : "no reason was returned"));
 }
 
 /// The result of a factorisation; the same on every rank.

@@ -83,7 +83,7 @@ const cuts = new Set();  // sentences that tell what the page leaves out
 const evenly = (all, count) => Array.from({ length: Math.min(all, count) }, (_, i) => (all <= count ? i : Math.floor((i * (all - 1)) / (count - 1))));
 
 function some(what, all, most) {
-  if (all > most) cuts.add(`${most} of ${all} ${what} are drawn, evenly chosen. The largest values are those of all.`);
+  if (all > most) cuts.add(`${most} of ${all} ${what} are drawn, evenly chosen. The largest values cover all ${what}.`);
   return evenly(all, most);
 }
 
@@ -377,7 +377,7 @@ function drawBeam(root, f, page, isSketch) {
   root.append(line(X(ends[0]), bottom, X(ends[1]), bottom, "zero"));
   scaleAlong(root, ticks(...ends, Math.floor(width / 75)), X, bottom);
   if (isSketch) return;
-  const [moment, shear] = width < 620 ? ["M", "V"] : ["Moment, positive where it sags", "Shear, of the left part on the right"];
+  const [moment, shear] = width < 620 ? ["M", "V"] : ["Moment, positive where it sags", "Shear, of the left part on the right part"];
   drawStrip(root, f, page, bottom + 36, "moment", inUnit(moment, "moment"));
   drawStrip(root, f, page, bottom + 176, "shear", inUnit(shear, "shear"));
   if (hasBed()) drawPressure(root, f, page, bottom + 316);
@@ -509,7 +509,7 @@ function edgesBetween([columns, rows]) {
 function drawnEdges(most = 20_000) {
   const { edges } = structure;
   if (edges.length <= most) return edges;
-  cuts.add(`${most} of ${edges.length} edges are drawn: those of the fewest elements, which are the outer ones of a solid, and evenly chosen among equals.`);
+  cuts.add(`${most} of ${edges.length} edges are drawn: the edges of the fewest elements, which are the outer edges of a solid; among equals, evenly chosen.`);
   const spreadOut = (i) => (i * 0.6180339887498949) % 1;
   const order = edges.map((e, i) => [e, e[2] + spreadOut(i)]).sort((a, b) => a[1] - b[1]);
   return order.slice(0, most).map(([e]) => e);
@@ -653,7 +653,7 @@ function preparePicture() {
   cuts.clear();
   drawnPairs = some("pairs", places.pairs.length, isBeam() ? 300 : 1000);
   drawnSupports = some("supports", places.supports.length, 300).map((i) => places.supports[i]);
-  if (places.pairs.length > 60) cuts.add("The numbers of the pairs are not written beside their marks, but shown when the pointer is over a mark.");
+  if (places.pairs.length > 60) cuts.add("The numbers of the pairs are not written; each is shown when the pointer is over the pair's mark.");
   fields = structure.kind === "plate" ? fieldsOf() : [];
   field = fields.find((f) => field && f.name === field.name) || fields[0];
   scene = structure.nodes.length > 0 ? sceneOf() : null;

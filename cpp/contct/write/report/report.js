@@ -111,8 +111,8 @@ const placeCells = (p) => (ofMatrix ? [p.name] : structure.kind === "plate" ? [S
 // ---- the state, increments and calls ----
 
 function showPairs(f) {
-  fill("pairs", "Pairs in this state", `State ${where(f)}. A gap is that of a separated pair. A contact force is positive when it pushes the structure off the face; ` +
-    "a negative one is tension.", ...tableOf("Pairs", ["Pair", ofMatrix ? "Dof" : "Node", "Surface", "Face", "State", "Gap", "Force"],
+  fill("pairs", "Pairs in this state", `State ${where(f)}. A separated pair has a gap, a pair in contact a force. A force is positive if it pushes the structure off the face; ` +
+    "a negative force is tension.", ...tableOf("Pairs", ["Pair", ofMatrix ? "Dof" : "Node", "Surface", "Face", "State", "Gap", "Force"],
     f.pairs.map((p) => [String(p.pair), String(p.name), p.surface, p.face, lookWords(p), p.gap, p.force]), 250));
 }
 
@@ -142,10 +142,10 @@ function showCalls() {
   const told = others.length === 0 ? "One kernel ran, so nothing was compared. These are its answers."
     : !lockstep ? `Free run: each kernel followed its own path, so single calls were not compared: ${words.comparison}. The calls of ${leader}:`
       : `Lockstep: ${others.join(" and ")} had the same input as ${leader} at every call: ${words.comparison}. ` +
-        "A distance of 0 ULP means equal to the bit. Compared are SMIN, every s, every status, and the text of unit 26 where both have one.";
+        "A distance of 0 ULP means equal to the bit. The comparison covers SMIN, every s, every status, and the text of unit 26 if both write it.";
   const pairs = Math.max(0, ...calls.map((c) => c.s.length));
-  if (places.pairs.length > pairs) cuts.add(`Calls: s is listed for the first ${pairs} of ${places.pairs.length} pairs; distances are over all.`);
-  if (calls.length < calls_made) cuts.add(`Of ${calls_made} calls the first ${calls.length} are listed.`);
+  if (places.pairs.length > pairs) cuts.add(`Calls: s is listed for the first ${pairs} of ${places.pairs.length} pairs; the distances cover all pairs.`);
+  if (calls.length < calls_made) cuts.add(`The first ${calls.length} of ${calls_made} calls are listed.`);
   const compared = lockstep ? others : [];
   const names = compared.flatMap((k) => [`ULP off in SMIN, ${k}`, "ULP off in any s", "values compared", "different"]);
   const answer = (a) => (!a || a.failed ? ["no answer", "no answer", "–", "–"] : [a.smin_ulps, a.s_ulps, a.values, a.mismatches]);
@@ -158,7 +158,7 @@ function showCalls() {
 // ---- the ends of steps, the envelope and the input ----
 
 const markOf = (c) => (!c ? "no certificate" : c.exact ? "certified" : "NOT certified");
-const fibre = (name) => (name === "stress" ? "Stress, lower fibre (upper: other sign)" : null);
+const fibre = (name) => (name === "stress" ? "Stress, lower fibre (upper: opposite sign)" : null);
 const quantityHead = (name) => inUnit(fibre(name) ?? (/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
@@ -168,7 +168,7 @@ const reactionsTitle = "Reactions: what supports exert on the structure";
 // At most `most` of `steps`, in order: those with the largest values, relative to the largest value of a quantity.
 function endsOf(what, most, steps = result.steps) {
   if (steps.length <= most) return steps;
-  cuts.add(`${what} have the ends of ${most} of ${steps.length} steps: those with the largest values.`);
+  cuts.add(`${what} show the ends of ${most} of ${steps.length} steps: those with the largest values.`);
   const sizes = Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)));
   const share = steps.map((_, i) => Math.max(0, ...sizes.map((all) => all[i] / (Math.max(...all) || 1))));
   const kept = new Set(steps.map((_, i) => i).sort((a, b) => share[b] - share[a]).slice(0, most));
@@ -192,7 +192,7 @@ function endTables() {
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), "Reaction", "Certificate"], steps.map(row)),
     ...tableOf("Pressure and contact of beds", ["Step", "Bed", ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
-    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; of a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
+    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
       ownPairs.map(pairCells), (s, i) => forceOrGap(s.pairs[ownPairs[i].pair - 1])),
     ...besideEachOther(onBeds, `${inUnit("Contact forces of beds", "force")}${someOf(onBeds)}`, ["Pair", ...placeHead(), "Surface"],
       bedPairs.map(pairCells), (s, i) => s.pairs[bedPairs[i].pair - 1].force, 40),
@@ -284,7 +284,7 @@ const inputTables = () => [
     gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, s.dof, s.spring === null ? "fixed" : short(s.spring)])),
   ...tableOf("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
     places.pairs.filter((p) => !p.bed).map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, startWords(p)])),
-  ...tableOf("Beds: a pair at each node, whose stiffness is the modulus times the node's share", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
+  ...tableOf("Beds: a pair at each node, with the modulus times the node's tributary length or area as its stiffness", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
     gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
       .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
   ...tableOf("Combinations: cases with their factors", ["Step", "Terms"], result.steps.filter(termWords).map((s) => [stepName(s), termWords(s)])),
@@ -346,7 +346,7 @@ function verdicts() {
 function showHead() {
   const { file, date, units, words } = result;
   const block = [["Problem file", file === "-" ? "standard input" : file],
-    ["Units", units ? `${units.length}, ${units.force}` : "as in the problem file, which names none"],
+    ["Units", units ? `${units.length}, ${units.force}` : "the problem file names no units"],
     ["Date of the run", date], ["Kernels", `${kernelNames().join(" and ")}, engine ${result.engine}`], ["Program", words.program.join(" · ")]];
   byId("title-block").replaceChildren(...block.filter(([, text]) => text).map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text))));
   const size = [[structure.nodes.length, "node"], [structure.edges?.length ?? 0, "edge"], [frames[frames.length - 1].elements.length, "element"],
@@ -371,12 +371,12 @@ function showCertificate() {
   const small = (x) => (x === null || x === undefined ? "–" : minus(x === 0 ? "0" : x.toExponential(1)));
   const columns = { displacement_error: "error of deflections", shape_error: "error of shape", equilibrium: "equilibrium", penetration: "penetration",
     tension: "tension", tolerance: "allowed", digits: "digits" };
-  const words = ["A step is certified when the errors of all numbers of its final state are within the allowed ones: by proved bounds, " +
-    "or, where none can be proved, by comparison with the reference solution. That is the minimiser of the structure's energy; it uses neither the kernels nor the path."];
+  const words = ["A step is certified if the errors of all numbers of its final state are at most the allowed errors. Bounds prove this; if no bounds " +
+    "can be proved, a comparison with the reference solution shows it. The reference solution minimises the structure's energy; it uses neither the kernels nor the path."];
   if (result.words.certificate.length > 0) words.push(sentence(result.words.certificate.join("; ")));
   words.push(...result.words.complaints.map(sentence));
   if (steps.length === 0) words.push("No step reached its full load, so there is nothing to certify.");
-  if (own > 0) words.push(`${counted(own, "state")} came from the reference solution itself, so a comparison with it shows nothing: only equilibrium, penetration and tension are judged there.`);
+  if (own > 0) words.push(`${counted(own, "state")} came from the reference solution itself, so a comparison would show nothing: only equilibrium, penetration and tension are judged.`);
   fill("certificate", "Is the answer right?", words.join(" "), ...tableOf("Certificates", ["Step", "Certificate", ...Object.values(columns)],
     steps.map((c, i) => [stepName(result.steps[i]), markOf(c), ...Object.keys(columns).map((name) => (name === "digits" && c ? String(c.digits) : small(c?.[name])))])));
   byId("certificate").hidden = false;
@@ -384,7 +384,7 @@ function showCertificate() {
 
 function showLog() {
   const [leader] = calledNames();
-  fill("log", "Unit 26", result.log === "" ? `${leader} wrote nothing to unit 26, or writes no text.` : `What ${leader} wrote to unit 26.`,
+  fill("log", "Unit 26", result.log === "" ? `${leader} wrote nothing to unit 26.` : `The text that ${leader} wrote to unit 26.`,
     element("pre", { id: "log-text", class: "scroll", tabindex: "0", role: "region", "aria-label": "Unit 26" }, result.log));
 }
 
@@ -392,16 +392,16 @@ function showCuts() {
   for (const note of structure.notes || []) cuts.add(note);
   const drawn = result.steps.filter((s) => s.displacement);
   if (drawn.length < result.steps.length)
-    cuts.add(`Of ${result.steps.length} combinations ${drawn.length} are drawn: those with the least and largest values, those that did not reach ` +
-      "their load, and others evenly chosen. The others' increments, contact forces and reactions are not listed.");
+    cuts.add(`${drawn.length} of ${result.steps.length} combinations are drawn: those with the least and largest values, those that did not reach ` +
+      "their load, and others evenly chosen. Increments, contact forces and reactions of combinations that are not drawn are not listed.");
   const within = increments.length + 1 + drawn.filter((s) => !endsAt(s, s.increments.length - 1)).length;
   if (frames.length < within) {
     cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
   }
   const isSum = ({ words, uniform, point, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature && !move;
-  if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn: their sum is told.");
-  if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
+  if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn; only their sum is given.");
+  if (result.log.length < result.log_bytes) cuts.add(`The first ${result.log.length} of ${result.log_bytes} bytes of unit 26 are shown.`);
   const list = cuts.size > 0 ? [...cuts] : [`Nothing: every increment, ${unitOf()}, pair and call is on this page.`];
   byId("cuts").replaceChildren(...list.map((text) => element("li", {}, text)));
 }
@@ -409,13 +409,13 @@ function showCuts() {
 const pictureWords = {
   beam: "Up is positive. Between two increments every point moves along a straight line. Numbers under supports are reactions. " +
     "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
-    "are those of EI w\u2033\u2033 = q between the nodes too; dots are at the largest values.",
-  plate: "The colours are the same in all states: dark is low. Up is positive; moments are those of sagging, means of the elements at each " +
-    "node; between nodes colours are interpolated. Numbers at supports are reactions.",
+    "follow EI w\u2033\u2033 = q between the nodes, too. Dots mark the largest values.",
+  plate: "The colours have the same scale in all states: dark is low. Up is positive. Moments are positive where the plate sags, and are means of the elements " +
+    "at each node. Between nodes, colours are interpolated. Numbers at supports are reactions.",
   matrix: "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
     "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, " +
     "magnified as displacements are. Numbers at supports are reactions.",
-  none: "No coordinates of this structure are known, so it is not drawn. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.",
+  none: "No coordinates of this structure are known, so it is not drawn. To have it drawn, name a file by coordinates in [matrix] or by mesh in [calculix].",
 };
 
 function showLegend() {
@@ -428,7 +428,7 @@ function showLegend() {
     [there((p) => p.look === "f" && p.closed), "at its face, in contact, no force", () => pairMark("f", 11, 9, 5, true)],
     [places.pairs.length > 0, "face, hatched behind", () => shape("M2 8h18M4 8l-4 6M10 8l-4 6M16 8l-4 6", "face-line")],
     [there((p) => p.force > 0), "contact force", () => arrow(11, 17, 0, -15, "force")],
-    [there((p) => p.look === "c"), "where a pressed face stood", () => line(0, 9, 22, 9, "spring")],
+    [there((p) => p.look === "c"), "place of a face before it was pressed", () => line(0, 9, 22, 9, "spring")],
     [loaded, "load", () => arrow(11, 1, 0, 15, "load")],
     [true, "undeformed", () => line(0, 9, 22, 9, "was")],
     [places.supports.some((s) => s.direction <= 3), "support", () => shape("M11 3l7 12h-14Z", "support")],
@@ -508,7 +508,7 @@ function drawSheets() {
   const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor(12 / quantities.length))).map((s) => s.step));
   const wanted = frames.filter((f) => f.end && (steps.has(f.step) || f === final)).flatMap((f) => quantities.map((of) => ({ f, of })));
   const all = result.steps.length;
-  byId("ends-drawn").replaceChildren(...(steps.size < all ? [element("p", { class: "print-only" }, `Drawn are the ends of ${steps.size} of ${all} steps, those with the largest values, and of the last one.`)] : []), ...wanted.filter(({ f, of }) => f !== final || of !== chosen).map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
+  byId("ends-drawn").replaceChildren(...(steps.size < all ? [element("p", { class: "print-only" }, `The ends of ${steps.size} of ${all} steps are drawn: the steps with the largest values, and the last step.`)] : []), ...wanted.filter(({ f, of }) => f !== final || of !== chosen).map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
   field = chosen;
   showCuts();
 }
