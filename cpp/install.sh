@@ -15,7 +15,7 @@ need() {
   if ! command -v apt-get >/dev/null 2>&1; then
     # On another system, CMake decides whether the installed packages suffice.
     if command -v cmake >/dev/null 2>&1 && command -v gfortran >/dev/null 2>&1; then
-      echo "not Debian: going on with what is installed ($why; on Debian:$missing)"
+      echo "not Debian: continuing with the installed packages ($why; on Debian:$missing)"
       return 0
     fi
     echo "Please install the equivalents of these Debian packages ($why):$missing" >&2

@@ -213,9 +213,9 @@ void declare_run(option_parser& p, CLI::App* c) {
                             joined(p.engines, ", ")));
   c->add_flag("--free-run", o.free_run,
               "Free run: each kernel follows its own path; events, shares of the step and D are compared");
-  CLI::Option* const final_only = c->add_flag(
-      "--final-only", o.final_only,
-      "Do not follow the path: find only the reference solution at the end of each step, certified");
+  CLI::Option* const final_only = c->add_flag("--final-only", o.final_only,
+                                              "Do not follow the path: find only the reference solution at "
+                                              "the end of each step, and its certificate");
   c->add_flag("--strict", o.strict, "Exit with status 3 if a final state is not certified");
   c->add_flag("--detail", o.detail,
               "Print every event, and after each step all pairs, reactions, and moments and shears at the "

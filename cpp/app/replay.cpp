@@ -70,7 +70,7 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   all.add(file, text, r, r.first ? words_of(*r.first)[0] : "");
   if (!r.first) return result;
   result.details = joined(words_of(*r.first), "\n") + "\n";
-  if (!fp.strict()) result.details += "environment, not kernel: " + describe(fp) + "\n";
+  if (!fp.strict()) result.details += "the cause is the environment, not the kernel: " + describe(fp) + "\n";
   return result;
 }
 

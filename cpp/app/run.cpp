@@ -205,7 +205,7 @@ void report_lockstep(shown_run& o) {
   complain_of(lines);
   o.differences = joined(lines, "\n") + "\n";
   const floating_point fp = probe_floating_point();
-  if (!fp.strict()) complain("environment, not kernel: {}", describe(fp));
+  if (!fp.strict()) complain("the cause is the environment, not the kernel: {}", describe(fp));
 }
 
 /// Lets another kernel follow its own path, and prints the comparison with the leader's path.

@@ -78,7 +78,7 @@ TEST_CASE(
                       "      No other pair has an event to come.\n"));
   CHECK_THAT(f.out, Contains("\nPair 1: winner\n"
                              "  51  DIFF = 0: s is SMIN.\n"
-                             "  52  Less than EPSMUL = 1/256: toggled.\n"
+                             "  52  DIFF is less than EPSMUL = 1/256: toggled.\n"
                              "  54  ISEP = 1: it was separated.\n"
                              "  55  ISEP = -1: in contact. Make.\n"));
   CHECK_THAT(f.out, Contains("0.25 of the residual load is applied: D + s d* is the new D (10)."));

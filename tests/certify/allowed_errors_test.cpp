@@ -77,7 +77,8 @@ TEST_CASE("an error of a quantity without an allowed error, or a NaN error, is t
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
   CHECK(worst_bound(error, allowed) ==
-        "a contact force may be off by 1e-20, and no load or number of its kind is there to compare it with");
+        "a contact force may be off by 1e-20, and the state has no load or number of its kind to compare it "
+        "with");
   error[quantity::force] = 0.0;
   CHECK(worst_share(error, allowed) == 0.0);
   error[quantity::w] = std::numeric_limits<double>::quiet_NaN();

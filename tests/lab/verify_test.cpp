@@ -97,7 +97,7 @@ TEST_CASE(
   CHECK_THAT(exact_disagreement(e, 0.33334, 0.0), Contains("allowed: a difference of 3e-06"));
   e.value = 0.333;
   CHECK_THAT(exact_disagreement(e, 1.0 / 3, 1e-8),
-             Contains("exact value 1/3; allowed: a difference of 1e-05 of the expected 0.333"));
+             Contains("exact value 1/3; allowed: a relative difference of 1e-05 from the expected 0.333"));
 }
 
 TEST_CASE("exact states are compared by name, and a number without an exact value is not compared") {

@@ -69,7 +69,7 @@ expect "the strict build exits 1" [ $status = 1 ]
 replay "$work/replay" "$doctored"
 expect "this build blames the environment for the doctored trace" all_say ': environment; '
 expect "this build exits 1" [ $status = 1 ]
-expect "this build names the fault of its environment" grep -q "^environment, not kernel: .*$says" "$work/complaints"
+expect "this build names the fault of its environment" grep -q "^the cause is the environment, not the kernel: .*$says" "$work/complaints"
 expect "the report names the fault of the environment, too" grep -q "^- floating point: .*$says" "$work/report"
 
 replay "$work/replay" "$source"/reference/traces/*.trace

@@ -107,8 +107,9 @@ std::string worst_bound(const by_quantity& error, const by_quantity& allowed, co
   std::string words = "a ";
   words.append(name_of_kind(kind)).append(" may be off by ").append(size);
   if (of != nullptr) words += unit_of(*of, kind);
-  return words + (std::isfinite(worst) ? ", " + percent_words(worst) + " of the largest of its kind"
-                                       : ", and no load or number of its kind is there to compare it with");
+  return words + (std::isfinite(worst)
+                      ? ", " + percent_words(worst) + " of the largest of its kind"
+                      : ", and the state has no load or number of its kind to compare it with");
 }
 
 }  // namespace contct

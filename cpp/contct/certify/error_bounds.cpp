@@ -329,8 +329,9 @@ bool error_prover::rests(const reported_state& told, error_bounds& b) {
   b.rho = 0.0;
   if (b.unique || !told.numbers.element_values.empty()) return true;
   b.not_proved =
-      "only contact holds the structure, and a structure given by its matrix has no moments, by which the "
-      "proof shows that it is not bent";
+      "only contact holds the structure; the proof that it is not bent needs moments, which a structure "
+      "given "
+      "by its matrix does not have";
   return false;
 }
 

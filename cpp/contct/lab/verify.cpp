@@ -269,8 +269,8 @@ std::string exact_disagreement(const expected_number& e, double computed, double
     return fmt::format("computed {:.17g}, exact value {}; allowed: a difference of {:.0e}", computed, e.exact,
                        allowed);
   if (!agrees(exactly, e.value, e.tolerance))
-    return fmt::format("exact value {}; allowed: a difference of {:.0e} of the expected {}", e.exact,
-                       e.tolerance, e.value);
+    return fmt::format("exact value {}; allowed: a relative difference of {:.0e} from the expected {}",
+                       e.exact, e.tolerance, e.value);
   return {};
 }
 

@@ -170,7 +170,7 @@ class plate_elements {
     if (!std::is_same_v<Number, double> || !l.placed.empty()) return exact_pressures<Number>(plate_, l);
     std::vector<summed_pressure<Number>> sums(count());
     for_each_loaded_element(l, count(), [&](int e, std::span<const double> q) {
-      if (q.size() != 1) throw std::invalid_argument("the pressure on a plate's element is constant");
+      if (q.size() != 1) throw std::invalid_argument("the pressure on a plate's element must be constant");
       sums[e].value += q[0];
     });
     return sums;

@@ -109,7 +109,7 @@ read_entry parse_entry(number_lines& lines, int rows, entry_format format) {
     lines.refuse(fmt::format("row {} and column {}, {} the diagonal", e.row + 1, e.column + 1,
                              is_upper ? "below" : "above"),
                  is_upper ? "the upper triangle, row <= column, as CalculiX writes it"
-                          : "the lower triangle, row >= column, as symmetric requires in this format");
+                          : "the lower triangle, row >= column, as \"symmetric\" requires in this format");
   if (is_upper) std::swap(e.row, e.column);
   return e;
 }

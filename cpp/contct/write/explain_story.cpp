@@ -148,10 +148,10 @@ std::vector<sentence> toggle_story(const explained_call& c, const explained_pair
       {listing::diff, p.pair == c.winner ? "DIFF = 0: s is SMIN."
                                          : fmt::format("DIFF = |s - SMIN| / SMIN = {:.4g}.", p.diff)}};
   if (!p.at(branch::within_epsmul).outcome) {
-    story.push_back({listing::if_within, "Not less than EPSMUL = 1/256: not toggled."});
+    story.push_back({listing::if_within, "DIFF is not less than EPSMUL = 1/256: not toggled."});
     return story;
   }
-  story.push_back({listing::if_within, "Less than EPSMUL = 1/256: toggled."});
+  story.push_back({listing::if_within, "DIFF is less than EPSMUL = 1/256: toggled."});
   if (is_separated(p)) {
     story.push_back({listing::if_separated, "ISEP = 1: it was separated."});
     story.push_back({listing::make, "ISEP = -1: in contact. Make."});
