@@ -161,7 +161,7 @@ TEST_CASE("every mistake in a load vector is refused with its line, what was fou
           {replaced(sparse_vector, "1 1 1", "3 1 1"), "f.mtx:4", "row 3 a second time, after line 3",
            "each row once"},
           {replaced(sparse_vector, "1 1 1", "1 2 1"), "f.mtx:4", "\"2\" for the column", "from 1 to 1"},
-          {sparse_vector + "2 1 1\n", "f.mtx:5", "more entries", "2, as line 2"},
+          {sparse_vector + "2 1 1\n", "f.mtx:5", "more than 2 entries", "2, as line 2"},
       },
       of_vector);
 }

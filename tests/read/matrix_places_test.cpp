@@ -63,7 +63,7 @@ TEST_CASE(
           {"", "K.xyz: ", "no node", "name x y"},
           {good_places + "c 1 # 2\n", "K.xyz:5", "a line of 7 bytes", "name x y"},
           {good_places + "c 1 2 3 4\n", "K.xyz:5", "a line of 9 bytes", "name x y"},
-          {good_places + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as the lines before"},
+          {good_places + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as in the lines before"},
           {good_places + "b 1 2\n", "K.xyz:5", "node \"b\" a second time, after line 4", "each node once"},
           {good_places + "c nan 2\n", "K.xyz:5", "\"nan\" for x", "finite"},
           {good_places + "c 1 2", "K.xyz:5", "a line of 5 bytes without a line end", "a line end"},
@@ -93,7 +93,7 @@ TEST_CASE("dofs whose labels have no known node, and rotations, are counted as n
   for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);
   REQUIRE(places.notes.size() == 2);
   CHECK_THAT(places.notes[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
-  CHECK_THAT(places.notes[1], Contains("Rotations, 1 of 8 dofs"));
+  CHECK_THAT(places.notes[1], Contains("Rotations (1 of 8 dofs)"));
 }
 
 TEST_CASE("coordinates are unknown if no dof's label has a node") {
@@ -234,7 +234,7 @@ TEST_CASE(
           {nodes + "7,1,2,3", "job.inp:6", "\"7,1,2,3\" without a line end", "a line end"},
           {nodes + std::string("7,1\0,2,3\n", 9), "job.inp:6", "a byte with the value 0", "a text file"},
           {nodes + "*ELEMENT\n1,1,2,3,4\n", "job.inp:6", "*ELEMENT without TYPE", "TYPE="},
-          {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:7", "node 9 in an element", "*NODE has"},
+          {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:7", "node 9 in an element", "*NODE defines"},
           {nodes + "*INCLUDE,INPUT=a\n*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n", "job.inp:8", "node 9 in an element",
            "*INCLUDE is not followed"},
           {nodes + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n*STEP\n", "job.inp:7", "an element with 3 nodes",

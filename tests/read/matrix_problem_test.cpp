@@ -338,7 +338,7 @@ TEST_CASE(
       {small_with("spring = 2.0", ""), "p.toml:4:1: support[1]", "neither fix nor spring", "one of them"},
       {small_with("spring = 2.0", "fix = false"), "p.toml:6:7: support[1].fix", "false", "true"},
       {small_with("[matrix]\n", "[matrix]\nstorage = \"skyline\"\n"), "p.toml:2:11: matrix.storage",
-       "\"skyline\"", "\"band\", or \"sparse\""},
+       "\"skyline\"", "\"band\"; also \"sparse\""},
       {small_with("[[step]]", "[[bed]]\nmodulus = 1\n[[step]]"), "p.toml:12:1: bed", "a bed with a matrix",
        "[[contact]]"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "uniform = 1"), "p.toml:13:1: step[1].uniform",
@@ -354,7 +354,7 @@ TEST_CASE(
       {small_with("face = -0.5\n", "face = -0.5\nother = [\"a\", \"b\"]\n"), "p.toml:11:9: contact[1].other",
        "2 labels", "1, or 1: one for each pair"},
       {small_with("spring = 2.0\n[[contact]]\n", "fix = true\n[[contact]]\nother = \"a\"\n"),
-       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "leave out other"},
+       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "write the pair without other"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "move = [ { dof = \"a\", value = 1 } ]"),
        "p.toml:13:10: step[1].move[1]", "no pair at dof a", "[[contact]]"},
       {small_with("face = -0.5\n", "face = -0.5\nother = \"b\"\n") +

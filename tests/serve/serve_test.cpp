@@ -104,7 +104,7 @@ TEST_CASE("an error is returned as data with file, line and column") {
 
 TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the message names the option") {
   const std::pair<const char*, const char*> wrong[] = {
-      {R"({"kernel": "cpp"})", "found \"kernel\""},
+      {R"({"kernel": "cpp"})", "found the key \"kernel\""},
       {R"({"kernels": "cpp"})", "kernels: found \"cpp\""},
       {R"({"kernels": ["cpp", "cpp"]})", "named twice"},
       {R"({"kernels": ["none"]})", "no kernel is named"},
