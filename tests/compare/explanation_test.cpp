@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -138,15 +141,19 @@ TEST_CASE(
     "every line of the listing that explanations cite has the cited statement, and no line is cited twice") {
   const std::vector<std::string> text = listing_text();
   REQUIRE(text.size() == 69);
-  for (const listing_line& cited : listing::all) {
-    INFO("line " << cited.number);
-    REQUIRE(cited.number >= 1);
-    REQUIRE(cited.number <= static_cast<int>(text.size()));
-    CHECK(statement_of(text[cited.number - 1]) == cited.statement);
-    int times = 0;
-    for (const listing_line& other : listing::all) times += other.number == cited.number ? 1 : 0;
-    CHECK(times == 1);
+  std::ifstream file(CONTCT_CITED_LINES);
+  const std::string header(std::istreambuf_iterator<char>(file), {});
+  const std::regex line(R"re(listing_line \w+\{(\d+),\s*"(.*)"\};)re");
+  std::set<int> cited;
+  for (std::sregex_iterator at(header.begin(), header.end(), line); at != std::sregex_iterator(); ++at) {
+    const int number = std::stoi((*at)[1]);
+    INFO("line " << number);
+    REQUIRE(number >= 1);
+    REQUIRE(number <= static_cast<int>(text.size()));
+    CHECK(statement_of(text[number - 1]) == (*at)[2]);
+    CHECK(cited.insert(number).second);
   }
+  CHECK(cited.size() >= 32);
 }
 
 TEST_CASE("the explanation of a call has its precision, and only those values that the call's IFs computed") {

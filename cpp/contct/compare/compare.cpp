@@ -6,19 +6,12 @@
 #include <utility>
 
 #include "contct/kernel/call.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct {
 namespace {
 
-/// Removes the first line from `text`, and returns it without its newline.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line;
-}
-
-/// Removes the first word from `line`, and returns it without a zero before a decimal point: -.25 for -0.25.
+/// Cut the first word off `line`, without a number's zero before the point: -0.25 becomes -.25.
 std::string take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
   std::string word(line.substr(0, line.find(' ')));

@@ -54,39 +54,6 @@ inline constexpr listing_line format_40{64, "FORMAT(2X, '******* MAKING CONTACT 
 inline constexpr listing_line format_50{65, "FORMAT(2X, '****** BREAKING CONTACT *******')"};
 inline constexpr listing_line format_60{66, "FORMAT(3X, 'CONTACT PAIR: ',I3,' NODE: ',I3,"};
 
-inline constexpr std::array all = {arguments,
-                                   common,
-                                   smin_is_1,
-                                   do_10,
-                                   node,
-                                   ndof,
-                                   gap,
-                                   if_no_response,
-                                   no_response,
-                                   if_stationary,
-                                   stationary,
-                                   moving,
-                                   smallest,
-                                   write_20,
-                                   format_20,
-                                   do_30,
-                                   check_variable,
-                                   diff,
-                                   if_check_positive,
-                                   if_within,
-                                   node_again,
-                                   if_separated,
-                                   make,
-                                   write_40,
-                                   break_,
-                                   if_no_events,
-                                   write_50,
-                                   no_events_return,
-                                   write_60,
-                                   format_40,
-                                   format_50,
-                                   format_60};
-
 }  // namespace listing
 
 /// Why a pair was toggled.

@@ -8,25 +8,12 @@
 #include <limits>
 
 #include "contct/number/bits.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct {
 namespace {
 
 namespace l = listing;
-
-/// Special faults of a line, each a suspect of its own.
-enum another { none, last_pair, wrong_sign, wrong_product, any_number, loop_left };
-
-/// The index of a suspect. If two have the same cost, the smaller index wins.
-constexpr std::size_t at(const listing_line& line, another fault = none) {
-  return 10 * static_cast<std::size_t>(line.number) + fault;
-}
-
-listing_line line_of(std::size_t suspect) {
-  const int number = static_cast<int>(suspect) / 10;
-  return *std::find_if(l::all.begin(), l::all.end(),
-                       [number](const auto& line) { return line.number == number; });
-}
 
 constexpr std::int64_t most_calls = 1000;
 constexpr std::int64_t most_pairs = 500'000;  // a limit for the used calls together, to bound the time
@@ -34,46 +21,21 @@ constexpr double number_bits = 64.0;          // cost of a number that follows n
 constexpr double always_bits = 30.0;          // cost of each exception from a fault that must always occur
 constexpr double unexplained_bits = 200.0;    // cost of each differing value that the line does not explain
 
-/// log2 of the number of ways to choose `k` of `n`.
+/// log2 of the number of ways to choose `k` of `n`, to a few bits.
 double choice_bits(std::int64_t n, std::int64_t k) {
-  const auto log_factorial =
-      [](std::int64_t x) {  // Stirling's formula, to 0.001: lgamma would add 30 kB to the static program
-        constexpr double two_pi = 6.283185307179586;
-        const auto v = static_cast<double>(x);
-        return x < 2 ? 0.0 : v * std::log(v) - v + std::log(two_pi * v) / 2 + 1 / (12 * v);
-      };
-  return n <= k ? 0.0 : (log_factorial(n) - log_factorial(k) - log_factorial(n - k)) / std::log(2.0);
+  const auto all = static_cast<double>(n);
+  const auto some = static_cast<double>(k);
+  if (k == 0 || n <= k) return 0.0;
+  return some * std::log2(all / some) + (all - some) * std::log2(all / (all - some));
 }
 
-void explain_one(suspect& s, double bits, std::int64_t values = 1) {
-  ++s.wrong;
-  s.explained += values;
-  s.bits += bits;
-}
-
-/// Like explain_one, for an IF that compared `left`.
-void explain_if(suspect& s, double left) {
-  s.least = s.wrong == 0 ? left : std::min(s.least, left);
-  s.most = s.wrong == 0 ? left : std::max(s.most, left);
-  explain_one(s, 0.0);
-}
-
-/// The rule of wrong numbers: they repeat their value or their ratio to the right number, or only the ratio.
-enum class rule { any, ratio };
-
-/// The number of bits that describe a wrong number; few if the number follows a rule.
+/// The bits that tell a wrong number in the place of a right one: few where it follows a rule, which is that
+/// of its ratio to the right one, or is 1 where that is a rule.
 template <class Real>
-double value_bits(suspect& s, Real got, Real right, double for_rounding, rule repeats = rule::any) {
-  constexpr std::uint64_t few_ulps = 8;
+double value_bits(suspect& s, Real got, Real right, bool is_1_a_rule = true) {
   const double ratio = static_cast<double>(got) / static_cast<double>(right);
-  const bool same_value = repeats != rule::ratio && static_cast<double>(got) == s.last_value;
-  const bool same_ratio = std::abs(ratio / s.last_ratio - 1.0) < 1e-6;
-  if (!std::isfinite(got) || (got == Real(1) && repeats != rule::ratio) ||
-      got == static_cast<Real>(not_an_answer) || got == -right)
-    return 2.0;
-  if (ulps_between(got, right) <= few_ulps) return for_rounding;
-  if (same_value || same_ratio) return 1.0;
-  s.last_value = static_cast<double>(got);
+  if (!std::isfinite(got) || (is_1_a_rule && got == Real(1))) return 2.0;
+  if (std::abs(ratio / s.last_ratio - 1.0) < 1e-6) return 1.0;
   s.last_ratio = ratio;
   return number_bits;
 }
@@ -81,12 +43,9 @@ double value_bits(suspect& s, Real got, Real right, double for_rounding, rule re
 /// The numbers from which the listing computes SS of one pair.
 template <class Real>
 struct pair_values {
-  Real gap{}, d_star{}, sschk{}, event{}, delta_first{}, s{};
-  Real at_face{}, moving{};  // s by IF (ABS(GAP).LT.EPSGAP) true, and false
-  bool responds = false, is_stationary = false, check = false;
-
-  /// s if IF (DTEST(NDOF).EQ.0.) were missing.
-  [[nodiscard]] Real without_first() const { return is_stationary ? at_face : moving; }
+  Real gap{}, d_star{}, sschk{}, event{}, s{};
+  Real at_face{}, moving{}, without_first{};  // s by that branch; without IF (DTEST(NDOF).EQ.0.)
+  bool is_stationary = false;
 };
 
 /// The values of pair `i` on `dof`, from 0; NaN if the call has no such dof.
@@ -101,93 +60,139 @@ pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std:
   p.gap = c.cc[i] - (is_there ? c.dd[dof] : nan);
   p.sschk = static_cast<Real>(status * c.isurf[i]) / p.d_star;
   p.event = p.sschk * delta;
-  p.delta_first =
-      static_cast<Real>(status * c.isurf[i]) * delta / p.d_star;  // multiplied before the division
-  p.check = p.sschk > Real(0);
-  p.at_face = p.check ? p.event : Real(1);
+  p.at_face = p.sschk > Real(0) ? p.event : Real(1);
   p.moving = p.gap / p.d_star;
-  p.responds = !(p.d_star == Real(0));
   p.is_stationary = std::abs(p.gap) < epsgap;
-  p.s = !p.responds ? Real(1) : p.without_first();
+  p.without_first = p.is_stationary ? p.at_face : p.moving;
+  p.s = p.d_star != Real(0) ? p.without_first : Real(1);
   return p;
 }
 
-/// The change of each pair that a kernel's text reports. I3 cannot print pairs beyond 999.
-std::vector<std::optional<change>> told_by(const std::string& text, std::size_t pairs) {
+std::string cited(const listing_line& line) {
+  return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
+}
+
+/// The branch of the listing that gives the value of an SS, if there is one.
+template <class Real>
+std::string way_words(const pair_values<Real>& p, Real s) {
+  const bool of_event = same_bits(s, p.event) && s != Real(1);
+  if (same_bits(s, p.moving) && (!of_event || !p.is_stationary)) return cited(l::moving);
+  if (of_event) return cited(l::if_check_positive);
+  if (s == Real(1)) return cited(p.d_star != Real(0) ? l::stationary : l::no_response);
+  return "no line";
+}
+
+template <class Real>
+std::string lines_in(const call<Real>& c, const answered_call& right, const call_outputs& other,
+                     const std::string& leader, const std::string& follower) {
+  std::size_t ss = 0;
+  std::size_t isep = 0;
+  while (ss < other.ss.size() && same_bits(c.ss[ss], static_cast<Real>(other.ss[ss]))) ++ss;
+  while (isep < other.isep.size() && right.c.isep[isep] == other.isep[isep]) ++isep;
+  const std::size_t i = ss < other.ss.size() ? ss : isep;
+  if (i >= other.isep.size()) return "";
+  const int before = right.isep_before[i];
+  const pair_values<Real> p = values_of(c, before, i, c.dof.dof_of(c.id[i]) - 1);
+  std::string words = "pair " + std::to_string(i + 1) + ": GAP = " + short_decimal(p.gap) +
+                      ", DTEST = " + short_decimal(p.d_star);
+  if (p.d_star != Real(0) && p.is_stationary) words += ", SSCHK = " + short_decimal(p.sschk);
+  if (i == ss)
+    return words + "; " + leader + " took " + way_words(p, c.ss[i]) + "; " + follower + " has the SS of " +
+           way_words(p, static_cast<Real>(other.ss[i]));
+  const auto set_by = [before](int status) {
+    return status == before ? "left ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
+  };
+  return words + "; " + leader + " " + set_by(right.c.isep[i]) + "; " + follower + " " +
+         set_by(other.isep[i]);
+}
+
+/// "MAKING" and "BREAKING" by pair, as the text of a kernel reports it; pairs of more than three digits are
+/// not reported.
+std::vector<std::optional<change>> told_by(std::string_view text, std::size_t pairs) {
   std::vector<std::optional<change>> told(pairs);
   change what = change::make;
-  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
-    end = std::min(text.find('\n', at), text.size());
-    const std::string line = text.substr(at, end - at);
+  while (!text.empty()) {
+    const std::string line(take_line(text));
     if (line.find("MAKING") != std::string::npos) what = change::make;
     if (line.find("BREAKING") != std::string::npos) what = change::break_;
     const std::size_t pair = line.find("PAIR:");
-    const int number =
-        pair == std::string::npos ? 0 : static_cast<int>(std::strtol(line.c_str() + pair + 5, nullptr, 10));
+    const auto number = pair == std::string::npos ? 0 : std::strtol(line.c_str() + pair + 5, nullptr, 10);
     if (number > 0 && static_cast<std::size_t>(number) <= pairs) told[number - 1] = what;
   }
   return told;
 }
 
+/// A line of text: its numbers; and its form, with a 0 for each character of a number.
 struct text_line {
-  explicit text_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    words = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  /// The label of the FORMAT that the line resembles: 20, 40, 50 or 60.
-  [[nodiscard]] int format() const {
-    const auto has = [this](const char* word) { return words.find(word) != std::string::npos; };
-    return has("NO EVENTS") ? 20 : has("MAKING") ? 40 : has("BREAKING") ? 50 : 60;
-  }
-  /// Appends the line's numbers to `numbers`, and the line to `form`, with 0 for every character of a number
-  /// except the point.
-  void split(std::vector<double>& numbers, std::string& form) const {
+  explicit text_line(const std::string& words) {
     for (const char* at = words.c_str(); *at != '\0';) {
       char* end = nullptr;
-      const double number = *at == 'N' || *at == 'I' ? 0.0 : std::strtod(at, &end);
-      const bool is_number = end != nullptr && end != at;
-      if (is_number) numbers.push_back(number);
-      const std::size_t length = is_number ? end - at : 1;
-      for (std::size_t k = 0; k < length; ++k) form += is_number && at[k] != '.' ? '0' : at[k];
-      at += length;
+      const double number = std::strtod(at, &end);
+      if (end != at) numbers.push_back(number);
+      for (const char* past = std::max<const char*>(end, at + 1); at != past; ++at)
+        form += end > at && *at != '.' ? '0' : *at;
     }
   }
-  std::string words;
+  std::vector<double> numbers = {};
+  std::string form = {};
 };
 
-/// The suspect that explains a line of text: a FORMAT if only the form of numbers differs.
-std::size_t writer_of(const text_line& right, const text_line& got, int last_node) {
-  const int format = right.format();
-  if (format == 40 || format == 50)
-    return got.format() == format ? (format == 40 ? at(l::format_40) : at(l::format_50))
-                                  : (format == 40 ? at(l::write_40) : at(l::write_50));
-  std::vector<double> expected;
-  std::vector<double> found;
-  std::string form;
-  std::string other_form;
-  right.split(expected, form);
-  got.split(found, other_form);
-  constexpr double rounding = 6e-4;  // relative rounding of four digits
+/// What writes a line of text, and what tells it from other lines.
+struct text_writer {
+  std::string_view mark;
+  const listing_line &write, &format;
+};
+
+const text_writer& writer_of(std::string_view line) {
+  static constexpr text_writer writers[] = {{"NO EVENTS", l::write_20, l::format_20},
+                                            {"MAKING", l::write_40, l::format_40},
+                                            {"BREAKING", l::write_50, l::format_50},
+                                            {"", l::write_60, l::format_60}};
+  return *std::ranges::find_if(writers,
+                               [line](const auto& w) { return line.find(w.mark) != std::string_view::npos; });
+}
+
+/// The statement that wrote one line in the place of another: the FORMAT where the numbers are the same in
+/// another form.
+const listing_line& written_by(std::string_view right, std::string_view got, int last_node) {
+  const text_writer& writer = writer_of(right);
+  const text_line expected{std::string(right)};
+  text_line found{std::string(got)};
   const auto same = [](double a, double b) {
+    constexpr double rounding = 6e-4;  // of four digits
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
   };
-  if (!expected.empty() && !found.empty()) {
-    const double power = std::log10(found.back() / expected.back());
-    if (std::abs(power - std::round(power)) < rounding)
-      found.back() = expected.back();  // only the exponent differs
+  if (!expected.numbers.empty() && !found.numbers.empty()) {
+    const double power = std::log10(found.numbers.back() / expected.numbers.back());
+    if (same(power, std::round(power))) found.numbers.back() = expected.numbers.back();  // another exponent
   }
-  const bool only_form = expected.size() != found.size() || form != other_form ||
-                         std::equal(expected.begin(), expected.end(), found.begin(), same);
-  if (format == 20) return only_form ? at(l::format_20) : at(l::write_20);
-  if (only_form || expected.size() < 2) return at(l::format_60);
-  const bool node_alone = expected[0] == found[0] && expected[1] != found[1] && found[1] == last_node;
-  return node_alone ? at(l::node_again) : at(l::write_60);
+  if (!writer.mark.empty() && &writer != &writer_of(got)) return writer.write;
+  if (expected.form != found.form || std::ranges::equal(expected.numbers, found.numbers, same))
+    return writer.format;
+  const bool node_again = expected.numbers.size() > 1 && expected.numbers[0] == found.numbers[0] &&
+                          expected.numbers[1] != found.numbers[1] && found.numbers[1] == last_node;
+  return node_again ? l::node_again : writer.write;
 }
 
 }  // namespace
 
-fault_finder::fault_finder() : suspects_(at(l::format_60) + 10) {}
+void suspect::count(bool goes_wrong, double bits_if_wrong, double bits_if_right, std::int64_t values) {
+  ++reached;
+  if (goes_wrong) explain(bits_if_wrong, values);
+  if (!goes_wrong) bits += bits_if_right;
+}
+
+void suspect::explain(double more_bits, std::int64_t values) {
+  ++wrong;
+  explained += values;
+  bits += more_bits;
+}
+
+suspect& fault_finder::at(const listing_line& line, fault kind) {
+  suspect& s = suspects_[10 * static_cast<std::size_t>(line.number) + kind];
+  s.line = &line;
+  return s;
+}
 
 void fault_finder::note(const answered_call& c, int real_bytes, const call_outputs& other, bool equal) {
   if (real_bytes == 8) note_digest(other);
@@ -204,8 +209,7 @@ void fault_finder::note_digest(const call_outputs& other) {
     digest_ ^= digest_ >> 15U;
   };
   const auto number = [&word](double x) {
-    const auto bits =
-        std::bit_cast<std::uint64_t>(std::isnan(x) ? std::bit_cast<double>(0x7ff8000000000000U) : x);
+    const auto bits = std::bit_cast<std::uint64_t>(std::isnan(x) ? std::nan("") : x);
     word(static_cast<std::uint32_t>(bits >> 32U));
     word(static_cast<std::uint32_t>(bits));
   };
@@ -218,120 +222,81 @@ template <class Real>
 void fault_finder::note_call(const call<Real>& c, const answered_call& right, const call_outputs& other) {
   left_by_.clear();
   const std::int64_t before = differ_;
-  note_scale_factors(c, right, other);
-  note_smallest<Real>(other);
-  note_toggles<Real>(right, other);
-  if (differ_ == before && right.text) note_text(right, other);
-  last_smin_ = other.smin;
-}
-
-template <class Real>
-void fault_finder::note_scale_factors(const call<Real>& c, const answered_call& right,
-                                      const call_outputs& other) {
   for (std::size_t i = 0; i < c.cc.size(); ++i) note_pair(c, right, i, static_cast<Real>(other.ss[i]));
-  if (!c.cc.empty()) note_loop(c, right, other.ss);
+  if (!c.cc.empty()) note_loop(c, other.ss);
+  note_smallest(other);
+  note_toggles<Real>(right, other);
+  if (differ_ == before && right.text && *right.text != other.text) note_text(right, other);
 }
 
 template <class Real>
 void fault_finder::note_pair(const call<Real>& c, const answered_call& right, std::size_t i, Real got) {
   const int status = right.isep_before[i];
-  const auto at_dof = [&](std::int64_t dof) { return values_of(c, status, i, dof); };
-  const pair_values<Real> p = at_dof(c.dof.dof_of(c.id[i]) - 1);
+  const std::int64_t dof = c.dof.dof_of(c.id[i]) - 1;
+  const auto at_dof = [&](std::int64_t other) { return values_of(c, status, i, other); };
+  const pair_values<Real> p = at_dof(dof);
   const bool wrong = !same_bits(got, c.ss[i]);
   differ_ += wrong ? 1 : 0;
   // A line that gives `other` if it is wrong.
-  const auto could_give = [&](std::size_t name, Real other, Real left) {
+  const auto could_give = [&](suspect& s, Real other, Real left, double bits_if_right = 0.0) {
     if (same_bits(other, c.ss[i])) return;
-    ++suspects_[name].reached;
-    if (wrong && same_bits(got, other)) explain_if(suspects_[name], static_cast<double>(left));
+    s.count(wrong && same_bits(got, other), 0.0, bits_if_right);
+    if (wrong && same_bits(got, other)) s.compared.add(static_cast<double>(left));
   };
   // A line that can give any number if it is wrong.
-  const auto assigns = [&](std::size_t name, double for_rounding, rule repeats = rule::any) {
-    ++suspects_[name].reached;
-    if (wrong) explain_one(suspects_[name], value_bits(suspects_[name], got, c.ss[i], for_rounding, repeats));
+  const auto assigns = [&](suspect& s, bool is_1_a_rule = true) {
+    s.count(wrong, wrong ? value_bits(s, got, c.ss[i], is_1_a_rule) : 0.0);
   };
-  could_give(at(l::common), at_dof((c.id[i] - 1LL) * c.dof.indof + c.dof.ndofpn - 1).s, got);
+  // A line that could have taken another dof: what lies outside the arrays is unknown.
+  const auto takes_dof = [&](suspect& s, auto value_at) {
+    constexpr std::int64_t most = 2000;
+    const std::int64_t end = wrong && !std::isnan(got) ? std::min<std::int64_t>(std::ssize(c.dd), most) : 0;
+    std::int64_t k = 0;
+    while (k < end && !same_bits(value_at(at_dof(k)), got)) ++k;
+    s.count(wrong, !wrong ? 0.0 : k < end ? 8.0 : value_bits(s, got, c.ss[i]));
+  };
+  could_give(at(l::common), at_dof((c.id[i] - 1LL) * c.dof.indof + c.dof.ndofpn - 1).s, got, always_bits);
   call<Real> swapped = c;
   std::swap(swapped.dd, swapped.dtest);
-  could_give(at(l::arguments), values_of(swapped, status, i, c.dof.dof_of(c.id[i]) - 1).s, got);
+  could_give(at(l::arguments), values_of(swapped, status, i, dof).s, got, always_bits);
   could_give(at(l::node), at_dof(static_cast<std::int64_t>(i) * c.dof.ndofpn + c.dof.indof - 1).s, got);
-  could_give(at(l::if_no_response), p.responds ? Real(1) : p.without_first(), p.d_star);
-  ++suspects_[at(l::ndof)].reached;
-  const auto of_some_dof = [&](auto s_of) {  // values outside the arrays are unknown
-    constexpr std::int64_t most = 2000;
-    for (std::int64_t dof = 0; dof < std::min<std::int64_t>(std::ssize(c.dd), most); ++dof)
-      if (same_bits(s_of(at_dof(dof)), got)) return true;
-    return false;
-  };
-  const bool is_known = std::isnan(got);
-  if (wrong)
-    explain_one(suspects_[at(l::ndof)],
-                is_known || !of_some_dof([](const auto& q) { return q.s; })
-                    ? value_bits(suspects_[at(l::ndof)], got, c.ss[i], number_bits) + 2.0
-                    : 8.0);
-  if (!p.responds) return assigns(at(l::no_response), 3.0);
+  could_give(at(l::if_no_response), p.d_star != Real(0) ? Real(1) : p.without_first, p.d_star);
+  takes_dof(at(l::ndof), [](const auto& q) { return q.s; });
+  if (p.d_star == Real(0)) return assigns(at(l::no_response));
   could_give(at(l::if_stationary), p.is_stationary ? p.moving : p.at_face, std::abs(p.gap));
-  const bool of_a_gap =
-      !(std::abs(got * p.d_star) < Real(0.999e-10));  // slightly less than EPSGAP, for rounding
   if (!p.is_stationary) {
-    could_give(at(l::gap, wrong_sign), -p.moving, p.gap);
-    const auto other_gap = [d_star = p.d_star](const auto& q) { return q.gap / d_star; };
-    if (wrong && (same_bits(got, p.at_face) || (!is_known && of_some_dof(other_gap)))) {
-      ++suspects_[at(l::gap)].reached;
-      explain_one(suspects_[at(l::gap)], same_bits(got, p.at_face) ? 1.0 : 8.0);
-    } else if (!wrong || of_a_gap) {
-      assigns(at(l::gap), 5.0);
-    }
-    return assigns(at(l::moving), 3.0);
+    could_give(at(l::gap, wrong_sign), -p.moving, p.gap, always_bits);
+    takes_dof(at(l::gap), [d_star = p.d_star](const auto& q) { return q.gap / d_star; });
+    return assigns(at(l::moving));
   }
-  could_give(at(l::if_check_positive), p.check ? Real(1) : p.event, p.sschk);
-  could_give(at(l::check_variable, wrong_sign),
-             p.check             ? Real(1)
-             : p.sschk < Real(0) ? -p.event
-                                 : p.s,
-             p.sschk);
-  if (!wrong || of_a_gap) assigns(at(l::gap), 5.0);
-  if (!wrong || got >= Real(0)) assigns(at(l::check_variable), 5.0);
-  suspects_[at(l::check_variable)].bits += wrong ? 1.0 : 0.0;  // a repeated ratio points to DELTA
-  if (!p.check) return assigns(at(l::stationary), 3.0);
-  if (!wrong || !same_bits(got, p.delta_first))
-    return assigns(at(l::if_check_positive, wrong_product), 3.0, rule::ratio);
-  ++suspects_[at(l::if_check_positive, wrong_product)].reached;
-  explain_one(suspects_[at(l::if_check_positive, wrong_product)], 1.0);
+  could_give(at(l::if_check_positive), p.sschk > Real(0) ? Real(1) : p.event, p.sschk);
+  could_give(at(l::check_variable, wrong_sign), values_of(c, -status, i, dof).s, p.sschk);
+  assigns(at(l::gap));
+  assigns(at(l::check_variable));
+  if (!(p.sschk > Real(0))) return assigns(at(l::stationary));
+  assigns(at(l::if_check_positive, wrong_product), false);
 }
 
 /// Finds where the other kernel left the loop: the SS after it keep their initial values. Suspects are the
 /// branches of the last pair that was set.
 template <class Real>
-void fault_finder::note_loop(const call<Real>& c, const answered_call& right, std::span<const double> ss) {
+void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
   const std::size_t pairs = ss.size();
-  for (const auto& [name, i] :
-       {std::pair(at(l::do_10), std::size_t{0}), {at(l::do_10, last_pair), pairs - 1}}) {
-    ++suspects_[name].reached;
-    if (ss[i] == not_an_answer && !same_bits(c.ss[i], static_cast<Real>(not_an_answer)))
-      explain_one(suspects_[name], 0.0);
-  }
+  at(l::do_10).count(ss[0] == not_an_answer, 0.0, always_bits);
+  at(l::do_10, last_pair).count(ss[pairs - 1] == not_an_answer, 0.0, always_bits);
   std::size_t done = pairs;
   while (done > 0 && ss[done - 1] == not_an_answer) --done;
-  const auto left_behind = [&](std::size_t name, auto took) {
+  const auto left_at = [&](suspect& s, auto took) {
     std::size_t i = 0;
     while (i < pairs && !took(i)) ++i;
-    if (i + 1 < pairs) ++suspects_[name].reached;
-    if (i + 1 != done) return;
-    if (done < pairs) explain_one(suspects_[name], 1.0, static_cast<std::int64_t>(pairs - done));
-    left_by_.push_back(name);
+    if (i + 1 == done) left_by_.push_back(&s);
+    if (i + 1 < pairs) s.count(i + 1 == done, 1.0, always_bits, static_cast<std::int64_t>(pairs - done));
   };
-  const auto of = [&](std::size_t i) {
-    return values_of(c, right.isep_before[i], i, c.dof.dof_of(c.id[i]) - 1);
-  };
-  left_behind(at(l::no_response, loop_left), [&](std::size_t i) { return !of(i).responds; });
-  left_behind(at(l::moving, loop_left),
-              [&](std::size_t i) { return of(i).responds && !of(i).is_stationary; });
-  left_behind(at(l::smallest, loop_left),
-              [&](std::size_t i) { return c.ss[i] > Real(0) && c.ss[i] < Real(1); });
+  left_at(at(l::no_response, loop_left), [&](auto i) { return c.dtest[c.dof.dof_of(c.id[i]) - 1] == 0; });
+  left_at(at(l::smallest, loop_left), [&](auto i) { return c.ss[i] > 0 && c.ss[i] < 1; });
 }
 
-template <class Real>
+/// SMIN, by the other kernel's SS.
 void fault_finder::note_smallest(const call_outputs& other) {
   double least = 1.0;
   bool is_one_of_them = other.smin == 1.0;
@@ -339,27 +304,22 @@ void fault_finder::note_smallest(const call_outputs& other) {
     if (s > 0.0 && s < least) least = s;
     is_one_of_them = is_one_of_them || same_bits(s, other.smin);
   }
-  for (const std::size_t name : {at(l::smin_is_1), at(l::smallest), at(l::smallest, any_number)})
-    ++suspects_[name].reached;
-  if (same_bits(least, other.smin)) return;
-  ++differ_;
-  if (is_one_of_them) explain_one(suspects_[at(l::smallest)], 1.0);
-  if (least == 1.0 && other.smin == not_an_answer)
-    explain_one(suspects_[at(l::if_no_events)], 2.0);  // returned before SMIN was stored
-  for (const std::size_t name : {at(l::smin_is_1), at(l::smallest, any_number)}) {
-    if (name == at(l::smin_is_1) && other.smin > least && least < 1.0) continue;
-    const double bits = other.smin == last_smin_ ? 1.0
-                                                 : value_bits(suspects_[name], static_cast<Real>(other.smin),
-                                                              static_cast<Real>(least), 3.0);
-    explain_one(suspects_[name], bits);
+  const bool wrong = !same_bits(least, other.smin);
+  differ_ += wrong ? 1 : 0;
+  at(l::smallest).count(wrong && is_one_of_them, 1.0);
+  for (suspect* s : {&at(l::smin_is_1), &at(l::smallest, any_number)}) {
+    const double bits = wrong ? value_bits(*s, other.smin, least) : 0.0;
+    s->count(wrong && (s->line != &l::smin_is_1 || !(other.smin > least) || least == 1.0), bits);
   }
+  if (wrong && least == 1.0 && other.smin == not_an_answer)
+    at(l::if_no_events).explain(2.0);  // left before it is given back
 }
 
 template <class Real>
 void fault_finder::note_toggles(const answered_call& right, const call_outputs& other) {
   const std::size_t pairs = other.isep.size();
   const auto smin = static_cast<Real>(other.smin);
-  std::vector<Real> diffs(pairs);
+  std::vector<double> diffs(pairs);
   std::vector<int> toggled(pairs);
   std::vector<std::size_t> expected;  // pairs that DO 30 must toggle
   std::vector<std::size_t> found;     // pairs that the other kernel toggled
@@ -368,7 +328,7 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   for (std::size_t i = 0; i < pairs; ++i) {
     const int before = right.isep_before[i];
     diffs[i] = std::abs(static_cast<Real>(other.ss[i]) - smin) / smin;
-    const bool within = diffs[i] < Real(1) / Real(256);
+    const bool within = diffs[i] < 1.0 / 256.0;
     toggled[i] = !within ? before : before == separated ? in_contact : separated;
     if (within) expected.push_back(i);
     if (other.isep[i] != before) found.push_back(i);
@@ -376,184 +336,98 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
     without_event += other.isep[i] != (smin == Real(1) ? toggled[i] : before) ? 1 : 0;
   }
   differ_ += wrong;
-  if (!expected.empty() || wrong > 0) ++suspects_[at(l::if_no_events)].reached;
+  if (!expected.empty() || wrong > 0) ++at(l::if_no_events).reached;
   const bool has_text = right.text.has_value();
   const auto told = has_text ? told_by(other.text, pairs) : std::vector<std::optional<change>>(pairs);
-  const bool told_none = std::ranges::none_of(told, [](const auto& what) { return what.has_value(); });
-  if (wrong > 0 && without_event == 0 && (!found.empty() || told_none))
-    explain_one(suspects_[at(l::if_no_events)], 4.0, wrong);
+  const bool tells_some = std::ranges::any_of(told, &std::optional<change>::has_value);
+  if (wrong > 0 && without_event == 0 && (!found.empty() || !tells_some))
+    at(l::if_no_events).explain(4.0, wrong);
   if (wrong > 0 && found.empty())
-    for (const std::size_t name : left_by_) suspects_[name].explained += wrong;
+    for (suspect* s : left_by_) s->explained += wrong;
   if (smin == Real(1)) return;
   if (expected.size() > 1) {
-    ++suspects_[at(l::write_60, loop_left)].reached;
-    if (found.size() == 1 && found[0] == expected[0] && wrong + 1 == std::ssize(expected))
-      explain_one(suspects_[at(l::write_60, loop_left)], 0.0, wrong);
+    const bool first_alone =
+        found.size() == 1 && found[0] == expected[0] && wrong + 1 == std::ssize(expected);
+    at(l::write_60, loop_left).count(first_alone, 0.0, always_bits, wrong);
   }
   for (std::size_t i = 0; i < pairs; ++i) {
     note_toggle(right.isep_before[i], other.isep[i], diffs[i], told[i], has_text && i + 1 < 1000);
-    for (const auto& [name, at] :
-         {std::pair(at(l::do_30), std::size_t{0}), {at(l::do_30, last_pair), pairs - 1}}) {
-      if (i != at || toggled[i] == right.isep_before[i]) continue;
-      ++suspects_[name].reached;
-      if (other.isep[i] == right.isep_before[i]) explain_one(suspects_[name], 0.0);
-    }
+    if (toggled[i] == right.isep_before[i]) continue;
+    const bool is_left_out = other.isep[i] == right.isep_before[i];
+    if (i == 0) at(l::do_30).count(is_left_out, 0.0, always_bits);
+    if (i + 1 == pairs) at(l::do_30, last_pair).count(is_left_out, 0.0, always_bits);
   }
 }
 
-template <class Real>
-void fault_finder::note_toggle(int before, int got, Real diff_now, const std::optional<change>& told,
+/// The ISEP of one pair.
+void fault_finder::note_toggle(int before, int got, double diff, const std::optional<change>& told,
                                bool has_text) {
-  const Real epsmul = Real(1) / Real(256);
-  const bool is_within = diff_now < epsmul;
+  const bool is_within = diff < 1.0 / 256.0;
   const bool was_separated = before == separated;
-  const int if_true = in_contact;  // the new ISEP by IF (ISEP(I).EQ.1)
-  const int if_false = separated;
-  const int by_branch = was_separated ? if_true : if_false;
+  const int by_branch = was_separated ? in_contact : separated;
   const bool wrong = got != (is_within ? by_branch : before);
   const bool went_in = has_text ? told.has_value() : got != before;
-  const auto left = static_cast<double>(diff_now);
-  double& least = went_in ? least_true_ : least_false_;
-  double& most = went_in ? most_true_ : most_false_;
-  least = std::min(least, left);
-  most = std::max(most, left);
-  ++suspects_[at(l::diff)].reached;
-  if (wrong && went_in != is_within && got == (went_in ? by_branch : before)) {
-    explain_if(suspects_[at(l::if_within)], left);
-    explain_if(suspects_[at(l::diff)], left);
-  }
+  (went_in ? diffs_in_ : diffs_out_).add(diff);
+  const bool by_if = wrong && went_in != is_within && got == (went_in ? by_branch : before);
+  at(l::diff).count(by_if, 0.0);
+  if (by_if) at(l::if_within).explain(0.0);
+  if (by_if) at(l::if_within).compared.add(diff);
   if (!is_within || (has_text && !told)) return;
-  suspect& assigned = suspects_[was_separated ? at(l::make) : at(l::break_)];
-  ++assigned.reached;
-  const bool other_branch = got == (was_separated ? if_false : if_true);
-  const auto [seen, first] = separated_.emplace(before, other_branch != was_separated);
-  const bool same_as_before = seen->second == (other_branch != was_separated);
-  // A wrong statement sets the same ISEP every time, for each status before.
+  // A statement that sets ISEP sets it to the same for each status.
   const bool is_usual = set_to_.emplace(before, got).first->second == got;
-  assigned.bits += is_usual ? 0.0 : always_bits;
-  if (!wrong) return;
-  if (is_usual)
-    explain_one(assigned,
-                got == before || got == -before || got == static_cast<int>(assigned.last_value) ? 1.0 : 8.0);
-  assigned.last_value = got;
+  at(was_separated ? l::make : l::break_).count(wrong && is_usual, 1.0, is_usual ? 0.0 : always_bits);
+  const bool went_true = (got == (was_separated ? separated : in_contact)) != was_separated;
+  const auto [seen, first] = separated_.emplace(before, went_true);
   const bool told_so = !told || (*told == change::make) == !was_separated;
-  if (other_branch && same_as_before && told_so)
-    explain_one(suspects_[at(l::if_separated)], first ? 2.0 : 0.0);
+  if (wrong && told_so && went_true != was_separated && went_true == seen->second)
+    at(l::if_separated).explain(first ? 2.0 : 0.0);
 }
 
 void fault_finder::note_text(const answered_call& right, const call_outputs& other) {
   std::string_view a = *right.text;
   std::string_view b = other.text;
-  if (a == b) return;
   ++differ_;
   const bool as_many = std::count(a.begin(), a.end(), '\n') == std::count(b.begin(), b.end(), '\n');
-  while (!a.empty()) {
-    const text_line expected(a);
-    const text_line found(b);
-    if (expected.words == found.words) continue;
-    const int format = expected.format();
-    const std::size_t name = as_many ? writer_of(expected, found, right.c.id.empty() ? 0 : right.c.id.back())
-                             : format == 20 ? at(l::write_20)
-                             : format == 40 ? at(l::write_40)
-                             : format == 50 ? at(l::write_50)
-                                            : at(l::write_60);
-    explain_one(suspects_[name], 1.0);
-    if (other.text.empty())
-      for (const std::size_t left : left_by_) ++suspects_[left].explained;
-    if (name == at(l::write_20)) explain_one(suspects_[at(l::if_no_events)], 2.0);
-    return;
-  }
+  std::string_view expected = take_line(a);
+  std::string_view found = take_line(b);
+  for (; expected == found && !a.empty(); found = take_line(b)) expected = take_line(a);
+  const listing_line& line = as_many ? written_by(expected, found, right.c.id.empty() ? 0 : right.c.id.back())
+                                     : writer_of(expected).write;
+  at(line).explain(1.0);
+  if (other.text.empty())
+    for (suspect* s : left_by_) ++s->explained;
+  if (&line == &l::write_20) at(l::if_no_events).explain(2.0);
 }
 
 std::optional<faulty_line> fault_finder::found() const {
-  if (differ_ == 0) return std::nullopt;
-  constexpr std::string_view compared[] = {"DTEST", "ABS(GAP)", "SSCHK", "DIFF"};
-  const std::size_t ifs[] = {at(l::if_no_response), at(l::if_stationary), at(l::if_check_positive),
-                             at(l::if_within)};
-  // A line with one of these faults is wrong in every execution.
-  const std::size_t always[] = {at(l::arguments),          at(l::common),
-                                at(l::gap, wrong_sign),    at(l::do_10),
-                                at(l::do_10, last_pair),   at(l::do_30),
-                                at(l::do_30, last_pair),   at(l::no_response, loop_left),
-                                at(l::moving, loop_left),  at(l::smallest, loop_left),
-                                at(l::write_60, loop_left)};
-  const bool by_threshold = most_true_ < least_false_ || most_false_ < least_true_;
-  // A threshold this close to EPSMUL comes from a different rounding of DIFF, not from a wrong EPSMUL.
-  const auto next_to = [](double x) { return x != 1.0 / 256.0 && std::abs(x * 256.0 - 1.0) < 1e-6; };
-  const bool is_rounded = next_to(most_true_) && next_to(least_false_);
+  const bool by_threshold = diffs_in_.most < diffs_out_.least || diffs_out_.most < diffs_in_.least;
+  // EPSMUL is a power of 2: no wrong constant is next to it, but what rounds DIFF looks so.
+  const bool is_rounded = diffs_in_.most != 1.0 / 256.0 && std::abs(diffs_in_.most * 256.0 - 1.0) < 1e-6;
   double least = std::numeric_limits<double>::infinity();
-  std::size_t best = 0;
-  for (std::size_t name = 0; name < suspects_.size(); ++name) {
-    const suspect& s = suspects_[name];
+  const suspect* best = nullptr;
+  for (const suspect& s : suspects_) {
     if (s.explained == 0) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
     // DIFF and ISEP determine where these two IFs are wrong, so that no executions need be listed.
-    if (name == at(l::if_within))
+    if (s.line == &l::if_within)
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
-    else if (name != at(l::if_separated))
+    else if (s.line != &l::if_separated)
       bits += choice_bits(s.reached, s.wrong);
-    if (std::ranges::find(always, name) != std::end(always))
-      bits += always_bits * static_cast<double>(s.reached - s.wrong);
     if (bits >= least) continue;
     least = bits;
-    best = name;
+    best = &s;
   }
-  const suspect& s = suspects_[best];
-  if (s.explained == 0) return std::nullopt;
-  faulty_line line{line_of(best), s.explained, differ_, std::min(differing_calls_, most_calls), ""};
-  for (std::size_t k = 0; k < std::size(ifs); ++k) {
-    if (ifs[k] != best || !std::isfinite(s.least) || !std::isfinite(s.most)) continue;
-    char text[100];
-    (void)std::snprintf(text, sizeof text, "%s was %.9g to %.9g", std::string(compared[k]).c_str(), s.least,
-                        s.most);
-    line.compared = text;
-  }
+  if (best == nullptr) return std::nullopt;
+  faulty_line line{*best->line, best->explained, differ_, std::min(differing_calls_, most_calls), ""};
+  const std::string_view statement = line.at.statement;
+  const std::size_t open = statement.find("IF (") + 4;
+  const auto& [first, last] = best->compared;
+  if (open < 4 || !std::isfinite(first) || !std::isfinite(last)) return line;
+  char text[100];
+  (void)std::snprintf(text, sizeof text, " was %.9g to %.9g", first, last);
+  line.compared = std::string(statement.substr(open, statement.find('.', open) - open)) + text;
   return line;
 }
-
-namespace {
-
-std::string cited(const listing_line& line) {
-  return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
-}
-
-/// The line of the listing that gives `s`; empty if none does.
-template <class Real>
-std::string way_words(const pair_values<Real>& p, Real s) {
-  if (p.responds && !p.is_stationary && same_bits(s, p.moving)) return cited(l::moving);
-  if (same_bits(s, p.event) && s != Real(1)) return cited(l::if_check_positive);
-  if (same_bits(s, p.moving)) return cited(l::moving);
-  if (s == Real(1)) return cited(p.responds ? l::stationary : l::no_response);
-  return "";
-}
-
-template <class Real>
-std::string lines_in(const call<Real>& c, const answered_call& right, const call_outputs& other,
-                     const std::string& leader, const std::string& follower) {
-  std::size_t ss = 0;
-  std::size_t isep = 0;
-  while (ss < other.ss.size() && same_bits(c.ss[ss], static_cast<Real>(other.ss[ss]))) ++ss;
-  while (isep < other.isep.size() && right.c.isep[isep] == other.isep[isep]) ++isep;
-  const std::size_t i = ss < other.ss.size() ? ss : isep;
-  if (i >= other.isep.size()) return "";
-  const int before = right.isep_before[i];
-  const pair_values<Real> p = values_of(c, before, i, c.dof.dof_of(c.id[i]) - 1);
-  std::string words = "pair " + std::to_string(i + 1) + ": GAP = " + short_decimal(p.gap) +
-                      ", DTEST = " + short_decimal(p.d_star);
-  if (p.responds && p.is_stationary) words += ", SSCHK = " + short_decimal(p.sschk);
-  if (i == ss) {
-    const std::string way = way_words(p, static_cast<Real>(other.ss[i]));
-    return words + "; " + leader + " took " + way_words(p, c.ss[i]) + "; " + follower +
-           (way.empty() ? " has an SS that no line gives" : " has the SS of " + way);
-  }
-  const auto set_by = [before](int status) {
-    return status == before ? "kept ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
-  };
-  return words + "; " + leader + " " + set_by(right.c.isep[i]) + "; " + follower + " " +
-         set_by(other.isep[i]);
-}
-
-}  // namespace
 
 std::string lines_taken(const answered_call& c, int real_bytes, const call_outputs& other,
                         const std::string& leader, const std::string& follower) {

@@ -103,6 +103,13 @@ std::string counted(std::size_t n, std::string_view what) {
   return std::to_string(n).append(" ").append(what).append(n == 1 ? "" : what.ends_with("ch") ? "es" : "s");
 }
 
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower)

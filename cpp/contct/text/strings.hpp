@@ -16,7 +16,10 @@ namespace contct {
 /// Returns "1 node", "3 nodes", "2 mismatches": a number and the noun `what`, in the plural unless `n` is 1.
 [[nodiscard]] std::string counted(std::size_t n, std::string_view what);
 
-/// `text` with ASCII letters in lower case.
+/// Cut the first line off `text`, without its end.
+std::string_view take_line(std::string_view& text);
+
+/// Without capitals, of ASCII.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
 /// A character and its replacement.
