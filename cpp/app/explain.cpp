@@ -152,6 +152,8 @@ exit_status explain_trace(const explain_options& options) {
                                             options.increment, options.file));
   if (const std::optional<faulty_line> line = other.faults.found())
     complain("{}: at fault: {}", k->facts().name, words_of(*line));
+  if (other.first() && other.near.always_answered)
+    for (const std::string& advice : golden_faults(*k)) complain("{}: {}", k->facts().name, advice);
   if (other.first()) return exit_status::kernels_differ;
   if (!options.quiet)
     print_text(fmt::format("\n{} gives the answers of the trace, to the bit\n", k->facts().name));

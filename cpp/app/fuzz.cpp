@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "app/kernel_report.hpp"
-#include "app/outputs.hpp"
+#include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/text/strings.hpp"
@@ -69,8 +69,8 @@ check_report report_of(const fuzz_result& r, const std::string& missed) {
 
 kernel_report kernel_report_of(const fuzz_result& r) {
   const fuzz_follower& f = r.followers.front();
-  return {command_of(r.request), f.name, std::string(name_of(f.highest)), r.calls, f.compared, {},
-          f.mismatch_reports};
+  return {command_of(r.request), f.name,    std::string(name_of(f.highest)), r.calls, f.compared, {},
+          f.mismatch_reports,    f.at_fault};
 }
 
 void print_result(const fuzz_result& r) {
@@ -132,8 +132,13 @@ exit_status run_command(const fuzz_options& options) {
   refuse_many_reported(request.kernels.size() - 1, options.kernel_report + options.badge);
   refuse_shared_outputs(outputs);
   const output_files files(outputs);
-  const fuzz_run run = fuzzed(request, options.report.quiet);
+  fuzz_run run = fuzzed(request, options.report.quiet);
   const fuzz_result& r = run.result;
+  for (fuzz_follower& f : run.result.followers) {
+    if (f.compared.mismatches == 0 || !f.near.always_answered) continue;
+    const std::vector<std::string> advice = golden_faults(*make_kernel(f.name));
+    f.mismatch_reports.insert(f.mismatch_reports.end(), advice.begin(), advice.end());
+  }
   const std::string missed = floors_missed(r);
   if (!options.report.quiet && !takes_standard_output(outputs)) print_result(r);
   flush_standard_output();

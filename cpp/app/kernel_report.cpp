@@ -46,16 +46,16 @@ std::string rung_of(const nearness& n, const tally& compared) {
   return n.most_ulps <= few_ulps ? "ulps" : "events";
 }
 
-std::vector<std::string_view> known_faults(const fault_finder& answers) {
-  std::vector<std::string_view> found;
+std::vector<std::string> known_faults(const fault_finder& answers) {
+  std::vector<std::string> found;
   const std::string digest = fmt::format("digest = \"{:08x}\"", answers.digest());
   constexpr std::string_view says = "{ says = \"";
   for (std::size_t at = hints_toml.find(digest); at != std::string_view::npos;
        at = hints_toml.find(digest, at + 1)) {
     const std::size_t begin = hints_toml.rfind(says, at) + says.size();
-    found.push_back(hints_toml.substr(begin, hints_toml.find('"', begin) - begin));
+    const std::string_view sentence = hints_toml.substr(begin, hints_toml.find('"', begin) - begin);
+    if (!sentence.empty()) found.push_back("known fault: " + std::string(sentence));
   }
-  std::erase(found, std::string_view());
   return found;
 }
 
@@ -83,8 +83,14 @@ std::string report_json(const kernel_report& r) {
   text +=
       fmt::format(" \"calls\": {},\n \"values_compared\": {},\n \"mismatches\": {},\n \"rung\": \"{}\",\n",
                   r.calls, r.compared.values, r.compared.mismatches, r.rung);
-  return json_escaped(text + fmt::format(" \"traces\": [{}],\n \"first_mismatch\": [{}]\n}}\n",
-                                         joined(traces, ","), joined(first_mismatch, ", ")));
+  const std::string at_fault =
+      !r.at_fault ? "null"
+                  : fmt::format(R"({{ "line": {}, "statement": {}, "explained": {}, "differ": {} }})",
+                                r.at_fault->at.number, quoted(r.at_fault->at.statement),
+                                r.at_fault->explained, r.at_fault->differ);
+  return json_escaped(text +
+                      fmt::format(" \"traces\": [{}],\n \"first_mismatch\": [{}],\n \"at_fault\": {}\n}}\n",
+                                  joined(traces, ","), joined(first_mismatch, ", "), at_fault));
 }
 
 std::string badge_svg(const kernel_report& r) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct kernel_report {
   std::int64_t calls = 0;
   tally compared;
   std::vector<replayed_trace> traces;
-  std::vector<std::string> first_mismatch;  ///< lines about the first mismatch
+  std::vector<std::string> first_mismatch;  ///< the first mismatch, in lines
+  std::optional<faulty_line> at_fault = {};
 };
 
 /// Throws std::invalid_argument if `outputs` are requested, but not exactly one kernel is checked.
@@ -38,7 +40,7 @@ void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 
 /// Returns the sentences of reference/course/hints.toml about the known faults that give exactly these
 /// answers. `answers` must be those to the golden set in 8-byte REAL, in the order of the set.
-[[nodiscard]] std::vector<std::string_view> known_faults(const fault_finder& answers);
+[[nodiscard]] std::vector<std::string> known_faults(const fault_finder& answers);
 
 /// The highest level of equality that holds in all replays: "bits", "ulps", "events" or "none".
 [[nodiscard]] std::string rung_of(const nearness& n, const tally& compared);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/kernel_report.hpp"
 #include "contct/matrix/cholesky.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
+
+namespace fs = std::filesystem;
 
 std::vector<std::string> engine_choices() {
   std::vector<std::string> names = engine_names();
@@ -32,6 +35,37 @@ problem read_with_warnings(const problem_options& options, const std::vector<out
   refuse_shared_outputs(outputs, inputs);
   for (const std::string& w : p.warnings) complain("warning: {}", whole_line(w));
   return p;
+}
+
+fs::path find_reference(const std::string& asked) {
+  if (!asked.empty()) return asked;
+  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+  std::string looked_at;
+  for (const char* from_here : {CONTCT_INSTALLED_REFERENCE, "../../reference"}) {
+    fs::path found = (here / from_here).lexically_normal();
+    if (fs::exists(found / "verification.toml")) return found;
+    looked_at += (looked_at.empty() ? "" : " nor ") + (found / "verification.toml").string();
+  }
+  throw input_error("there is neither " + looked_at + "; name the folder with --reference");
+}
+
+std::vector<std::string> golden_faults(kernel& k) {
+  std::vector<fs::path> files;
+  try {
+    for (const auto& entry : fs::directory_iterator(find_reference("") / "traces"))
+      if (entry.path().extension() == ".trace") files.push_back(entry.path());
+  } catch (const std::exception&) {
+    return {};
+  }
+  std::ranges::sort(files);
+  fault_finder answers;
+  for (const fs::path& file : files) {
+    const std::string text = read_input(file.string(), "trace");
+    trace_reader calls(text, file.string());
+    const trace_header h = calls.read_header();
+    if (comparable(h, k.facts())) answers = replay(h, calls, k, nullptr, std::move(answers)).faults;
+  }
+  return known_faults(answers);
 }
 
 path_progress::path_progress(std::size_t steps, bool quiet)

@@ -1,9 +1,11 @@
 // Functions of the commands that follow a path: the choice of the engine, reading the problem, and progress.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "app/outputs.hpp"
+#include "contct/kernel/kernel.hpp"
 #include "contct/model/problem.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
@@ -23,7 +25,15 @@ void refuse_engine_option(const std::string& name);
 [[nodiscard]] problem read_with_warnings(const problem_options& options,
                                          const std::vector<output_option>& outputs);
 
-/// Observes a path and shows its step and increment. Erase `line` before other text is printed.
+/// The requested reference/; or the one installed with the program, even if both were moved; or that of the
+/// tree in which the program was built.
+[[nodiscard]] std::filesystem::path find_reference(const std::string& asked);
+
+/// known_faults of the kernel's answers to the golden set; none where reference/ is not found.
+[[nodiscard]] std::vector<std::string> golden_faults(kernel& k);
+
+/// Observes a path and shows the step and the increment that it has reached. Whoever prints meanwhile erases
+/// the line first.
 class path_progress final : public observer {
  public:
   path_progress(std::size_t steps, bool quiet);

@@ -108,10 +108,9 @@ exit_status run_command(const replay_options& options) {
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   for (const auto& [kernel, faults] : all.faults) {
-    if (const std::optional<faulty_line> line = faults.found())
-      complain("{}: at fault: {}", kernel, words_of(*line));
-    for (const std::string_view advice : known_faults(faults))
-      complain("{}: known fault: {}", kernel, advice);
+    all.report.at_fault = faults.found();
+    if (all.report.at_fault) complain("{}: at fault: {}", kernel, words_of(*all.report.at_fault));
+    for (const std::string& advice : known_faults(faults)) complain("{}: {}", kernel, advice);
   }
   if (report.count(outcome::skipped) == static_cast<std::int64_t>(report.results.size()))
     throw std::invalid_argument(

@@ -7,7 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "app/outputs.hpp"
+#include "app/problem_runs.hpp"
 #include "contct/read/problem_file.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
@@ -20,20 +20,6 @@ namespace {
 
 using json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-/// The requested folder; otherwise the installed reference/, which is found relative to the program;
-/// otherwise reference/ in the source tree of the build.
-fs::path find_reference(const std::string& asked) {
-  if (!asked.empty()) return asked;
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  std::string looked_at;
-  for (const char* from_here : {CONTCT_INSTALLED_REFERENCE, "../../reference"}) {
-    fs::path found = (here / from_here).lexically_normal();
-    if (fs::exists(found / "verification.toml")) return found;
-    looked_at += (looked_at.empty() ? "" : " or ") + (found / "verification.toml").string();
-  }
-  throw input_error("found no file " + looked_at + "; name its folder with --reference");
-}
 
 std::string_view mark_of(const verified_number& n) {
   if (!n.passed) return "FAILED";

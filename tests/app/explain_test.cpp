@@ -276,6 +276,7 @@ TEST_CASE("a call of a trace is explained, and a differing kernel's text and fau
   CHECK_THAT(f.out, Contains("IF (DIFF.LT.EPSMUL) was false, exactly on the threshold"));
   CHECK_THAT(f.err, Contains("the trace kept ISEP; " + plugin + " took line 55, ISEP(I) = -1"));
   CHECK_THAT(f.err, Contains("at fault: line 52, IF (DIFF.LT.EPSMUL) THEN: explains all"));
+  CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
 }
 
 TEST_CASE("contct explain finds no difference in a trace of the listing, and refuses --json for a trace") {

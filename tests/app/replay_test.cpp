@@ -75,8 +75,13 @@ TEST_CASE("a replay of all reference traces names the faulty line of a kernel, a
     traces.push_back(entry.path().string());
   std::sort(traces.begin(), traces.end());
   arguments.insert(arguments.end(), traces.begin(), traces.end());
+  const scratch_folder dir;
+  arguments.insert(arguments.end(), {"--report", (dir.path() / "r.json").string()});
   const finished f = contct_program(root, arguments);
   CHECK(f.exit == 1);
+  const std::string report = dir.read("r.json");
+  CHECK_THAT(report,
+             Contains(R"("at_fault": { "line": 52, "statement": "IF (DIFF.LT.EPSMUL) THEN", "explained": )"));
   CHECK_THAT(f.err, Contains("at fault: line 52, IF (DIFF.LT.EPSMUL) THEN: explains all"));
   CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
 }
