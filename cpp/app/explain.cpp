@@ -74,15 +74,7 @@ bool is_trace(const std::string& file) {
 }
 
 void print_story(const std::vector<sentence>& story) {
-  constexpr int margin = 6;
-  for (const sentence& t : story) {
-    std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
-    const std::string words = t.equation.empty() ? t.words : t.words + " " + t.equation;
-    for (const std::string& line : wrap({words}, look_at_terminal().width - margin)) {
-      print_text(head + line + "\n");
-      head.assign(margin, ' ');
-    }
-  }
+  for (const sentence& t : story) print_text(text_of(look_at_terminal(), t));
 }
 
 /// The IFs that one pair reached, each with its margin.

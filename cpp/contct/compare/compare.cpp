@@ -36,21 +36,8 @@ std::string described(const kernel_facts& k) {
 /// For example "SS(3)", "text, line 2" or "SMIN".
 std::string place_words(const mismatch& d) {
   if (d.index == 0) return d.field;
-  return d.field + (d.field == "text" ? ", line " : "(") + std::to_string(d.index) +
-         (d.field == "text" ? "" : ")");
-}
-
-/// Adds the decimal value to a hexadecimal number: "0x1p-1 = 0.5".
-std::string value_words(const mismatch& d, const std::string& value) {
-  if (d.field != "SS" && d.field != "SMIN") return value;
-  return value + " = " + short_decimal(std::strtod(value.c_str(), nullptr));
-}
-
-/// For example " (3 ULP)"; empty if no numbers were compared.
-std::string ulp_words(const mismatch& d) {
-  if (d.field != "SS" && d.field != "SMIN") return "";
-  if (d.ulps == std::numeric_limits<std::uint64_t>::max()) return " (one is NaN)";
-  return std::string(" (") + std::to_string(d.ulps) + " ULP)";
+  const std::string index = std::to_string(d.index);
+  return d.field == "text" ? "text, line " + index : d.field + "(" + index + ")";
 }
 
 /// The first differences of another answer from the leader's, and the IFs that can have caused them.
@@ -120,9 +107,14 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
 std::vector<std::string> words_of(const mismatch_report& f) {
   std::string line = std::string("call ") + std::to_string(f.call) + ": " + f.follower;
   if (f.where.field == "answer") return {line + " gave no answer: " + f.where.follower};
-  line += " differs in " + place_words(f.where) + ": " + f.leader + " has " +
-          value_words(f.where, f.where.leader) + ", " + f.follower + " has " +
-          value_words(f.where, f.where.follower) + ulp_words(f.where);
+  const bool is_number = f.where.field == "SS" || f.where.field == "SMIN";
+  const auto value = [is_number](const std::string& v) {  // "0x1p-1 = 0.5"
+    return is_number ? v + " = " + short_decimal(std::strtod(v.c_str(), nullptr)) : v;
+  };
+  line += " differs in " + place_words(f.where) + ": " + f.leader + " has " + value(f.where.leader) + ", " +
+          f.follower + " has " + value(f.where.follower);
+  const bool is_nan = f.where.ulps == std::numeric_limits<std::uint64_t>::max();
+  if (is_number) line += is_nan ? " (one is NaN)" : " (" + std::to_string(f.where.ulps) + " ULP)";
   if (f.lines.empty()) return {line, margin_words(f)};
   return {line, margin_words(f), f.lines};
 }

@@ -32,7 +32,11 @@ struct sentence {
 };
 inline constexpr listing_line no_line{0, {}};
 
-/// Returns "advancing", "receding", "stationary" or "no response".
+/// "  38  s = GAP / d* = 0.25.                 (4)"; where there is room, with the statement behind its
+/// number.
+[[nodiscard]] std::string text_of(const terminal& screen, const sentence& t, bool loud = false);
+
+/// "advancing", "receding", "stationary" or "no response".
 [[nodiscard]] std::string_view kind_name(listing_branch way, bool is_separated);
 [[nodiscard]] inline std::string_view kind_name(const explained_pair& p) {
   return kind_name(p.way, p.isep_before == separated);

@@ -22,6 +22,27 @@ std::string side_by_side_words(const explained_kernels& of, double first, double
   return words + fmt::format("{} ULP apart", ulps_apart(first, second, of.real_bytes));
 }
 
+std::string text_of(const terminal& screen, const sentence& t, bool loud) {
+  constexpr int margin = 6;
+  constexpr int statement_width = 49;
+  constexpr int width_with_statements = 120;
+  std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
+  if (screen.width >= width_with_statements) head += fmt::format("{:<{}}", t.at.statement, statement_width);
+  const int room = screen.width - static_cast<int>(head.size());
+  std::vector<std::string> lines = wrap({t.words}, room);
+  if (!t.equation.empty()) {
+    const auto free = room - static_cast<int>(lines.back().size() + t.equation.size());
+    if (free < 1) lines.emplace_back();
+    lines.back() += fmt::format("{:>{}}", t.equation, room - static_cast<int>(lines.back().size()));
+  }
+  std::string text;
+  for (const std::string& line : lines) {
+    text += head + (loud ? painted(screen, paint::bad, line) : line) + "\n";
+    head.assign(head.size(), ' ');
+  }
+  return text;
+}
+
 namespace {
 
 class increment_printer {
@@ -56,29 +77,7 @@ class increment_printer {
     for (const std::string& line : wrap({words}, terminal_.width)) out_ += painted(terminal_, p, line) + "\n";
   }
 
-  /// Adds a sentence as "  38  s = GAP / d* = 0.25.     (4)", with the statement on a wide terminal.
-  void say(const sentence& t, bool loud = false) {
-    constexpr int margin = 6;
-    constexpr int statement_width = 49;
-    constexpr int width_with_statements = 120;
-    std::string head = t.at.number > 0 ? fmt::format("{:>4}  ", t.at.number) : std::string(margin, ' ');
-    if (terminal_.width >= width_with_statements)
-      head += fmt::format("{:<{}}", t.at.statement, statement_width);
-    const int room = terminal_.width - static_cast<int>(head.size());
-    std::vector<std::string> lines = wrap({t.words}, room);
-    if (!t.equation.empty()) {
-      const auto free = room - static_cast<int>(lines.back().size() + t.equation.size());
-      if (free >= 1) {
-        lines.back() += std::string(free, ' ') + t.equation;
-      } else {
-        lines.push_back(fmt::format("{:>{}}", t.equation, room));
-      }
-    }
-    for (const std::string& line : lines) {
-      out_ += head + (loud ? painted(terminal_, paint::bad, line) : line) + "\n";
-      head.assign(head.size(), ' ');
-    }
-  }
+  void say(const sentence& t, bool loud = false) { out_ += text_of(terminal_, t, loud); }
 
   void say_side_by_side(std::string_view what, double first, double second) {
     const std::string words = side_by_side_words(of_, first, second);
