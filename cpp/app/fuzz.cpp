@@ -148,10 +148,7 @@ exit_status run_command(const fuzz_options& options) {
     for (const std::string& name : write_cases(run.cases, options.out, request.seed))
       complain("written: {}", name);
   files.write("--json", fuzz_json(r));
-  if (!(options.kernel_report + options.badge).empty()) {
-    files.write("--report", report_json(kernel_report_of(r)));
-    files.write("--badge", badge_svg(kernel_report_of(r)));
-  }
+  write_report(files, kernel_report_of(r));
   files.write(report_of(r, missed));
   if (r.compared().mismatches > 0) return exit_status::kernels_differ;
   return missed.empty() ? exit_status::solved : exit_status::bad_input;

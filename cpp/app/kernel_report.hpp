@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/outputs.hpp"
 #include "contct/compare/compare.hpp"
 
 namespace contct {
@@ -32,17 +33,12 @@ struct kernel_report {
 /// Throws std::invalid_argument if `outputs` are requested, but not exactly one kernel is checked.
 void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 
-/// The report as JSON, format "contct-report-1".
-[[nodiscard]] std::string report_json(const kernel_report& r);
-
-/// A badge with "CONTCT" and the rung.
-[[nodiscard]] std::string badge_svg(const kernel_report& r);
+/// Writes the requested ones of --report, as JSON of the format "contct-report-1", and --badge, "CONTCT" and
+/// the rung.
+void write_report(const output_files& files, const kernel_report& r);
 
 /// Returns the sentences of reference/course/hints.toml about the known faults that give exactly these
 /// answers. `answers` must be those to the golden set in 8-byte REAL, in the order of the set.
 [[nodiscard]] std::vector<std::string> known_faults(const fault_finder& answers);
-
-/// The highest level of equality that holds in all replays: "bits", "ulps", "events" or "none".
-[[nodiscard]] std::string rung_of(const nearness& n, const tally& compared);
 
 }  // namespace contct

@@ -17,8 +17,8 @@ namespace {
 /// The verdict of a replay. Without strict floating point, a mismatch is attributed to the environment.
 std::string verdict_of(const replay_report& r, const floating_point& fp) {
   if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
-  return fp.strict() ? "equal to the bit"
-                     : fmt::format("equal to the bit, but the environment is not strict ({})", describe(fp));
+  const std::string but = fmt::format(", but the environment is not strict ({})", describe(fp));
+  return "equal to the bit" + (fp.strict() ? "" : but);
 }
 
 /// The results of all traces, for the report about a kernel.
@@ -27,8 +27,7 @@ struct replayed {
   nearness near;
   std::map<std::string, fault_finder> faults;  // one for each kernel name
 
-  void add(const std::string& file, const std::string& text, const replay_report& r,
-           const std::string& details) {
+  void add(const std::string& file, const std::string& text, const replay_report& r) {
     report.traces.push_back(
         {std::filesystem::path(file).stem().string(), sha256(text), r.calls, r.compared.mismatches});
     report.calls += r.calls;
@@ -36,7 +35,7 @@ struct replayed {
     near.most_ulps = std::max(near.most_ulps, r.near.most_ulps);
     near.same_events = near.same_events && r.near.same_events;
     if (report.first_mismatch.empty() && r.first)
-      report.first_mismatch = {report.traces.back().name + ": " + details};
+      report.first_mismatch = {report.traces.back().name + ": " + words_of(*r.first)[0]};
   }
 };
 
@@ -67,7 +66,7 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   result.summary =
       fmt::format("{}; {}, {} compared, {}", verdict_of(r, fp), counted(r.calls, "call"),
                   counted(r.compared.values, "value"), counted(r.compared.mismatches, "mismatch"));
-  all.add(file, text, r, r.first ? words_of(*r.first)[0] : "");
+  all.add(file, text, r);
   if (!r.first) return result;
   result.details = joined(words_of(*r.first), "\n") + "\n";
   if (!fp.strict()) result.details += "the cause is the environment, not the kernel: " + describe(fp) + "\n";
@@ -85,8 +84,7 @@ exit_status run_command(const replay_options& options) {
   for (const std::string& file : options.traces) inputs.push_back({"a trace", file});
   refuse_shared_outputs(outputs, inputs);
   for (const std::string& name : options.kernels) (void)facts_of_kernel(name);
-  const std::vector<std::string> usual = {""};
-  const std::vector<std::string>& kernels = options.kernels.empty() ? usual : options.kernels;
+  const auto kernels = options.kernels.empty() ? std::vector<std::string>(1) : options.kernels;
   const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();
@@ -119,12 +117,9 @@ exit_status run_command(const replay_options& options) {
     print_text(fmt::format("{} passed, {} failed, {} skipped\n", report.count(outcome::passed),
                            report.count(outcome::failed), report.count(outcome::skipped)));
   flush_standard_output();
-  if (!(options.kernel_report + options.badge).empty()) {
-    all.report.kernel = kernels[0];
-    all.report.rung = rung_of(all.near, all.report.compared);
-    files.write("--report", report_json(all.report));
-    files.write("--badge", badge_svg(all.report));
-  }
+  all.report.kernel = kernels[0];
+  all.report.rung = name_of(level_of(all.near, all.report.compared));
+  write_report(files, all.report);
   files.write(report);
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
 }

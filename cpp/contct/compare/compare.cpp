@@ -194,6 +194,18 @@ void follower::measure(const call<double>& leader, const tally& before) {
   near.same_events = near.same_events && std::ranges::equal(leader.isep, answer_.isep);
 }
 
+std::string_view name_of(equality_level l) {
+  constexpr std::string_view names[] = {"bits", "ulps", "events", "certificate", "none"};
+  return names[static_cast<int>(l)];
+}
+
+equality_level level_of(const nearness& n, const tally& compared) {
+  constexpr std::uint64_t few_ulps = 64;
+  if (compared.mismatches == 0) return equality_level::bits;
+  if (!n.same_events) return equality_level::none;
+  return n.most_ulps <= few_ulps ? equality_level::ulps : equality_level::events;
+}
+
 bool comparable(const trace_header& h, const kernel_facts& k) {
   return h.real_bytes == k.real_bytes && h.rule == k.rule;
 }

@@ -133,6 +133,19 @@ struct nearness {
   bool always_answered = true;
 };
 
+/// The levels of equality, highest first.
+enum class equality_level {
+  bits,         ///< every answer equal to the bit, text included
+  ulps,         ///< the same events, numbers within a few ULP
+  events,       ///< the same pairs toggled in every call
+  certificate,  ///< other events, but its own paths certified wherever the leader's are
+  none,
+};
+[[nodiscard]] std::string_view name_of(equality_level l);
+
+/// Of answers that were compared, the closest equality that holds; never `certificate`.
+[[nodiscard]] equality_level level_of(const nearness& n, const tally& compared);
+
 /// Repeats the calls of a leader with a kernel, counts the compared values, and keeps the first mismatch.
 class follower {
  public:

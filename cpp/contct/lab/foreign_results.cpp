@@ -14,6 +14,10 @@ std::string name_of(const verification_case& c) {
   return c.file.substr(0, c.file.rfind('.'));
 }
 
+std::string step_words(const expected_number& e) {
+  return fmt::format("step {}, {}", e.step, quantity_words(e));
+}
+
 bool is_same(const expected_number& a, const expected_number& b) {
   return a.step == b.step && a.quantity == b.quantity && a.node == b.node && a.pair == b.pair &&
          a.element == b.element && a.place == b.place && a.dof == b.dof && a.change == b.change &&
@@ -62,7 +66,9 @@ void judge_entry(const toml_value& entry, const std::vector<expected_number>& al
                                                           : separated;
   n.error = std::abs(n.given - exact_value(*at)) / size_of(*at, all);
   n.passed = n.error <= (is_count_or_state(*at) ? 0.0 : tolerance);
-  c.failed += n.passed ? 0 : 1;
+  if (!n.passed)
+    c.failures.push_back(fmt::format("{}: found {:.10g}; exactly {}: an error of {:.1e}; allowed: {:.1e}",
+                                     step_words(*at), n.given, at->exact, n.error, tolerance));
   c.largest_error = std::max(c.largest_error, n.error);
 }
 
@@ -79,7 +85,7 @@ foreign_case judge_case(const toml_value& given, const verification_case& of, do
   }
   for (const expected_number& e : all)
     if (std::ranges::none_of(c.numbers, [&](const foreign_number& n) { return is_same(n.expected, e); }))
-      c.not_given.push_back(e);
+      c.not_given.push_back(step_words(e));
   return c;
 }
 
@@ -102,7 +108,7 @@ foreign_results judge_results(const std::string& path, const std::vector<verific
     }
     const foreign_case& c = r.cases.emplace_back(judge_case(problems[known.back()], of, r.tolerance));
     r.judged += c.numbers.size();
-    r.failed += c.failed;
+    r.failed += c.failures.size();
   }
   problems.allow_only({known.begin(), known.end()});
   return r;

@@ -18,8 +18,8 @@ struct foreign_number {
 struct foreign_case {
   std::string name;  ///< the problem file's name without its ending
   std::vector<foreign_number> numbers = {};
-  std::vector<expected_number> not_given = {};
-  std::size_t failed = 0;
+  std::vector<std::string> not_given = {};  ///< "step 1, w, node 2"
+  std::vector<std::string> failures = {};   ///< lines
   double largest_error = 0.0;
 };
 

@@ -9,6 +9,7 @@
 #include "contct/lab/random_calls.hpp"
 #include "contct/lab/random_problem.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 constexpr std::int64_t calls_between_progress = 2048;
 constexpr std::int64_t most_calls_before = 40;  // calls before a mismatch, for kernels that keep data
 constexpr std::int64_t problems_certified = 20;
-constexpr std::uint64_t few_ulps = 64;
 
 /// A problem small enough for runs of thousands.
 random_problem quick_problem(std::uint64_t seed, std::int64_t number) {
@@ -150,10 +150,8 @@ class fuzzing final : public observer {
   }
 
   equality_level level_of(const fuzz_follower& total) {
-    if (total.compared.mismatches == 0) return equality_level::bits;
-    if (total.near.same_events)
-      return total.near.most_ulps <= few_ulps ? equality_level::ulps : equality_level::events;
-    return certified_paths(total) ? equality_level::certificate : equality_level::none;
+    const equality_level level = contct::level_of(total.near, total.compared);
+    return level == equality_level::none && certified_paths(total) ? equality_level::certificate : level;
   }
 
   /// Checks the first problems, and those in which any follower differed.
@@ -204,11 +202,6 @@ void fuzz_result::count(const call<double>& answered, std::span<const int> isep_
   }
 }
 
-std::string_view name_of(equality_level l) {
-  constexpr std::string_view names[] = {"bits", "ulps", "events", "certificate", "none"};
-  return names[static_cast<int>(l)];
-}
-
 tally fuzz_result::compared() const {
   tally all;
   for (const fuzz_follower& f : followers) all += f.compared;
@@ -220,24 +213,20 @@ std::string floors_missed(const fuzz_result& r) {
   constexpr std::int64_t enough_calls = 1000;
   if (r.calls < enough_calls) return "";
   const std::int64_t floor = std::max<std::int64_t>(1, r.calls / 10'000);
-  std::string missed;
+  std::vector<std::string> missed;
   const auto need = [&](std::string_view what, std::int64_t count) {
-    if (count >= floor) return;
-    missed += missed.empty() ? "" : ", ";
-    missed.append(what).append(": ").append(std::to_string(count));
+    if (count < floor) missed.push_back(std::string(what) + ": " + std::to_string(count));
   };
   need("make", r.events.make);
   need("break", r.events.break_);
   need("stationary", r.events.stationary);
-  for (std::size_t b = 0; b < branch_names.size(); ++b) {
-    for (const bool outcome : {false, true}) {
+  for (std::size_t b = 0; b < branch_names.size(); ++b)
+    for (const bool outcome : {false, true})
       need(std::string(branch_names[b]) + (outcome ? " true" : " false"),
            r.branches.of(static_cast<branch>(b), outcome));
-    }
-  }
   if (missed.empty()) return "";
-  return "too little was compared: found " + missed + "; allowed: at least " + std::to_string(floor) +
-         " of each";
+  return "too little was compared: found " + joined(missed, ", ") + "; allowed: at least " +
+         std::to_string(floor) + " each";
 }
 
 fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress, const kernel_maker& make) {

@@ -53,16 +53,7 @@ struct fuzz_request {
   int shard = 1, shards = 1;
 };
 
-/// The levels of equality, highest first.
-enum class equality_level {
-  bits,         ///< every answer equal to the bit, text included
-  ulps,         ///< equal events in every call, numbers within a few ULP
-  events,       ///< equal events in every call
-  certificate,  ///< different events, but the kernel's own paths are certified wherever the leader's are
-  none,
-};
-[[nodiscard]] std::string_view name_of(equality_level l);
-
+/// The results of the calls to one follower.
 struct fuzz_follower {
   std::string name;
   tally compared;
