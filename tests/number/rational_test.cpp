@@ -61,7 +61,7 @@ TEST_CASE("the low part of a decimal, found without rational numbers, is that of
   CHECK(compared == 20'000);
 }
 
-TEST_CASE("a rational is rounded to the nearest double, and a tie to the even double") {
+TEST_CASE("a rational is rounded to the nearest double, and a tie to the even one") {
   // Halfway between a double and the next double up, and a tiny amount below and above it.
   const double least = std::numeric_limits<double>::denorm_min();
   const rational hair(integer(1), integer(1) << 2000U);
