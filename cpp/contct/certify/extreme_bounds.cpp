@@ -34,7 +34,7 @@ double above(const poly& p, double top, double close, int bisections, double& re
   const double beyond = std::ranges::max(p) - top;
   reached = std::max({reached, p.front() - top, p.back() - top});
   if (beyond <= reached + close || bisections == 0) return std::max(beyond, 0.0);
-  poly left;  // bisection by de Casteljau's algorithm
+  poly left;  // P. de Casteljau
   poly right = p;
   for (std::size_t last = p.size(); last > 0; --last) {
     left.push_back(right.front());
@@ -47,7 +47,7 @@ double above(const poly& p, double top, double close, int bisections, double& re
 /// A bound on how far p goes beyond its printed extremes, plus its distance from the reported value at its
 /// right end, plus rounding.
 double off_extremes(const poly& p, const value_range& printed, double right_end) {
-  constexpr int bisections = 26;  // each leaves a quarter of the error near a smooth maximum
+  constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
   const double close = rounding_in(p);
   poly b = bernstein_of(p);
   double reached = 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "contct/model/elements.hpp"
@@ -256,28 +257,6 @@ template <class Number>
 struct line_of {
   line_polynomial<Number> w, moment, shear;
 
-  /// Integrates from the left end, under the load q(t) and an imposed curvature.
-  template <class Coefficients>
-  line_of(const line_start<Number>& left, const Coefficients& q, const Number& h, const Number& EI,
-          const Number& curvature)
-      : w(q.size() + 4), moment(q.size() + 2), shear(q.size() + 1) {
-    shear[0] = left.shear;
-    moment[0] = left.moment;
-    moment[1] = left.shear * h;
-    for (std::size_t j = 0; j < q.size(); ++j) {  // dV/dx = q, dM/dx = V
-      const auto n = static_cast<double>(j);
-      shear[j + 1] = q[j] * h / (n + 1);
-      moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
-    }
-    w[0] = left.w;
-    w[1] = left.slope * h;
-    for (std::size_t i = 0; i < moment.size(); ++i) {  // EI (w'' - curvature) = M
-      const auto n = static_cast<double>(i);
-      w[i + 2] = moment[i] * h * h / EI / (n + 1) / (n + 2);
-    }
-    w[2] += curvature * h * h / 2;
-  }
-
   [[nodiscard]] line_start<Number> right_end(const Number& h) const {
     line_start<Number> end{};
     for (const Number& c : w) end.w += c;
@@ -288,10 +267,34 @@ struct line_of {
   }
 };
 
-/// Returns `line` with its slope, dw/dx.
-element_line completed(element_line line) {
+/// Gives `line` its w, moment and shear under the load q(t) and an imposed curvature.
+template <class Line, class Number, class Coefficients>
+void put_along(Line& line, const line_start<Number>& left, const Coefficients& q, const Number& h,
+               const Number& EI, const Number& curvature) {
+  const auto [w, moment, shear] = std::tie(line.w, line.moment, line.shear);
+  w.resize(q.size() + 4);
+  moment.resize(q.size() + 2);
+  shear.resize(q.size() + 1);
+  shear[0] = left.shear;
+  moment[0] = left.moment;
+  moment[1] = left.shear * h;
+  for (std::size_t j = 0; j < q.size(); ++j) {  // dV/dx = q, dM/dx = V
+    const auto n = static_cast<double>(j);
+    shear[j + 1] = q[j] * h / (n + 1);
+    moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
+  }
+  w[0] = left.w;
+  w[1] = left.slope * h;
+  for (std::size_t i = 0; i < moment.size(); ++i) {  // EI (w'' - curvature) = M
+    const auto n = static_cast<double>(i);
+    w[i + 2] = moment[i] * h * h / EI / (n + 1) / (n + 2);
+  }
+  w[2] += curvature * h * h / 2;
+}
+
+/// With the slope, dw/dx.
+void complete(element_line& line) {
   for (const double d : derivative(line.w)) line.slope.push_back(d / line.h);
-  return line;
 }
 
 template <class Coefficients>
@@ -309,40 +312,46 @@ double sum_of_sizes(const poly& p) {
 
 }  // namespace
 
+void beam_lines::put(int e, element_line& line) const {
+  line.left = beam_.x[e];
+  line.h = h_[e];
+  line.right = line.left + line.h;
+  if (const auto* const on = is_broken(e) ? nullptr : pieces_at(pieces_, e)) {
+    line.load = in_doubles(on->front().q);
+    line.load_size = on->front().size;
+  }
+  put_along(line, line_start<double>{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]},
+            line.load, line.h, beam_.EI[e], 0.0);
+  complete(line);
+}
+
 element_line beam_lines::at(int e) const {
-  const double h = h_[e];
-  const auto* const on = is_broken(e) ? nullptr : pieces_at(pieces_, e);
-  const poly q = on != nullptr ? in_doubles(on->front().q) : poly{};
-  const line_of<double> line({w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]}, q, h,
-                             beam_.EI[e], 0.0);
-  return completed({beam_.x[e],
-                    h,
-                    beam_.x[e] + h,
-                    line.w,
-                    {},
-                    line.moment,
-                    line.shear,
-                    q,
-                    on != nullptr ? on->front().size : 0.0});
+  element_line line;
+  put(e, line);
+  return line;
 }
 
 /// Computes the pieces from the left end in 32 digits, and then rounds each coefficient once. With the length
 /// h of the element, the error before this rounding is below 2^-80 load_size h in the shear and
 /// 2^-80 load_size h^2 in the moment; load_size includes the largest shear and moment.
 std::vector<element_line> beam_lines::pieces(int e) const {
-  if (!is_broken(e)) return std::vector<element_line>(1, at(e));
-  line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
   std::vector<element_line> all;
+  if (!is_broken(e)) {
+    put(e, all.emplace_back());
+    return all;
+  }
+  line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
   double size = 0.0;
   for (const element_piece& p : *pieces_at(pieces_, e)) {
     left.shear += p.force;
-    left.moment -= p.moment;  // a moment load that is positive as the slope lowers M
-    const line_of<double_double> line(left, p.q, p.h, p.EI, p.curvature);
+    left.moment -= p.moment;  // of a moment that works on the slope
+    line_of<double_double> line;
+    put_along(line, left, p.q, p.h, p.EI, p.curvature);
     element_line piece{p.left, p.h.hi, p.right, in_doubles(line.w), {}, {}, {}, in_doubles(p.q)};
     piece.moment = in_doubles(line.moment);
     piece.shear = in_doubles(line.shear);
     piece.curvature = p.curvature.hi;
-    all.push_back(completed(std::move(piece)));
+    complete(all.emplace_back(std::move(piece)));
     const double h = h_[e];
     size += p.size + sum_of_sizes(all.back().shear) / h + sum_of_sizes(all.back().moment) / (h * h);
     left = line.right_end(p.h);

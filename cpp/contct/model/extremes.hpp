@@ -24,10 +24,8 @@ using line_polynomial = boost::container::small_vector<Number, 6>;
 struct element_line {
   double left = 0.0, h = 0.0, right = 0.0;
   line_polynomial<double> w, slope, moment, shear, load;
-  /// The sum of the magnitudes of the loads, each as a force per length, and in a broken element also of
-  /// shear and moment: rounding errors are relative to load_size.
-  double load_size = 0.0;
-  double curvature = 0.0;  ///< the imposed curvature
+  double load_size = 0.0;  ///< the magnitudes of `load`, each of which is off by at most 2^-89 of it
+  double curvature = 0.0;  ///< imposed
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.
@@ -50,6 +48,8 @@ class beam_lines {
   [[nodiscard]] const element_results& ends() const { return ends_; }
 
  private:
+  void put(int e, element_line& line) const;
+
   const beam& beam_;
   std::span<const double> u_;
   element_results ends_;
@@ -92,6 +92,9 @@ struct value_range {
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
                                                  std::span<const int> deflecting,
                                                  std::span<const double> element_values = {});
+/// Those of a beam, by its lines under displacement `u`.
+[[nodiscard]] std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines,
+                                                 std::span<const double> u);
 
 /// Stresses at the lower fibre or face, where sagging causes tension. For a beam: "stress", M / W at both
 /// ends of each element. For a plate: "sx", "sy", "txy", principal "s1" >= "s2" and "von_mises" at the
