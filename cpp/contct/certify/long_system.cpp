@@ -18,7 +18,7 @@ std::vector<element_value> values_of(const beam_elements<double_double>& beam, c
     const auto own = u.subspan(std::size_t{2} * e).first<4>();
     const double h = beam.lengths()[e].hi;
     const double stiffness = 2 * beam.EI(e).hi / h;
-    const double chord = ((own[2] - own[0]) / h).hi;
+    const double chord = (own[2] - own[0]).hi / h;
     const double moment = 3 * stiffness * (std::abs(own[1].hi) + std::abs(own[3].hi) + 2 * std::abs(chord));
     for (std::size_t i = 0; i < 4; ++i) {
       const bool shears = i < 2;

@@ -68,12 +68,8 @@ shape_curvatures<Number> curvatures_at(const Number& xi, const Number& eta) {
 /// curvatures_at the four corners; computed only once.
 template <class Number>
 const std::array<shape_curvatures<Number>, 4>& corner_curvatures() {
-  static const auto all = [] {
-    std::array<shape_curvatures<Number>, 4> at{};
-    for (std::size_t k = 0; k < 4; ++k)
-      at[k] = curvatures_at<Number>(Number(corners[k].xi), Number(corners[k].eta));
-    return at;
-  }();
+  const auto at = [](const corner& c) { return curvatures_at<Number>(Number(c.xi), Number(c.eta)); };
+  static const std::array all = {at(corners[0]), at(corners[1]), at(corners[2]), at(corners[3])};
   return all;
 }
 
@@ -293,7 +289,7 @@ std::array<curvature<Number>, 4> curvatures_at_corners(const Number& a, const Nu
   for (std::size_t k = 0; k < 4; ++k) {
     const shape_curvatures<Number>& c = corner_curvatures<Number>()[k];
     const auto add = [](Number& sum, const Number& share, const Number& x) {
-      if (!(share == Number(0))) sum += share * x;  // most shares are 0
+      if (!(share == Number(0))) sum += share * x;  // most are 0
     };
     for (std::size_t i = 0; i < 12; ++i) {
       add(at[k].xx, c.xx[i], v[i]);
