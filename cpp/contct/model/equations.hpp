@@ -74,7 +74,12 @@ void assemble(const Kind& /*kind*/, const Elements& elements, sparse_rows<Number
   for_each_stiffness(elements, [&k](int /*e*/, const auto& dofs, const auto& own) {
     for (std::size_t i = 0; i < dofs.size(); ++i) {
       sparse_row<Number>& row = k[dofs[i]];
-      for (std::size_t j = 0; j < dofs.size(); ++j) row[dofs[j]] += own[i][j];
+      if (row.empty()) row.reserve(dofs.size() == 4 ? 6 : 27);  // the dofs of the adjacent elements
+      auto at = row.end();
+      for (std::size_t j = 0; j < dofs.size(); ++j) {  // most columns are next to the one before
+        if (at == row.end() || ++at == row.end() || at->first != dofs[j]) at = row.try_emplace(dofs[j]).first;
+        at->second += own[i][j];
+      }
     }
   });
 }
