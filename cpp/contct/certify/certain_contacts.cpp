@@ -28,66 +28,53 @@ certain_contacts::certain_contacts(const problem& p, const linear_structure& s, 
                  s.stiffness.is_band() ? std::optional(s.stiffness.band().subdiagonals()) : std::nullopt,
                  quickest_factor(s) == factored_by::cholmod) {}
 
-/// Returns rho^2 for z = 0 (see norm_of) if the residual r is hardly larger than the bound on its error, so
-/// that a better z would gain little; otherwise nothing.
-std::optional<double> certain_contacts::square_without_z(const long_residual& r) const {
-  constexpr double enough = 1.5;
-  double square = 0.0;
-  double least = 0.0;  // part of `square` due to the error bound of r alone
-  for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
-    if (system_.fixed[dof] != 0) continue;
-    const double scaled = stiffness_.scale(dof) * (std::abs(r.force[dof].hi) + r.slack[dof]);
-    const double doubt = stiffness_.scale(dof) * r.slack[dof];
-    square += scaled * scaled;
-    least += doubt * doubt;
-  }
-  if (!(square <= enough * least && least > 0.0)) return std::nullopt;
-  return (square / mu_ + underflow) * (1 + summation_slack);
-}
-
-/// Returns rho, an upper bound on the norm of the residual r in K_A^-1; nothing if the bound is not finite.
-/// With z near K_A^-1 r, and e = r - K_A z, the square of the norm is r'z + z'e + e' K_A^-1 e.
+/// rho: the norm of the residual in K_A^-1, from above. z is about K_A^-1 r, e = r - K_A z, and
+/// rho^2 = r'z + z'e + e' K_A^-1 e. z = 0 is enough where r is little more than what it may be off by.
 std::optional<double> certain_contacts::norm_of(const long_residual& r) {
   const std::size_t n = system_.dofs();
-  long_vector z(n);
-  if (const std::optional<double> square = square_without_z(r)) {
-    z_ = std::move(z);
-    return std::sqrt(*square) * (1 + summation_slack);
-  }
+  z_.assign(n, 0.0);
   std::vector<double> e(n);
   long_vector left = r.force;
-  long_vector product;
-  std::vector<double> sizes;  // sums of the magnitudes of the products in K_A z [dofs]
-  for (int pass = 0; pass < 2; ++pass) {
+  std::vector<double> sizes(n);  // of the products in row i
+  double square = 0.0;
+  for (int pass = 0; pass < 3; ++pass) {
+    double least = 0.0;
+    square = square_of_norm(r, left, sizes, least);
+    if (square <= 1.5 * least || pass == 2) break;
     for (std::size_t dof = 0; dof < n; ++dof) e[dof] = left[dof].hi;
     stiffness_.solve(e);
-    for (std::size_t dof = 0; dof < n; ++dof) z[dof] += e[dof];
-    if (pass == 1) sizes.assign(n, 0.0);
-    product = stiffness_.times(z, sizes);
+    for (std::size_t dof = 0; dof < n; ++dof) z_[dof] += e[dof];
+    sizes.assign(n, 0.0);
+    const long_vector product = stiffness_.times(z_, sizes);
     for (std::size_t dof = 0; dof < n; ++dof)
       left[dof] = system_.fixed[dof] != 0 ? double_double(0.0) : r.force[dof] - product[dof];
   }
+  if (!std::isfinite(square)) return std::nullopt;
+  return std::sqrt(square) * (1 + summation_slack);
+}
+
+/// rho^2 with z_, and with r - K_A z_ in `left`; `least`: what it is with any z, as r may be off.
+double certain_contacts::square_of_norm(const long_residual& r, const long_vector& left,
+                                        std::span<const double> sizes, double& least) const {
   double_double work;
   double slack = 0.0;
   double rest = 0.0;
-  bool any = false;  // some residual is not 0, or may have underflowed
-  for (std::size_t dof = 0; dof < n; ++dof) {
+  bool any = false;  // a residual, or a residual that underflows
+  for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
     if (system_.fixed[dof] != 0) continue;
     any = any || r.force[dof].hi != 0.0 || r.slack[dof] > 0.0;
-    work += z[dof] * (r.force[dof] + left[dof]);
+    work += z_[dof] * (r.force[dof] + left[dof]);
     double size = sizes[dof];
     const double root = 1.0 / stiffness_.scale(dof);
-    size += root * root * std::abs(z[dof].hi) * 2;  // for the springs of the pairs in A
+    size += root * root * std::abs(z_[dof].hi) * 2;  // the springs of A
     const double off = r.slack[dof] + 2 * long_rounding * size;
-    slack += 2 * std::abs(z[dof].hi) * off;
+    slack += 2 * std::abs(z_[dof].hi) * off;
     const double scaled = stiffness_.scale(dof) * (std::abs(left[dof].hi) + off);
     rest += scaled * scaled;
+    least += stiffness_.scale(dof) * r.slack[dof] * stiffness_.scale(dof) * r.slack[dof];
   }
-  const double square =
-      (std::max(work.hi, 0.0) + slack + rest / mu_ + (any ? underflow : 0.0)) * (1 + summation_slack);
-  z_ = std::move(z);
-  if (!std::isfinite(square)) return std::nullopt;
-  return std::sqrt(square) * (1 + summation_slack);
+  least /= mu_;
+  return (std::max(work.hi, 0.0) + slack + rest / mu_ + (any ? underflow : 0.0)) * (1 + summation_slack);
 }
 
 std::vector<int> certain_contacts::pressed(std::span<const double_double> u) const {

@@ -68,6 +68,8 @@ class certain_contacts {
   [[nodiscard]] bool last_digits_decide() const;
   [[nodiscard]] std::optional<double> square_without_z(const long_residual& r) const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
+  [[nodiscard]] double square_of_norm(const long_residual& r, const long_vector& left,
+                                      std::span<const double> sizes, double& least) const;
   [[nodiscard]] bool stands_free(int step, std::span<const double_double> u, const contact_set& b) const;
   /// Removes from `closed` the pairs that may be separated; returns false if no pair was removed.
   bool erase_doubtful(std::span<const double_double> u, double rho, std::vector<int>& closed) const;
