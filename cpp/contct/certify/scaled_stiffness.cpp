@@ -191,7 +191,7 @@ template <class Number>
 std::optional<double> scaled_stiffness::error_of_band(double shift) {
   band_of_numbers<Number> l = band<Number>(shift);
   if (!contct::factor(l)) return std::nullopt;
-  // NOLINTBEGIN(bugprone-branch-clone): if Number is double_double, both branches are the same
+  // NOLINTBEGIN(bugprone-branch-clone): in 32 digits both are one
   const double error = is_narrow() ? largest_row_of_error(band<double_double>(shift), l, long_rounding)
                                    : largest_row_of_error(band<Number>(shift), l, long_rounding);
   // NOLINTEND(bugprone-branch-clone)
@@ -204,8 +204,7 @@ std::optional<double> scaled_stiffness::error_of_columns(double shift) const {
   for (int row = 0; row < a.order(); ++row) a.diagonal(row) -= shift;
   const auto l = sparse_->likewise(a);
   if (!l->factor(diagonal_of(a))) return std::nullopt;
-  // `rounding`: each entry of a row, at most 1, was rounded to a double, the diagonal entry twice.
-  std::size_t most = 0;
+  std::size_t most = 0;  // entries of a row; each, at most 1, was rounded to a double, the diagonal twice
   for (const auto& row : system_.stiffness) most = std::max(most, row.size());
   const double rounding = static_cast<double>(most + 1) * (0x1p-53 + long_rounding);
   return largest_row_of_error(reordered(a, l->places()), l->lower()) + rounding;

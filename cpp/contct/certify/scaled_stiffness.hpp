@@ -69,12 +69,11 @@ class scaled_stiffness {
   [[nodiscard]] double scale(std::size_t dof) const { return scale_[dof]; }
 
  private:
-  /// True for a narrow band, for which L L' is summed in 32 digits.
+  /// The products of a narrow band are summed in 32 digits.
   [[nodiscard]] bool is_narrow() const { return subdiagonals_ && *subdiagonals_ <= 16; }
-  /// S K_A S - shift I as a band.
+  /// S K_A S - shift I, in rows of the band, or by columns.
   template <class Number>
   [[nodiscard]] band_of_numbers<Number> band(double shift) const;
-  /// S K_A S by columns.
   [[nodiscard]] sparse_columns columns() const;
   template <class Put>
   void each_entry(double shift, const Put& put) const;
@@ -97,7 +96,7 @@ class scaled_stiffness {
   std::map<std::pair<int, int>, double_double> beside_;
   std::vector<double> scale_;  // S [dofs]
   long_band narrow_;           // S K_A S as a narrow band
-  sparse_columns columns_;     // S K_A S by columns, rounded to doubles
+  sparse_columns columns_;     // by columns, rounded
   band_matrix factor_;
   std::unique_ptr<sparse_factor> sparse_;  // used instead of factor_
   std::optional<long_band> long_;          // used instead of factor_ and sparse_
