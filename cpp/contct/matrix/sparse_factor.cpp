@@ -82,7 +82,16 @@ class supernode {
     }
   }
 
-  /// Does the part of solving L^T X = Y, in place, that belongs to this supernode's columns.
+  void append_to(sparse_columns& l) const {
+    for (int j = 0; j < width_; ++j) {
+      const double* const column = entries_ + std::size_t{1} * j * height_;
+      l.rows.insert(l.rows.end(), rows_ + j, rows_ + height_);
+      l.values.insert(l.values.end(), column + j, column + height_);
+      l.starts.push_back(static_cast<int>(l.rows.size()));
+    }
+  }
+
+  /// L^T X = Y, likewise.
   void go_back(std::vector<row_of_block>& b) const {
     for (int j = width_; j-- > 0;) {
       const double* const column = entries_ + std::size_t{1} * j * height_;
@@ -154,15 +163,11 @@ class cholmod final : public sparse_factor {
   }
 
   [[nodiscard]] sparse_columns lower() override {
-    cholmod_sparse* l = made(cholmod_factor_to_sparse(factor_, &work_));
-    const auto* const starts = static_cast<const int*>(l->p);
-    const auto* const rows = static_cast<const int*>(l->i);
-    const auto* const values = static_cast<const double*>(l->x);
-    const int entries = starts[l->ncol];
-    sparse_columns columns{
-        {starts, starts + l->ncol + 1}, {rows, rows + entries}, {values, values + entries}};
-    cholmod_free_sparse(&l, &work_);
-    return columns;
+    sparse_columns l;
+    l.rows.reserve(factor_->xsize);
+    l.values.reserve(factor_->xsize);
+    for (std::size_t s = 0; s < factor_->nsuper; ++s) supernode(*factor_, s).append_to(l);
+    return l;
   }
   [[nodiscard]] const std::vector<int>& places() const override { return places_; }
 
