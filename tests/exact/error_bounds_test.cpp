@@ -415,6 +415,22 @@ TEST_CASE(
   CHECK_FALSE(proved(250));  // 250 * 0.005 > 1
 }
 
+TEST_CASE("the bound of a refined state takes no solve, that of a state rounded to doubles does") {
+  const one_end e(beam_over_stop);
+  error_prover prover(e.what, e.structure);
+  prover.keep_proof();
+  const auto has_no_z = [](const error_bounds& b) {
+    REQUIRE(b.proof);
+    return std::ranges::all_of(b.proof->z, [](const double_double& x) { return x == 0.0; });
+  };
+  CHECK_FALSE(has_no_z(prover.bound(e.end.handed())));
+  std::vector<double> u = e.end.displacement;
+  std::vector<int> isep = e.end.isep;
+  const std::optional<end_numbers> numbers = prover.refine(1, u, isep);
+  REQUIRE(numbers);
+  CHECK(has_no_z(prover.bound({1, u, isep, *numbers})));
+}
+
 TEST_CASE("an elastic support without a force does not widen the bounds on reactions") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
