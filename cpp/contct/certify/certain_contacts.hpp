@@ -66,7 +66,6 @@ class certain_contacts {
   /// True if half a unit in the last digits of a given matrix can make K_A indefinite. False for beams and
   /// plates, and if the problem gives `free_motions`.
   [[nodiscard]] bool last_digits_decide() const;
-  [[nodiscard]] std::optional<double> square_without_z(const long_residual& r) const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
   [[nodiscard]] double square_of_norm(const long_residual& r, const long_vector& left,
                                       std::span<const double> sizes, double& least) const;

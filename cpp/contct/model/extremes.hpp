@@ -103,10 +103,6 @@ struct value_range {
 /// results_in_elements.
 [[nodiscard]] element_results stresses_of(const model& m, const element_results& forces);
 
-/// ranges_of a beam whose `lines` are already computed.
-[[nodiscard]] std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines,
-                                                 std::span<const double> u);
-
 /// A bound on the error of each stress from stresses_of, and of each stress along a beam, if no moment is
 /// wrong by more than `moment` and no stress is larger than `largest`. Nothing if there are no stresses.
 [[nodiscard]] std::optional<double> stress_error(const model& m, double moment, double largest);
