@@ -127,10 +127,6 @@ void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& f
   fine.beds.push_back(std::move(made));
 }
 
-std::size_t contacts_of(const problem& p) {
-  return p.beds.empty() ? p.pairs.size() : p.beds.front().first_pair;
-}
-
 }  // namespace
 
 problem refined(const problem& p) {

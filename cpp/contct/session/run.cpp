@@ -43,7 +43,6 @@ run::run(const problem& p, const linear_structure& s, run_request request)
   result.facts = {"contct " CONTCT_VERSION, "listing sha256 " CONTCT_LISTING_SHA256,
                   "floating point: " + describe(probe_floating_point())};
   result.date = wanted.date;
-  result.envelope = wanted.envelope;
   if (wanted.kernels.empty()) return;
   leader_ = make_kernel(wanted.kernels.front());
   leader_facts_ = leader_->facts();
@@ -56,6 +55,7 @@ run::run(const problem& p, const linear_structure& s, run_request request)
 
 void run::go(const run_outputs& outputs, const std::vector<observer*>& shown) {
   to = outputs;
+  result.envelope = wanted.envelope || (to.page != nullptr && starts_from_zero(result.what));
   const bool drawn = to.page != nullptr;
   lockstep_on_path* const compared = result.compared ? &*result.compared : nullptr;
   result.record = run_recorder(

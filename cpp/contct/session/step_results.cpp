@@ -20,6 +20,10 @@ constexpr double above_ties = 1 + 1e-9;
 
 }  // namespace
 
+std::size_t contacts_of(const problem& p) {
+  return p.beds.empty() ? p.pairs.size() : p.beds.front().first_pair;
+}
+
 double deflection_of(const problem& p, std::span<const double> u, int node) {
   return u[static_cast<std::size_t>(node) * dofs_per_node(p.geometry)];
 }
@@ -162,6 +166,7 @@ std::optional<penetration> deepest_penetration(const problem& p, const load& l, 
     const contact_pair& left = pairs[order[i]];
     const contact_pair& right = pairs[order[i + 1]];
     if (left.surface != right.surface || left.face != right.face || left.node == right.node) continue;
+    if (std::min(order[i], order[i + 1]) >= contacts_of(p)) continue;  // a bed, whose pairs yield
     const value_range w = deflections_between(*b, lines, u, left.node, right.node);
     const placed_value& outmost = left.surface == face_above ? w.most : w.least;
     const double at_pairs = std::max(

@@ -17,8 +17,11 @@ namespace contct {
 /// `node` counts from 0; `u`: displacements [dofs].
 [[nodiscard]] double deflection_of(const problem& p, std::span<const double> u, int node);
 
-/// The nodes whose displacement is a deflection, from 0: all nodes of a beam or plate. In a matrix the dofs
-/// of pairs and, if known, the dofs along an axis; all dofs if both are missing.
+/// The number of pairs of [[contact]]; those of beds follow them.
+[[nodiscard]] std::size_t contacts_of(const problem& p);
+
+/// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs of
+/// pairs and, if places are known, dofs along an axis; all dofs if there are neither.
 [[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
 
 /// The name of a node in tables: its number, from 1, or its label in a matrix.

@@ -434,7 +434,7 @@ class table_printer {
     std::string lines;
     const auto add = [&](const std::string& what, double value, const std::string& place, int step,
                          std::string_view quantity) {
-      lines += fmt::format("{:<15} {:<19} {:<22} {}\n", what,
+      lines += fmt::format("{:<17} {:<19} {:<22} {}\n", what,
                            fmt::format("{:.6g}{}", value, unit_words(problem_, quantity)), place,
                            on_one_line(problem_.steps[step - 1].name));
     };

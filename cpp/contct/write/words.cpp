@@ -243,8 +243,7 @@ std::string concentrated_at(const problem& p, const load& l, const step_results&
   if (is_at_end && (at.y == on.y.front() || at.y == on.y.back())) return "";
   for (const point_load& f : l.points)
     if (f.node == node && f.value * f.factor != 0.0) return "a point load";
-  const std::size_t pairs = p.beds.empty() ? p.pairs.size() : p.beds.front().first_pair;
-  for (std::size_t i = 0; i < pairs; ++i)
+  for (std::size_t i = 0; i < contacts_of(p); ++i)
     if (p.pairs[i].node == node && r.pairs[i].force != 0.0) return fmt::format("the force of pair {}", i + 1);
   return "";
 }
@@ -278,6 +277,32 @@ std::string concentration_warning(const problem& p, std::span<const step_record>
     }
   }
   return warning;
+}
+
+std::string shear_warning(const problem& p, std::span<const step_record> steps) {
+  constexpr double noticeable = 0.05;  // share of the largest shear
+  if (!std::holds_alternative<beam>(p.geometry.kind) || p.beds.empty()) return "";
+  const load_path loads(p);
+  placed_value largest;
+  double force = 0.0;  // of the pair there
+  int step = 0;
+  for (const step_record& s : steps) {
+    const step_results r = results_of(p, loads.at(s.end.step, s.end.fraction), s.end);
+    const placed_value& here = std::ranges::find(r.ranges, "shear", &value_range::name)->largest();
+    if (std::abs(here.value) <= std::abs(largest.value)) continue;
+    largest = here;
+    step = s.end.step;
+    force = 0.0;
+    for (std::size_t i = contacts_of(p); i < p.pairs.size(); ++i)
+      if (p.pairs[i].node == here.node) force = r.pairs[i].force;
+  }
+  const double share = force / 2 / std::abs(largest.value);
+  if (!(share > noticeable)) return "";
+  return fmt::format(
+      "{}: the largest shear, {:.4g}{} at {}, may be {} too small: a bed acts at nodes, here with {:.3g}{}. "
+      "Use a finer mesh (element_size)",
+      step_words(p, step), largest.value, unit_words(p, "shear"), place_words(p.geometry, largest),
+      percent_words(share), force, unit_words(p, "force"));
 }
 
 std::string digit_warning(std::span<const step_record> steps) {
@@ -348,7 +373,8 @@ namespace {
 std::vector<std::string> state_warnings(const run_result& r) {
   std::vector<std::string> lines = {r.end.status == path_status::solved ? digit_warning(r.record.steps) : "",
                                     passage_warning(r.what, r.record.steps),
-                                    concentration_warning(r.what, r.record.steps)};
+                                    concentration_warning(r.what, r.record.steps),
+                                    shear_warning(r.what, r.record.steps)};
   std::erase(lines, "");
   return lines;
 }

@@ -89,7 +89,11 @@ constexpr std::string_view end_reason(path_status status) {
 /// empty.
 [[nodiscard]] std::string concentration_warning(const problem& p, std::span<const step_record> steps);
 
-/// The warnings of the problem, without file and line, and the warnings about the states of the run.
+/// A warning if the largest shear of a beam is at a pair of a bed whose force is more than a tenth of the
+/// shear; otherwise empty.
+[[nodiscard]] std::string shear_warning(const problem& p, std::span<const step_record> steps);
+
+/// The warnings of the problem, without file and line, and those of the states of the run.
 [[nodiscard]] std::vector<std::string> warnings_of(const run_result& r);
 
 /// The changes in r.refined in words, one part for each kind of number.
