@@ -252,7 +252,7 @@ TEST_CASE(
   CHECK_THAT(many, !Contains("incr  share"));
   CHECK_THAT(
       many,
-      Contains("largest moment  60                  node 13, x = 12        HL-93 at 12\n"));  // P L / 4
+      Contains("largest moment    60                  node 13, x = 12        HL-93 at 12\n"));  // P L / 4
   const std::string few = table_of(a_run(train + "8\n").result, terminal{}, false).text;
   CHECK_THAT(few, Contains("   2.1  1"));
   CHECK_THAT(few, Contains("end  HL-93 at 8;"));

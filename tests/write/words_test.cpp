@@ -138,6 +138,27 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "a coarse bed hides half of a nodal spring's force from the shear beside a load: a warning is given, and "
+    "none on a fine mesh") {
+  const auto on_bed = [](int elements) {
+    return fmt::format(
+        "[beam]\nlength = 20\nelements = {}\nEI = 1\n[[bed]]\nmodulus = 1\nface = 0\n[[step]]\n"
+        "point = [ {{ node = {}, w = -2 }} ]\n",
+        elements, elements / 2 + 1);
+  };
+  const a_run coarse(on_bed(20), "corrected");
+  const structure_state& end = coarse.result.record.steps[0].end;
+  const step_results found = results_of(coarse.what, coarse.what.steps[0], end);
+  const double shear = found.ranges[2].most.value;
+  CHECK(shear + found.pairs[10].force / 2 == Approx(1.0).epsilon(1e-9));  // P / 2, by symmetry
+  CHECK_THAT(
+      shear_warning(coarse.what, coarse.result.record.steps),
+      StartsWith("step 1: the largest shear, ") && Contains(" at node 1") && Contains("Use a finer mesh"));
+  const a_run fine(on_bed(400), "corrected");
+  CHECK(shear_warning(fine.what, fine.result.record.steps).empty());
+}
+
+TEST_CASE(
     "no warning is given for a force at a free corner of a plate, whose twisting moment is half of the "
     "force") {
   const a_run r(
