@@ -47,7 +47,7 @@ def test_no_library_is_an_import_error_that_says_what_to_do(alone):
     if status == 0:
         pytest.skip("the system has a libcontct.so.0")
     assert "ImportError: contct.py: libcontct.so.0: cannot open shared object file" in errors
-    assert f"beside {alone / 'contct.py'}" in errors and "CONTCT_LIBRARY=" in errors and "sh cpp/run.sh" in errors
+    assert f"next to {alone / 'contct.py'}" in errors and "CONTCT_LIBRARY=" in errors and "sh cpp/run.sh" in errors
     assert "ImportError: contct.py: /no/such.so" in imported(alone, CONTCT_LIBRARY="/no/such.so")[2]
 
 
