@@ -339,7 +339,7 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   if (!expected.empty() || wrong > 0) ++at(l::if_no_events).reached;
   const bool has_text = right.text.has_value();
   const auto told = has_text ? told_by(other.text, pairs) : std::vector<std::optional<change>>(pairs);
-  const bool tells_some = std::ranges::any_of(told, &std::optional<change>::has_value);
+  const bool tells_some = std::ranges::any_of(told, [](const auto& what) { return what.has_value(); });
   if (wrong > 0 && without_event == 0 && (!found.empty() || !tells_some))
     at(l::if_no_events).explain(4.0, wrong);
   if (wrong > 0 && found.empty())
