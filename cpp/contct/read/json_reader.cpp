@@ -86,7 +86,7 @@ class tree_builder {
 
   [[noreturn]] void refuse(std::string_view allowed) const {
     throw input_error(fmt::format(
-        "{}:{}:{}: JSON cannot be read: found {}; allowed: {}", file_, here().line, here().column,
+        "{}:{}:{}: not JSON that we read: found {}; allowed: {}", file_, here().line, here().column,
         next() == text_.size() ? "the end" : in_quotes(text_.substr(next(), 1)), allowed));
   }
 
