@@ -36,36 +36,6 @@ std::string identity(const std::string& kernel) {
       quoted(f.language), quoted(f.compiler), quoted(f.flags), file_sha256(kernel));
 }
 
-}  // namespace
-
-std::string rung_of(const nearness& n, const tally& compared) {
-  constexpr std::uint64_t few_ulps = 64;  // as for fuzz
-  if (compared.mismatches == 0) return "bits";
-  if (!n.same_events) return "none";
-  return n.most_ulps <= few_ulps ? "ulps" : "events";
-}
-
-std::vector<std::string> known_faults(const fault_finder& answers) {
-  std::vector<std::string> found;
-  const std::string digest = fmt::format("digest = \"{:08x}\"", answers.digest());
-  constexpr std::string_view says = "{ says = \"";
-  for (std::size_t at = hints_toml.find(digest); at != std::string_view::npos;
-       at = hints_toml.find(digest, at + 1)) {
-    const std::size_t begin = hints_toml.rfind(says, at) + says.size();
-    const std::string_view sentence = hints_toml.substr(begin, hints_toml.find('"', begin) - begin);
-    if (!sentence.empty()) found.push_back("known fault: " + std::string(sentence));
-  }
-  return found;
-}
-
-void refuse_many_reported(std::size_t kernels, const std::string& outputs) {
-  if (outputs.empty() || kernels == 1) return;
-  throw std::invalid_argument(
-      fmt::format("--report, --badge: found {} kernels to check; allowed: one, named by --kernel (replay) or "
-                  "--kernels LEADER,NAME (fuzz)",
-                  kernels));
-}
-
 std::string report_json(const kernel_report& r) {
   std::vector<std::string> traces;
   std::vector<std::string> first_mismatch;

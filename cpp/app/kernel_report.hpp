@@ -37,15 +37,9 @@ void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 /// the rung.
 void write_report(const output_files& files, const kernel_report& r);
 
-/// As a badge: "CONTCT", and the rung.
-[[nodiscard]] std::string badge_svg(const kernel_report& r);
-
 /// Explains the faults of a kernel by its answers to the golden set in 8-byte REAL, in the order of the set:
 /// "known fault: ..", the sentences of reference/course/hints.toml about the faults that give all of these
 /// answers.
 [[nodiscard]] std::vector<std::string> known_faults(const fault_finder& answers);
-
-/// Of several replays the lowest rung: "bits", "ulps", "events" or "none".
-[[nodiscard]] std::string rung_of(const nearness& n, const tally& compared);
 
 }  // namespace contct
