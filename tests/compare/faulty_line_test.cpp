@@ -92,9 +92,15 @@ TEST_CASE("line 52 is reported for a wrong threshold of DIFF, and line 51 for a 
   CHECK(line_of(no_threshold) == 51);
 }
 
-TEST_CASE(
-    "if only SMIN is wrong, no line that computes SS is reported, since SMIN is compared with the kernel's "
-    "own SS") {
+TEST_CASE("a kernel without text that toggles some separated pairs and leaves others is not told line 54") {
+  fault_finder all;
+  for (const double diff : {0x1p-9, 0x1.8p-9})
+    note(all, with_diffs(0x1p-10, diff), [](call_outputs& o) { o.isep[2] = separated; });
+  note(all, with_diffs(0x1p-11, 0x1p-12), [](call_outputs&) {});  // all three are toggled
+  CHECK(line_of(all) == 52);
+}
+
+TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong, SS are not suspected") {
   fault_finder all;
   for (const double gap : {0.25, 0.3}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
