@@ -67,7 +67,7 @@ TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and 
   CHECK(f.exit == 1);
   CHECK_THAT(f.out, Contains("certificate"));
   CHECK_THAT(f.err, Contains("IF (DIFF.LT.EPSMUL) was false, exactly on the threshold: a tie"));
-  CHECK_THAT(f.err, Contains("shrunk to 1 call(s), 2 pair(s)"));
+  CHECK_THAT(f.err, Contains("reduced to 1 call(s), 2 pair(s)"));
   CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
   const nlohmann::json its = json_of(dir, "f.json").at("followers").at(0);
   CHECK(its.at("rung") == "certificate");

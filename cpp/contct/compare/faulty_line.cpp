@@ -100,7 +100,7 @@ std::string lines_in(const call<Real>& c, const answered_call& right, const call
     return words + "; " + leader + " took " + way_words(p, c.ss[i]) + "; " + follower + " has the SS of " +
            way_words(p, static_cast<Real>(other.ss[i]));
   const auto set_by = [before](int status) {
-    return status == before ? "left ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
+    return status == before ? "kept ISEP" : "took " + cited(status == in_contact ? l::make : l::break_);
   };
   return words + "; " + leader + " " + set_by(right.c.isep[i]) + "; " + follower + " " +
          set_by(other.isep[i]);

@@ -67,7 +67,7 @@ void judge_entry(const toml_value& entry, const std::vector<expected_number>& al
   n.error = std::abs(n.given - exact_value(*at)) / size_of(*at, all);
   n.passed = n.error <= (is_count_or_state(*at) ? 0.0 : tolerance);
   if (!n.passed)
-    c.failures.push_back(fmt::format("{}: found {:.10g}; exactly {}: an error of {:.1e}; allowed: {:.1e}",
+    c.failures.push_back(fmt::format("{}: found {:.10g}; exact value {}; error {:.1e}; allowed: {:.1e}",
                                      step_words(*at), n.given, at->exact, n.error, tolerance));
   c.largest_error = std::max(c.largest_error, n.error);
 }
