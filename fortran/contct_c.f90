@@ -1,13 +1,12 @@
-!> C calls into the 1989 code: the library's only file with bind(C). The procedures' names in C
-!> are their own, so that a second compiler's preprocessor can rename them (fortran/flang.cmake): unit 26
-!> belongs to each compiler's run-time library.
+!> Procedures for C that call the 1989 code and control its unit 26. bind(C) has no names, so that the preprocessor
+!> can rename the procedures for a second compiler, whose run-time library has its own unit 26 (flang.cmake).
 !>
-!> Two builds of contct.f stand behind it, CONTC4 (default REAL, as printed) and CONTC8
-!> (8-byte REAL). Both share COMMON /DOF/ and write to unit 26, and both of these are global
-!> to the process: calls must be serialised by the caller.
+!> contct.f is compiled twice: as CONTC4 with the default REAL, as printed, and as CONTC8 with 8-byte REAL. Both
+!> subroutines share COMMON /DOF/ and unit 26, which are global to the process, so the caller must serialise the
+!> calls.
 !>
-!> Unit 26 is connected to the null device until contct_log_open gives it a file, so that the
-!> listing never leaves a fort.26 behind.
+!> Unit 26 is connected to the null device until contct_log_open connects it to a file, so that the listing never
+!> creates fort.26.
 module contct_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, c_int
   implicit none
@@ -19,7 +18,7 @@ module contct_c
   logical, save :: log_is_connected = .false.
 
   interface
-    !> contct.f as printed: REAL is single precision.
+    !> contct.f as printed, with REAL in single precision.
     subroutine contc4(dd, dtest, cc, ss, smin, id, isep, isurf, nc)
       import :: c_float, c_int
       real(c_float), intent(in) :: dd(*), dtest(*), cc(*)
@@ -29,7 +28,7 @@ module contct_c
       integer(c_int), intent(inout) :: isep(*)
     end subroutine contc4
 
-    !> contct.f with -fdefault-real-8: REAL, its literals and its DATA are double precision.
+    !> contct.f compiled with -fdefault-real-8: REAL, literals and DATA have double precision.
     subroutine contc8(dd, dtest, cc, ss, smin, id, isep, isurf, nc)
       import :: c_double, c_int
       real(c_double), intent(in) :: dd(*), dtest(*), cc(*)
@@ -42,12 +41,12 @@ module contct_c
 
 contains
 
-  !> CONTCT in single precision. Arguments in the listing's order, then COMMON /DOF/.
+  !> Answers one call in single precision. The arguments are the listing's, then COMMON /DOF/.
   subroutine contct_call_r4(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn) &
     bind(C)
     real(c_float), intent(in) :: dd(*), dtest(*)       !< [system dofs]
     real(c_float), intent(in) :: cc(*)                 !< [nc]
-    real(c_float), intent(inout) :: ss(*)              !< [nc] out
+    real(c_float), intent(inout) :: ss(*)              !< [nc] output
     real(c_float), intent(out) :: smin
     integer(c_int), intent(in) :: id(*)                !< [nc] from 1
     integer(c_int), intent(inout) :: isep(*)           !< [nc] +1 separated, -1 in contact
@@ -57,7 +56,7 @@ contains
     call contc4(dd, dtest, cc, ss, smin, id, isep, isurf, nc)
   end subroutine contct_call_r4
 
-  !> CONTCT in double precision. Arguments as above.
+  !> Answers one call in double precision; the arguments are those of contct_call_r4.
   subroutine contct_call_r8(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn) &
     bind(C)
     real(c_double), intent(in) :: dd(*), dtest(*)
@@ -72,7 +71,7 @@ contains
     call contc8(dd, dtest, cc, ss, smin, id, isep, isurf, nc)
   end subroutine contct_call_r8
 
-  !> Fill COMMON /DOF/, and make sure that unit 26 leads somewhere.
+  !> Sets COMMON /DOF/, and connects unit 26 to the null device if it is not connected.
   subroutine set_common(indof_in, ndofpn_in)
     integer(c_int), intent(in) :: indof_in, ndofpn_in
     integer(c_int) :: indof, ndofpn
@@ -86,7 +85,7 @@ contains
     end if
   end subroutine set_common
 
-  !> Connect unit 26 to the existing file `path` (`length` characters), from its beginning.
+  !> Connects unit 26 to the beginning of the existing file `path` of `length` characters.
   !> Returns 0, or the run-time library's error number.
   function contct_log_open(path, length) result(status) bind(C)
     integer(c_int), intent(in), value :: length
@@ -103,20 +102,20 @@ contains
     log_is_connected = status == 0
   end function contct_log_open
 
-  !> Flush the text: the file then has everything that the listing has written.
+  !> Flushes unit 26, so that the file has all text that the listing has written.
   subroutine contct_log_flush() bind(C)
     flush (log_unit)
   end subroutine contct_log_flush
 
-  !> Forget the text: the next line is written at the beginning of the file.
+  !> Rewinds unit 26, so that the next line overwrites the beginning of its file.
   subroutine contct_log_rewind() bind(C)
     rewind (log_unit)
   end subroutine contct_log_rewind
 
-  !> Take unit 26 away from its file; it leads to the null device again.
+  !> Closes the file of unit 26; the next call connects unit 26 to the null device again.
   subroutine contct_log_close() bind(C)
     integer :: status
-    close (log_unit, iostat=status)  ! in a child process its file may be gone already
+    close (log_unit, iostat=status)  ! status is ignored: the file may have been removed
     log_is_connected = .false.
   end subroutine contct_log_close
 

@@ -1,5 +1,5 @@
-# Copies the listing with one thing replaced, every other character kept: the subroutine's name,
-# for a compiler without a preprocessor. Fails unless it is there exactly once.
+# Copies the listing with FROM replaced by TO, such as the subroutine's name for a compiler without a preprocessor.
+# Fails unless the listing contains FROM exactly once.
 # Usage: cmake -DLISTING=<contct.f> -DFROM=<text> -DTO=<text> -DCOPY=<file> -P copy_with.cmake
 file(READ "${LISTING}" text)
 string(REPLACE "${FROM}" "" without "${text}")

@@ -1,5 +1,5 @@
-/* C calls into the listing as f2c translates it: contct_c.f90 once more, for libf2c's unit 26.
- * COMMON /DOF/ is gfortran's and flang's as well: calls must be serialised by the caller. */
+/* Functions for C that call f2c's translation of the listing and control libf2c's unit 26, as contct_c.f90
+ * does for gfortran. All compilers' kernels share COMMON /DOF/, so the caller must serialise the calls. */
 #include <f2c.h>
 
 extern struct { integer indof, ndofpn; } dof_;
@@ -14,10 +14,10 @@ int flush_(void);
 enum { log_unit = 26 };
 static int log_is_connected = 0;
 
-/* Connect unit 26 to a file that exists. Returns 0, or libf2c's error number. */
+/* Connects unit 26 to an existing file. Returns 0, or libf2c's error number. */
 static int connect_log(const char* path, int length) {
   olist arguments = {0};
-  arguments.oerr = 1; /* an error is returned; without this libf2c aborts */
+  arguments.oerr = 1; /* return an error instead of ending the program */
   arguments.ounit = log_unit;
   arguments.ofnm = (char*)path;
   arguments.ofnmlen = length;
@@ -34,10 +34,10 @@ static void disconnect_log(void) {
   log_is_connected = 0;
 }
 
-/* Arguments in the listing's order, then COMMON /DOF/. */
+/* Answers one call in double precision. The arguments are the listing's, then COMMON /DOF/. */
 void contct_f2c_call_r8(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
                         const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn) {
-  static const char nowhere[] = "/dev/null"; /* or else libf2c makes a fort.26 */
+  static const char nowhere[] = "/dev/null"; /* otherwise libf2c would create fort.26 */
   if (!log_is_connected) connect_log(nowhere, sizeof nowhere - 1);
   dof_.indof = indof;
   dof_.ndofpn = ndofpn;

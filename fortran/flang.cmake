@@ -1,13 +1,12 @@
-# The listing by LLVM's flang, behind bind(C) procedures of its own: unit 26 belongs to flang's run-time library.
-# CMake knows one FORTRAN compiler at a time and that is gfortran, so flang is called by hand.
-# Defines the library contct_flang, where flang and its run-time libraries are found.
+# Defines the library contct_flang, the listing and contct_c.f90 compiled by LLVM's flang, if flang and its run-time
+# libraries are found. CMake supports one FORTRAN compiler at a time, which is gfortran, so flang is called directly.
 find_program(CONTCT_FLANG_COMPILER NAMES flang-new-16 DOC "LLVM 16's flang")
 mark_as_advanced(CONTCT_FLANG_COMPILER)
 if(NOT CONTCT_FLANG_COMPILER)
   message(STATUS "flang-new-16 is not found: no kernel \"flang\"")
   return()
 endif()
-file(REAL_PATH ${CONTCT_FLANG_COMPILER} flang)  # in LLVM's bin; the libraries are beside it
+file(REAL_PATH ${CONTCT_FLANG_COMPILER} flang)  # the libraries are in ../lib
 cmake_path(GET flang PARENT_PATH flang_folder)
 find_library(CONTCT_FLANG_RUNTIME FortranRuntime HINTS ${flang_folder}/../lib)
 find_library(CONTCT_FLANG_DECIMAL FortranDecimal HINTS ${flang_folder}/../lib)
@@ -25,7 +24,7 @@ function(add_flang_object name source)
   add_custom_command(OUTPUT ${object}
                      COMMAND ${CONTCT_FLANG_COMPILER} -c -cpp -O2 -fPIC -ffp-contract=off -module-dir ${folder} ${ARGN}
                              ${source} -o ${object}
-                     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}  # flang keeps the path, which is relative to it
+                     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}  # flang stores this relative path
                      DEPENDS ${source} COMMENT "flang: ${name}" VERBATIM)
   list(APPEND flang_objects ${object})
   set(flang_objects ${flang_objects} PARENT_SCOPE)
@@ -43,7 +42,7 @@ add_library(contct_flang STATIC ${flang_objects})
 set_target_properties(contct_flang PROPERTIES LINKER_LANGUAGE CXX)
 set(flang_runtime ${CONTCT_FLANG_RUNTIME} ${CONTCT_FLANG_DECIMAL})
 target_link_libraries(contct_flang PRIVATE "$<BUILD_INTERFACE:${flang_runtime}>")
-set_target_properties(contct_flang PROPERTIES CONTCT_RUNTIME "${flang_runtime}")  # what an installed one names
+set_target_properties(contct_flang PROPERTIES CONTCT_RUNTIME "${flang_runtime}")  # installed CMake files name these
 
 execute_process(COMMAND ${CONTCT_FLANG_COMPILER} --version OUTPUT_VARIABLE said)
 string(REGEX MATCH "version ([0-9.]+)" said "${said}")
