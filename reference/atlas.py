@@ -1,8 +1,8 @@
-"""How often the 1989 rule is wrong, by the unit of length: python3 reference/atlas.py [PROBLEMS [SEED]]
+"""Counts how often the 1989 rule is wrong in different units of length: python3 reference/atlas.py [PROBLEMS [SEED]]
 
-Random beams, the same in each unit but for their size, are followed by three kernels and by the corrected rule, whose states
-are certified. Prints the shares of wrong answers and writes atlas.svg into the folder it runs in. Needs contct.py, and cc for
-a copy of kernels/contct_kernel.c whose EPSMUL is 1e-9.
+Runs random beams, which differ only in scale from unit to unit, with three kernels and with the corrected rule, whose
+states are certified. Prints the shares of wrong answers and writes atlas.svg into the working folder. Needs contct.py,
+and cc for a copy of kernels/contct_kernel.c with an EPSMUL of 1e-9.
 """
 import random
 import subprocess
@@ -18,10 +18,11 @@ COLOURS = {"fortran": "#0072B2", "fortran-r4": "#D55E00", "EPSMUL 1e-9": "#007F5
 
 
 def draw(seed, number, unit):
-    """A beam over one-sided springs of eight decades. Its length is the unit; EI / length^2 and loads are about 1."""
+    """Returns a random beam over pairs with stiffnesses of eight decades. Its length is `unit`, EI is unit^2, and the
+    total loads are about 1."""
     rng = random.Random(f"{seed} {number}")
     elements = rng.randint(3, 16)
-    alike = rng.choice([None, None, 0.0, 0.013 * 10 ** rng.uniform(-2, 0)])  # 0.013: the deflection of a span under 1
+    alike = rng.choice([None, None, 0.0, 0.013 * 10 ** rng.uniform(-2, 0)])  # 0.013: deflection of the beam under a total load of 1
     pairs = []
     for node in sorted(rng.sample(range(2, elements + 1), rng.randint(1, elements - 1))):
         gap = 0.013 * 10 ** rng.uniform(-2, 0.2) if alike is None else alike
@@ -29,7 +30,7 @@ def draw(seed, number, unit):
         pairs.append({"node": node, "surface": "above" if above else "below", "face": (gap if above else -gap) * unit,
                       "stiffness": 10 ** rng.uniform(0, 8) / unit})
     loads = [(rng.uniform(-2, -0.1), rng.randint(2, elements), rng.uniform(-1, 1))]
-    for _ in range(rng.randint(0, 4)):  # off, back, or another share of the step before
+    for _ in range(rng.randint(0, 4)):  # the previous load times 0, -1 or another factor
         factor = rng.choice([0.0, -1.0, rng.uniform(0.1, 3.0)])
         loads.append((loads[-1][0] * factor, loads[-1][1], loads[-1][2] * factor))
     return {"beam": {"length": unit, "elements": elements, "EI": unit ** 2}, "contact": pairs,
@@ -38,14 +39,14 @@ def draw(seed, number, unit):
 
 
 def is_wrong(found, right):
-    """Is a deflection off by more than 0.1 % of the largest one, and the run solved? Other ends are reported to the user."""
+    """Returns True if the run is solved although a deflection has an error above 0.1 % of the largest deflection."""
     allowed = 1e-3 * max(abs(w) for step in right.steps for w in step.w)
     return found.status == "solved" and any(abs(a - b) > allowed for mine, its in zip(found.steps, right.steps)
                                             for a, b in zip(mine.w, its.w))
 
 
 def count(problems, seed, unit, kernels):
-    """How many answers of each kernel are wrong."""
+    """Returns the number of wrong answers of each kernel."""
     wrong = dict.fromkeys(kernels, 0)
     for number in range(problems):
         problem = draw(seed, number, unit)
@@ -58,7 +59,7 @@ def count(problems, seed, unit, kernels):
 
 
 def picture(shares, title):
-    """{kernel: per cent in each unit} as SVG."""
+    """Returns the picture, as SVG, of {kernel: share of wrong answers in each unit, in per cent}."""
     x, y = (lambda decade: 60 + 22 * (decade + 12)), (lambda share: 330 - 3 * share)
     text = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 620 370" font-family="sans-serif" font-size="13">'
             f'<title>{title}</title><rect width="620" height="370" fill="#fff"/><path d="M60 30v300h528" fill="none" stroke="#222"/>']

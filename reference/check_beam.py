@@ -1,4 +1,4 @@
-"""The beam's element and its nodes, in fractions, for check_proof.py; and how the problem file's lists are read."""
+"""Makes the nodes and elements of a beam in fractions, for check_proof.py; also reads lists of a problem file."""
 import re
 from bisect import bisect_left
 from fractions import Fraction as F
@@ -12,13 +12,13 @@ def listed(x):
 
 
 def only(table, keys):
-    """The table, which has no other keys."""
+    """Returns the table. Raises ValueError if it has a key that is not in `keys`."""
     need(isinstance(table, dict) and table.keys() <= set(keys), f"a table has keys other than {sorted(keys)}")
     return table
 
 
 def numbers(which, count):
-    """Numbers from 1 to `count`, each once, as a list, "a..b" or "all"; from 0."""
+    """Returns indices from 0 for different numbers from 1 to `count`, given as a list, "a..b" or "all"."""
     if isinstance(which, str):
         first, last = (1, count) if which == "all" else map(int, re.fullmatch(r"(\d+)\.\.(\d+)", which).groups())
         which = list(range(first, last + 1))
@@ -27,21 +27,22 @@ def numbers(which, count):
 
 
 def same(line):
-    """How far coordinates may be apart and still be the same: 4 roundings of the larger end."""
+    """Returns the distance within which coordinates are equal: 2^-50 of the end with the larger magnitude."""
     return F(1, 2**50) * max(abs(line[0]), abs(line[-1]))
 
 
 def find(line, x):
-    """Which of the rising coordinates is x; None where none is."""
+    """Returns the index of the coordinate that equals x, or None. The coordinates increase."""
     i = bisect_left(line, x)
     near = min((k for k in (i - 1, i) if 0 <= k < len(line)), key=lambda k: abs(line[k] - x))
     return near if abs(line[near] - x) <= same(line) else None
 
 
 class Beam:
-    """An element of length h: dofs w and w' at its left end, w and w' at its right.
+    """An element of length h: dofs w and w' at its left end, w and w' at its right end.
 
-    Released by a hinge at its right end, it has no moment there; its own w' there is condensed, -turn u and what its loads turn it by.
+    If `released`, a hinge makes the moment at the right end 0. The element's w' at this end is condensed: it is
+    -turn . u plus the rotation from the element's loads.
     """
 
     def __init__(self, h, EI, weight=None, released=False):
@@ -54,9 +55,11 @@ class Beam:
             self.stiffness = [[k - a * b * 4 * EI / h for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
 
     def work(self, of):
-        """What a load does on the shapes in t = (x - left) / h, and on the deflection of the middle by a unit load between clamped ends.
+        """Returns a load's work on the four shape functions, and the deflection of the middle that it causes at u = 0.
 
-        of(shape, from, to) is its work on a polynomial between two places; h^3 t^2 (3 - 4 t) / 48 EI is the deflection at t by a unit load in the middle, up to 1/2.
+        of(shape, a, b) is the load's work on a polynomial in t = (x - left) / h from t = a to t = b. The deflection of
+        the middle is the load's work on the deflection under a unit load in the middle, between clamped ends
+        h^3 t^2 (3 - 4 t) / 48 EI for t up to 1/2.
         """
         shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
         forces = [of(shape, F(0), F(1)) for shape in shapes]
@@ -67,7 +70,7 @@ class Beam:
         return forces + [middle]
 
     def load(self, q, left, first=F(0), last=F(1)):
-        """Of the polynomial q in x, between two places."""
+        """Returns `work` of a load that is the polynomial q in x from t = first to t = last."""
         own = [sum(c * comb(k, i) * left**(k - i) for k, c in enumerate(q) if k >= i) * self.h**(i + 1) for i in range(len(q))]
 
         def of(shape, a, b):
@@ -76,37 +79,37 @@ class Beam:
         return self.work(of)
 
     def point(self, force, moment, t):
-        """Of a force and a moment at t, inside the element."""
+        """Returns `work` of a force and a moment at t, inside the element."""
         return self.work(lambda shape, a, b: sum(force * s * t**j + moment * j * s * t**(j - 1) / self.h for j, s in enumerate(shape)) if a < t <= b else F(0))
 
     def bent(self, curvature, first, last):
-        """Of an imposed curvature between two places."""
+        """Returns `work` of an imposed curvature from t = first to t = last."""
         def of(shape, a, b):
             a, b = max(a, first), max(a, first, min(b, last))
             return self.EI * curvature / self.h * sum(j * s * (b**(j - 1) - a**(j - 1)) for j, s in enumerate(shape) if j > 1)
         return self.work(of)
 
     def middle(self, u, work):
-        """w in the middle, for its displacements and its own loads."""
+        """Returns w in the middle, from the element's displacements u and the `work` of its loads."""
         right = -dot(self.turn[:3], u[:3]) if self.released else u[3]
         return (u[0] + u[2]) / 2 + self.h * (u[1] - right) / 8 + work[4]
 
     def values(self, u, work):
-        """(kind, value, square of its error per rho) of what is handed out, for its displacements and its own loads."""
+        """Returns shears and moments at the ends as (kind, value, c), with error^2 <= c rho^2, from u and `work`."""
         v, m, w, n = [dot(row, u) - f for row, f in zip(self.stiffness, work)]
         shear, moment = 12 * self.EI / self.h**3, 4 * self.EI / self.h
         return [("shear", v, shear), ("shear", -w, shear), ("moment", -m, moment), ("moment", n, moment)]
 
 
 def pieces(of):
-    """Of EI or of sections, those with ends."""
+    """Returns the pieces of the beam's EI or section that have an end, "to"."""
     section = {"E", "I", "W", "A", "weight"}
     return [only(piece, {"to", "value"} if "EI" in of else {"to", *section}) for piece in listed(of.get("EI", of.get("section")))
             if isinstance(piece, dict) and "to" in piece]
 
 
 def stiffness(piece):
-    """EI and the weight per length of a piece; the weight None where it is not known."""
+    """Returns EI and the weight per length of a piece; the weight is None if it is unknown."""
     if "value" in piece:
         return real(piece["value"]), None
     EI = positive(real(piece["E"])) * positive(real(piece["I"]))
@@ -114,7 +117,7 @@ def stiffness(piece):
 
 
 def hinges(t, x):
-    """The nodes of hinges, from 0: between others."""
+    """Returns the nodes of hinges, from 0. Raises ValueError unless they are different inner nodes."""
     found = []
     for part in t.get("hinge", []):
         need(len(only(part, {"node", "nodes", "x"})) == 1, "not one of node, nodes and x")
@@ -124,14 +127,14 @@ def hinges(t, x):
 
 
 def named(of, t):
-    """Every x that the problem names outside the beam's own x."""
+    """Returns every x of supports, pairs, hinges, loads and ends of pieces."""
     tables = [part for key in ("support", "contact", "bed", "hinge") for part in t.get(key, [])]
     tables += [part for step in t.get("step", []) + t.get("case", []) for key in ("point", "settlement", "move") for part in step.get(key, [])]
     return [real(x) for part in tables for x in listed(part.get("x", []))] + [real(piece["to"]) for piece in pieces(of)]
 
 
 def sized(of, t, ends):
-    """Nodes at `ends` and at every x between them that the file names; elements between two of these are of equal length."""
+    """Returns nodes at `ends`, at every x of `named` between the ends, and in equal parts between these points."""
     inside = sorted(x for x in set(named(of, t)) if ends[0] < x < ends[-1] and find(ends, x) is None)
     corners = sorted(ends + [x for i, x in enumerate(inside) if i == 0 or x - inside[i - 1] > same(ends)])
     counts = [max(1, ceil((float(b) - float(a)) / float(of["element_size"]) - 1e-9)) for a, b in zip(corners, corners[1:])]
@@ -139,7 +142,7 @@ def sized(of, t, ends):
 
 
 def places(of, t):
-    """Coordinates of the nodes."""
+    """Returns the coordinates of the nodes."""
     need(len(of.keys() & {"EI", "section"}) == 1, "not one of EI and section")
     need(of.keys() - {"EI", "section"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
     if "element_size" in of:
@@ -148,7 +151,7 @@ def places(of, t):
 
 
 def beam(of, t):
-    """Names of dofs, lines of coordinates, how much of the length each node has, and the elements with their dofs and left ends."""
+    """Returns a node's dof names, [x], the nodes' tributary lengths, and (element, dofs, left end) of each element."""
     x = places(of, t)
     if pieces(of):
         ends = [0] + [find(x, real(piece["to"])) for piece in pieces(of)]

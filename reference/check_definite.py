@@ -1,4 +1,4 @@
-"""Is a stiffness positive definite, or semidefinite, for certain? For check_proof.py, in fractions."""
+"""Proves in fractions that a stiffness matrix is positive definite or semidefinite, for check_proof.py."""
 from fractions import Fraction as F
 from math import frexp, sqrt
 
@@ -6,13 +6,15 @@ from check_plate import need
 
 
 def up(x):
-    """x, or a little more (2^-200 of it), with a short denominator."""
+    """Returns x >= 0 rounded up by at most about 2^-200 of x, to a short denominator."""
     shift = max(0, 200 + x.denominator.bit_length() - abs(x.numerator).bit_length())
     return F(-((-x.numerator << shift) // x.denominator), 1 << shift)
 
 
 def reach_of(p, s, springs):
-    """s_i^2 / mu with S K_A S >= mu I; mu is the shift less Gershgorin's discs of S K_A S - shift I - L L'."""
+    """Returns s_i^2 / mu for each dof i, where S = diag(s_i), K_A is K plus `springs` on its diagonal, and
+    S K_A S >= mu I. By Gershgorin, mu is the shift minus the largest row sum of |S K_A S - shift I - L L'|.
+    Raises ValueError unless mu > 0."""
     S = [F(2)**k for k in s["scale"]]
     rows = [[F(x) + F(low) for x, low in zip(*two)] for two in zip(s["L"], s.get("L_low", [[0] * len(row) for row in s["L"]]))]
     unit = max(x.denominator for row in rows for x in row)
@@ -35,7 +37,7 @@ def reach_of(p, s, springs):
 
 
 def factor_of(p, shift):
-    """L of S K S - shift I in doubles, with what reach_of takes besides; None where a pivot is not positive."""
+    """Returns the factor L of S K S - shift I in doubles, in the form for reach_of; None if a pivot is not positive."""
     scale = [-(frexp(float(row[i]))[1] // 2) if row[i] > 0 and i not in p.fixed else 0 for i, row in enumerate(p.K)]
     L, first = [], []
     for i, entries in enumerate(p.K):
@@ -53,7 +55,7 @@ def factor_of(p, shift):
 
 
 def eliminated(p):
-    """Is K semidefinite? Exactly, a dof at a time, that with the fewest neighbours first."""
+    """Returns True if K is semidefinite, by exact elimination of the dof with the fewest neighbours first."""
     rows = {i: {j: k for j, k in row.items() if k and j not in p.fixed} for i, row in enumerate(p.K) if i not in p.fixed}
     while rows:
         i = min(rows, key=lambda i: len(rows[i]))
@@ -71,7 +73,7 @@ def eliminated(p):
 
 
 def semidefinite(p):
-    """By a factor of K itself, as it is shown for K_A; where doubles do not give one, exactly if K is small."""
+    """Returns True if K is proved semidefinite: by a factor in doubles or, for at most 200 free dofs, exactly."""
     for factor in (factor_of(p, 2.0**-k) for k in (8, 16, 24, 32, 40)):
         try:
             if factor and reach_of(p, factor, [F(0)] * p.n):

@@ -1,4 +1,4 @@
-"""The shape of a proof file, for check_proof.py: keys, types, lengths, words and indices, as proof-format.md has them."""
+"""Checks keys, types, lengths, words and indices of a proof file by proof-format.md, for check_proof.py."""
 import json
 from math import isfinite
 
@@ -30,7 +30,7 @@ def once(pairs):
 
 
 def parsed(file, steps):
-    """The entries of `steps`: one for each step of the problem, in order."""
+    """Returns the entries of "steps". Raises ValueError unless there is one for each step of the problem, in order."""
     proof = json.load(file, object_pairs_hook=once, parse_constant=lambda word: need(False, f"{word} is no number"))
     need(type(proof) is dict and list(proof) == ["format", "steps"], "the keys are not format and steps")
     need(proof["format"] == "contct-proof-2", "the format is not contct-proof-2")
@@ -42,7 +42,7 @@ def parsed(file, steps):
 
 
 def check_format(p, s):
-    """Raises ValueError where a step is not what the format allows."""
+    """Raises ValueError if the entry s of a step breaks the format."""
     if s.get("error", 0) is None:
         need(sorted(s) == ["because", "certified", "error", "step"] and type(s["because"]) is str, "without bounds: other keys")
         return

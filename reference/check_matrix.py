@@ -1,4 +1,4 @@
-"""A structure given by its matrix, in fractions, for check_proof.py: each dof becomes a node whose only dof is w."""
+"""Reads a structure given by its matrix into fractions, for check_proof.py: each dof becomes a node with the dof w."""
 from fractions import Fraction as F
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from check_beam import listed, need, only, real
 
 
 def entries(file, *forms):
-    """The form of a Matrix Market file, the numbers of its size, and the lines behind that; blank lines do not count."""
+    """Returns a Matrix Market file's header, its size, and the lines below as lists of words, without blank lines."""
     lines = [line.split() for line in file.read_bytes().split(b"\n")]
     form = b" ".join(lines[0]).decode().lower()
     need(form in [f"%%matrixmarket matrix {of}" for of in forms], f"{file.name}: {form}")
@@ -16,7 +16,7 @@ def entries(file, *forms):
 
 
 def rows(file):
-    """K by rows, from its lower triangle."""
+    """Returns the rows of K, whose lower triangle is in the file."""
     _, (n, columns, count), lines = entries(file, "coordinate real symmetric")
     need(n == columns and len(lines) == count, f"{file.name}: its size is another one")
     K = [{} for _ in range(n)]
@@ -27,7 +27,7 @@ def rows(file):
 
 
 def vector(file, n):
-    """{dof: its load}."""
+    """Returns {dof: load}."""
     form, (size, columns, *count), lines = entries(file, "array real general", "coordinate real general")
     if form.split()[2] == "array":
         lines = [(i + 1, 1, *line) for i, line in enumerate(lines)]
@@ -38,7 +38,7 @@ def vector(file, n):
 
 
 def as_nodes(part, number, keys):
-    """The table with nodes for dofs, fix and springs of w, and w for a value."""
+    """Returns the table with dofs replaced by nodes, and with fix, spring and value for w."""
     only(part, {"dof", "dofs", *keys})
     need(("dof" in part) + ("dofs" in part) == 1, "not one of dof and dofs")
     part = dict(part, nodes=[number[label.encode()] for label in listed(part.pop("dofs", part.pop("dof", None)))])
@@ -51,7 +51,7 @@ def as_nodes(part, number, keys):
 
 
 def matrix(of, t, folder):
-    """K, and the problem in terms of nodes."""
+    """Returns K, and the tables of the problem with nodes instead of dofs."""
     only(of, {"stiffness", "dofs", "coordinates", "free_motions", "storage"})
     need("bed" not in t, "a bed with a matrix")
     K = rows(Path(folder) / of["stiffness"])

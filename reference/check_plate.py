@@ -1,9 +1,12 @@
-"""The plate's element (Adini, Clough, Melosh), in fractions, for check_proof.py: from monomials, by no formula of the program."""
+"""Makes the nodes and elements of a plate in fractions, for check_proof.py.
+
+The element (Adini, Clough, Melosh) follows from monomials, without the program's formulas.
+"""
 from fractions import Fraction as F
 from math import perm
 
 MONOMIALS = [(i, 0) for i in range(4)] + [(0, 1), (1, 1), (2, 1), (3, 1), (0, 2), (1, 2), (0, 3), (1, 3)]  # of x^i y^j
-SLOPES = [(0, 0), (1, 0), (0, 1)]  # the orders of derivatives that are dofs
+SLOPES = [(0, 0), (1, 0), (0, 1)]  # the dofs w, wx and wy as orders of derivatives
 
 
 def need(holds, words):
@@ -12,7 +15,7 @@ def need(holds, words):
 
 
 def real(x):
-    """A number of a file means the shortest decimal that reads as the same double."""
+    """Returns the exact value of a number in a file: the shortest decimal that is read as the same double."""
     need(type(x) is not bool and isinstance(x, (int, F, bytes)), f"{x!r}: not a number")
     return F(repr(float(x)))
 
@@ -27,7 +30,7 @@ def dot(x, y):
 
 
 def at(p, d, x, y):
-    """The derivative of orders d of the monomial of powers p."""
+    """Returns the derivative of orders d of the monomial with powers p, at (x, y)."""
     if d[0] > p[0] or d[1] > p[1]:
         return 0
     return perm(p[0], d[0]) * perm(p[1], d[1]) * x**(p[0] - d[0]) * y**(p[1] - d[1])
@@ -44,12 +47,12 @@ def inverse(a):
 
 
 class Plate:
-    """An element of sides a and b; dofs w, wx and wy at its corners, counter-clockwise from the lower left."""
+    """An element with sides a and b; dofs w, wx and wy at its corners, counter-clockwise from the lower left corner."""
 
     def __init__(self, a, b, D, nu, weight=None):
-        self.a, self.b, self.D, self.nu, self.weight = positive(a), positive(b), positive(D), nu, weight  # the weight of its area
+        self.a, self.b, self.D, self.nu, self.weight = positive(a), positive(b), positive(D), nu, weight  # weight: per area
         self.corners = [(F(0), F(0)), (a, F(0)), (a, b), (F(0), b)]
-        self.shapes = inverse([[at(p, d, x, y) for p in MONOMIALS] for x, y in self.corners for d in SLOPES])  # monomials by dofs
+        self.shapes = inverse([[at(p, d, x, y) for p in MONOMIALS] for x, y in self.corners for d in SLOPES])  # [monomial][dof]
         energy = [[self.bending(p, q) for q in MONOMIALS] for p in MONOMIALS]
         columns = list(zip(*self.shapes))
         half = [[dot(row, column) for column in columns] for row in energy]
@@ -66,13 +69,13 @@ class Plate:
         return self.D * (of(xx, xx) + of(yy, yy) + self.nu * (of(xx, yy) + of(yy, xx)) + 2 * (1 - self.nu) * of(xy, xy))
 
     def load(self, q, _, x=(F(0), F(1)), y=(F(0), F(1))):
-        """Consistent forces of the pressure q[0] on a part, in shares of the sides."""
+        """Returns the consistent forces of the pressure q[0] on the part x by y, given in shares of the sides."""
         part = [[(b**(i + 1) - a**(i + 1)) for i in range(4)] for a, b in (x, y)]
         work = [q[0] * part[0][i] * part[1][j] * self.integral(i, j) for i, j in MONOMIALS]
         return [dot(work, column) for column in zip(*self.shapes)]
 
     def values(self, u, _):
-        """(kind, value, square of its error per rho): mx, my and mxy at the corners."""
+        """Returns mx, my and mxy at the corners as (kind, value, c), with error^2 <= c rho^2."""
         c, D, nu = [dot(row, u) for row in self.shapes], self.D, self.nu
         xx, yy, xy = ([dot(c, [at(p, d, x, y) for p in MONOMIALS]) for x, y in self.corners] for d in [(2, 0), (0, 2), (1, 1)])
         bends, twists = 16 * D / (self.a * self.b), 17 * D * (1 - nu) / (2 * self.a * self.b)
@@ -81,14 +84,14 @@ class Plate:
 
 
 def line(of, key, i):
-    """Points given one by one, or equal parts; and how much of the line each has."""
+    """Returns the coordinates of grid lines, given one by one or in equal parts, and their tributary lengths."""
     size, parts = (of["size"][i], of["elements"][i]) if key not in of else (0, 1)
     x = [real(v) for v in of[key]] if key in of else [real(size) * k / parts for k in range(parts + 1)]
     return x, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])]
 
 
 def plate(of):
-    """Names of dofs, lines of coordinates, how much of the area each node has, and the elements with their dofs and left ends."""
+    """Returns a node's dof names, [x, y], the nodes' tributary areas, and (element, dofs, left end) of each element."""
     grid, material = of.keys() & {"x", "y", "size", "elements"}, of.keys() - {"x", "y", "size", "elements"}
     need(grid in ({"x", "y"}, {"size", "elements"}) and material - {"weight"} in ({"D", "nu"}, {"E", "nu", "thickness"})
          and ("D" not in of or "weight" not in of), "a plate of two forms")

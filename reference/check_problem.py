@@ -1,4 +1,4 @@
-"""A problem file as fractions, for check_proof.py: from its decimals, without the program."""
+"""Reads the decimals of a problem file into fractions, without the program, for check_proof.py."""
 from fractions import Fraction as F
 
 from check_beam import beam, find, listed, need, numbers, only, positive, real
@@ -13,7 +13,7 @@ def one_each(values, nodes):
 
 
 def combinations(t, line):
-    """Of each combination and each place of a train its tables of loads, each with a factor."""
+    """Returns a list of (table of loads, factor) for each combination and each place of a train."""
     cases = {c["name"]: {key: value for key, value in c.items() if key != "name"} for c in t.get("case", [])}
     need(len(cases) == len(t.get("case", [])) and "step" not in t, "two cases of one name, or steps beside combinations")
 
@@ -30,13 +30,13 @@ def combinations(t, line):
 
 
 class Problem:
-    """K by rows, supports, pairs and loads, as fractions."""
+    """K by rows, supports, pairs and loads in fractions."""
 
     def __init__(self, t, folder):
         only(t, TOP)
         need(len(t.keys() & {"beam", "plate", "matrix"}) == 1, "not one structure")
         need("hinge" not in t or "beam" in t, "a hinge without a beam")
-        self.definite, self.of_elements = "matrix" not in t, 0  # is K certainly semidefinite; how many numbers elements have
+        self.definite, self.of_elements = "matrix" not in t, 0  # K is proved semidefinite; number of element results
         if "matrix" in t:
             self.K, t = matrix(t["matrix"], t, folder)
             self.names, self.lines, share, self.elements, self.span = ["w"], [], [F(1)] * len(self.K), [], F(0)
@@ -51,11 +51,11 @@ class Problem:
         for element, dofs, _ in self.elements:
             for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
                 self.K[i][j] = self.K[i].get(j, 0) + k
-        self.supports = []  # (dof, its spring; None: fixed)
+        self.supports = []  # (dof, spring stiffness, or None if fixed)
         for s in t.get("support", []):
             self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs, self.others = [], []  # (dof, n, face, stiffness); the dof with the face, or None. `loads` moves the faces
+        self.pairs, self.others = [], []  # (dof, n, face, stiffness); the dof that carries the face, or None
         for c in t.get("contact", []):
             nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
@@ -65,7 +65,7 @@ class Problem:
         self.unmoved = self.pairs
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
         self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
-        self.kinds |= {"reaction": sum(dof % len(self.names) == 0 for dof, _ in self.supports)} if self.supports else {}  # and how many numbers
+        self.kinds |= {"reaction": sum(dof % len(self.names) == 0 for dof, _ in self.supports)} if self.supports else {}  # kind: number of results
 
     def support(self, s, nodes):
         need("fix" in s or "spring" in s, "a support with neither fix nor spring")
@@ -77,7 +77,7 @@ class Problem:
             self.K[dof][dof] += spring or 0
 
     def contact(self, c, nodes, surface, stiffness, without=()):
-        """A pair at each node, but for those whose w is in `without`."""
+        """Adds a pair at each node whose w is not in `without`."""
         if isinstance(c["face"], dict):
             powers = self.polynomial(only(c["face"], {"polynomial"})["polynomial"])
             faces = [sum(a * self.lines[0][node]**power for power, a in enumerate(powers)) for node in nodes]
@@ -91,7 +91,7 @@ class Problem:
                 self.others.append(other)
 
     def seen(self, i, u):
-        """What pair i sees of displacements u."""
+        """Returns the displacement of pair i: that of its dof, relative to the dof that carries the face."""
         return u[self.pairs[i][0]] - (0 if self.others[i] is None else u[self.others[i]])
 
     def polynomial(self, coefficients):
@@ -102,7 +102,10 @@ class Problem:
         return node * len(self.names) + self.names.index(name)
 
     def nodes(self, t, keys, otherwise=None):
-        """Nodes from 0 of a table, which may have these keys besides: node, nodes, x or at."""
+        """Returns the nodes, from 0, that a table names by node, nodes, x or at.
+
+        Raises ValueError for other keys that are not in `keys`. `otherwise`: the nodes of a table that names none.
+        """
         place = {0: ["node", "nodes"], 1: ["node", "nodes", "x"], 2: ["node", "nodes", "at"]}[len(self.lines)]
         only(t, {*place, *keys})
         named = [key for key in place if key in t]
@@ -115,7 +118,7 @@ class Problem:
         return numbers([1 + sum(i * stride for i, stride in zip(at, (1, len(self.lines[0])))) for at in found], self.count)
 
     def combined(self, terms):
-        """The same of several tables, each times a factor."""
+        """Returns what `loads` returns, for a sum of tables with factors."""
         moved = {}
         f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
         for table, factor in terms:
@@ -128,7 +131,7 @@ class Problem:
         return f, settled, own
 
     def loads(self, step):
-        """Loads [dofs], the settlement of each fixed dof, and each element's own loads."""
+        """Moves the faces; returns the loads [dofs], the settlements of fixed dofs, and `work` of each element's loads."""
         if isinstance(step, list):
             return self.combined(step)
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
@@ -163,7 +166,7 @@ class Problem:
         for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
             f[dof] += force
         for part in points:
-            if len(self.lines) == 1 and "x" in part:  # those between nodes are there by now
+            if len(self.lines) == 1 and "x" in part:  # loads between nodes are already in f
                 part = part | {"x": [x for x in listed(part["x"]) if find(self.lines[0], real(x)) is not None]}
             for dof, value in self.at_dofs(part) if part.get("x", True) != [] else []:
                 f[dof] += value
@@ -179,13 +182,13 @@ class Problem:
         return f, dict.fromkeys(self.fixed, F(0)) | settled, own
 
     def inside(self, i, x):
-        """Along line i: the interval that has x, and the share of it that is before x."""
+        """Returns the interval of line i that contains x, and the share of the interval before x."""
         line = self.lines[i]
         e = next(k for k in range(len(line) - 1) if line[k] <= x <= line[k + 1])
         return e, (x - line[e]) / (line[e + 1] - line[e])
 
     def parts(self, part):
-        """The elements from one place to another, each with the shares along its sides where the part begins and ends."""
+        """Returns the elements between "from" and "to", with the shares of their sides at which the part begins and ends."""
         sides = []
         for i, line in enumerate(self.lines):
             ends = [real(part[key] if len(self.lines) == 1 else part[key][i]) if key in part else line[k] for key, k in (("from", 0), ("to", -1))]
@@ -197,13 +200,13 @@ class Problem:
         return [(j * (len(self.lines[0]) - 1) + i, [x, y]) for j, y in sides[1] for i, x in sides[0]]
 
     def move_faces(self, moved):
-        """Exactly, and as doubles add the face and its move up."""
+        """Adds the moves to the faces: exactly in `pairs`, and rounded as in the program in `told_faces`."""
         self.moved = moved
         self.pairs = [(dof, n, face + moved.get(dof, 0), k) for dof, n, face, k in self.unmoved]
         self.told_faces = [float(face) + float(moved.get(dof, 0)) for dof, _, face, _ in self.unmoved]
 
     def at_dofs(self, part):
-        """Each dof that a table names, with its value."""
+        """Returns (dof, value) for each dof that a table names."""
         nodes, names = self.nodes(part, self.names), [name for name in self.names if name in part]
         need(names, "a load or a settlement of no dof")
         return [(self.dof(node, name), real(part[name])) for node in nodes for name in names]

@@ -1,9 +1,9 @@
-"""check_proof.py PROBLEM.toml PROOF.json: verify what `contct run PROBLEM.toml --proof PROOF.json` wrote.
+"""check_proof.py PROBLEM.toml PROOF.json: verifies what `contct run PROBLEM.toml --proof PROOF.json` wrote.
 
-Every bound on an error, every pair's state and every verdict is verified in rational arithmetic, from the decimals of the problem
-file, without the program: certificate-proof.md has the mathematics, proof-format.md the format. Exit 0: every step of the problem is there,
-its bounds hold and its verdict follows from them; 1: something is false, missing or cannot be read; 2: nothing is false, but a step
-has no bounds, or a state that they contradict and that is not certified.
+Verifies every bound on an error, every pair's state and every verdict in rational arithmetic, from the decimals of the
+problem file, without the program. certificate-proof.md has the mathematics, proof-format.md the format.
+Exit 0: the bounds of every step hold, and its verdict follows from them; 1: something is false, missing or cannot be
+read; 2: nothing is false, but a step has no bounds, or a step that is not certified has a pair in a wrong state.
 """
 import sys
 import tomllib
@@ -16,10 +16,13 @@ from check_format import check_format, parsed
 from check_plate import dot, need
 from check_problem import Problem
 
-MILLIONTH = F(1, 10**6) * (1 + F(1, 2**40))  # the program compares doubles
+MILLIONTH = F(1, 10**6) * (1 + F(1, 2**40))  # a little more, because the program compares doubles
 
 def bounded(p, f, settled, s):
-    """The state, what K needs beyond the loads, the pairs' depths, and squares: of rho, and of each dof's error per rho."""
+    """Returns the state u, K u + contact forces - f, the pairs' depths beyond their faces, rho^2, and each dof's c.
+
+    The error of a dof in u is bounded by error^2 <= c rho^2. f: the loads; settled: the settlements of fixed dofs.
+    """
     u = [settled.get(dof, F(hi) + F(lo)) for dof, (hi, lo) in enumerate(s.get("u", [(0, 0)] * p.n))]
     deep = [n * (p.seen(i, u) - face) for i, (_, n, face, _) in enumerate(p.pairs)]
     needed = [dot(row.values(), [u[j] for j in row]) - f[i] for i, row in enumerate(p.K)]
@@ -31,7 +34,7 @@ def bounded(p, f, settled, s):
         need(not any(f) and not any(u) and all(n * face >= 0 for _, n, face, _ in p.pairs), "something acts, and there is no L")
         return u, needed, deep, F(0), [F(0)] * p.n
     closed, springs = [i - 1 for i in s["closed"]], [F(0)] * p.n
-    A = SimpleNamespace(n=p.n, fixed=p.fixed, K=[dict(row) for row in p.K])  # with what springs between two dofs have beside the diagonal
+    A = SimpleNamespace(n=p.n, fixed=p.fixed, K=[dict(row) for row in p.K])  # off the diagonal also springs between two dofs
     for i in closed:
         dof, other, k = p.pairs[i][0], p.others[i], p.pairs[i][3]
         springs[dof] += k
@@ -52,7 +55,7 @@ def bounded(p, f, settled, s):
 
 
 def reach_of_pair(p, s, reach, i):
-    """(s_i + s_j)^2 / mu of a pair between two dofs."""
+    """Returns c of a pair's displacement: (s_i + s_j)^2 / mu for its dofs i and j, s_i^2 / mu for one dof."""
     dof, other = p.pairs[i][0], p.others[i]
     if dof in p.fixed:
         return 0
@@ -60,23 +63,24 @@ def reach_of_pair(p, s, reach, i):
 
 
 def claims_of(p, s, own, u, needed, deep, rho2, reach):
-    """(kind, value in the state u, square of its error per rho) of each number of the file, in its order."""
+    """Returns (kind, value in the state u, c) for each number of the proof file in order, with error^2 <= c rho^2."""
     per, held = len(p.names), {dof: (needed[dof], p.K[dof][dof]) for dof in p.fixed}
-    spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # squares per rho: of displacements, then of forces
+    spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # c of each displacement
     claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
     for i, ((_, _, _, k), d) in enumerate(zip(p.pairs, deep)):
         square = reach_of_pair(p, s, reach, i)
         claims.append(("force", k * max(d, 0), 0 if d < 0 and d * d > square * rho2 else min(k, k * k * square)))
-    for dof, k in p.supports:  # a dof that is fixed twice gives its reaction to the first
+    for dof, k in p.supports:  # of a dof that is fixed twice, the first support has the reaction
         true, square = held.pop(dof, (0, 0)) if k is None else (-k * u[dof], min(k, k * k * spread[dof]))
         claims.append(("moment" if dof % per else "reaction", true, square))
     return claims + [v for (e, dofs, _), work in zip(p.elements, own) for v in e.values([u[dof] for dof in dofs], work)]
 
 
 def sizes_of(p, f, settled, told, largest):
-    """The size of each kind of number, and what may be off besides, absolutely (certificate-proof.md, "Sizes").
+    """Returns the size of each kind of number, and its allowed absolute error (certificate-proof.md, "Sizes").
 
-    `told`: the largest number of each kind; `largest`: sizes on the path so far, which count where nothing acts.
+    `told`: the largest number of each kind in the step; `largest`: the largest size on the path so far, which is used
+    if nothing acts on the structure.
     """
     gap = {"gap": max(told.get("gap", F(0)), told.get("w", F(0)))}
     if not any(f) and not any(settled.values()) and all(n * face >= 0 for _, n, face, _ in p.pairs):
@@ -94,12 +98,12 @@ def sizes_of(p, f, settled, told, largest):
 
 
 def check_pairs(p, s, deep, rho2, reach, told):
-    """The gap of each pair is within its bound; gives the pairs that certainly have the other state."""
+    """Raises ValueError if the bound on gap is false for a pair. Returns the pairs, from 1, whose state is proved wrong."""
     error, wrong = F(s["error"]["gap"]), []
     for i, ((_, n, _, _), face, d, state) in enumerate(zip(p.pairs, p.told_faces, deep, s["state"])):
         square = reach_of_pair(p, s, reach, i) * rho2
         gap = F(0) if state == "contact" else F(n * (face - p.seen(i, s["displacement"])))
-        least, most = -d - (gap - error), gap + error + d  # how far -d may be from either
+        least, most = -d - (gap - error), gap + error + d  # from -d, the gap of u, to the ends of the bound
         need(gap <= error or least >= 0 and least * least >= square, f"the bound on gap does not hold for pair {i + 1}")
         need(most >= 0 and most * most >= square, f"the bound on gap does not hold for pair {i + 1}")
         told["gap"] = max(told.get("gap", F(0)), abs(gap))
@@ -109,7 +113,7 @@ def check_pairs(p, s, deep, rho2, reach, told):
 
 
 def check(p, step, s, largest):
-    """Raises ValueError where something is false; gives words, and whether all that the step says is shown."""
+    """Raises ValueError if a claim is false. Returns the message, and True if every claim of the step is proved."""
     check_format(p, s)
     if s["error"] is None:
         return f"no bounds: {s['because']}", False
@@ -128,7 +132,7 @@ def check(p, step, s, largest):
         told["w"] = max([told["w"]] + [abs(e.middle([at[dof] for dof in dofs], work)) for (e, dofs, _), work in zip(p.elements, own)])
     wrong = check_pairs(p, s, deep, rho2, reach, told) if "state" in s and p.pairs else []
     size, besides = sizes_of(p, f, settled, told, largest)
-    sure = {kind: max(x - error[kind], F(0)) for kind, x in told.items()}  # what is not certified may be told larger than it is
+    sure = {kind: max(x - error[kind], F(0)) for kind, x in told.items()}  # proved sizes: without a certificate numbers may be too large
     largest.update({kind: max(x, largest.get(kind, F(0))) for kind, x in sizes_of(p, f, settled, sure, largest)[0].items()})
     large = [kind for kind, bound in error.items() if bound > size.get(kind, 0) * MILLIONTH + besides.get(kind, 0)]
     need(not (s["certified"] and large), f"certified, with bounds that are too large: {large}")

@@ -1,5 +1,6 @@
 #!/bin/sh
-# judge.sh SOURCE..: is the kernel in these C sources CONTCT? Exit status 0: equal to the bit in every call of the vectors; 1: not.
+# judge.sh SOURCE..: compares the kernel in these C sources with the vectors.
+# Exit status 0: equal to the bit in every call; 1: otherwise.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)

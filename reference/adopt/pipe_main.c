@@ -1,6 +1,6 @@
-/* Makes a command of a kernel with the C ABI of cpp/contct/kernel/plugin.h, for `--kernel pipe:./mine`:
+/* main() of a command for `--kernel pipe:./mine`, from a kernel with the C ABI of cpp/contct/kernel/plugin.h:
  *   cc -O2 -ffp-contract=off -o mine pipe_main.c mine.c -lm
- * Calls come on standard input and answers go to standard output: reference/trace-format.md, "Over a pipe".
+ * Reads calls from standard input and writes answers to standard output (reference/trace-format.md).
  */
 #include <math.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ int main(void) {
   while (scanf(" call %d", &call) == 1) {
     while (getchar() != '\n') {
     }
-    if (scanf("%7s", word) == 1 && strcmp(word, "note") == 0) { /* a note takes the rest of its line */
+    if (scanf("%7s", word) == 1 && strcmp(word, "note") == 0) { /* skip the note, which ends with its line */
       while (getchar() != '\n') {
       }
       if (scanf("%7s", word) != 1) return 1;
@@ -35,7 +35,7 @@ int main(void) {
     for (i = 0; i < dofs; ++i) dd[i] = dtest[i] = NAN;
     while (scanf(" dof %d dd", &dof) == 1)
       if (scanf(" %lf dtest %lf", &dd[dof - 1], &dtest[dof - 1]) != 2) return 1;
-    for (i = 0; i < nc; ++i) /* "dof" or "pair" is read as far as it goes: the d of dof, nothing of pair */
+    for (i = 0; i < nc; ++i) /* the last scanf of " dof" has read no character of "pair" */
       if (scanf(" pair %*d id %d isep %d isurf %d cc %lf", &id[i], &isep[i], &isurf[i], &cc[i]) != 4)
         return 1;
     if (scanf("%7s", word) != 1) return 1; /* ask */

@@ -1,10 +1,11 @@
-"""CalculiX on benchmark problems of this folder: decks, and what its .dat files say as a file of results.
+"""Solves benchmark problems of this folder by CalculiX, and prints its numbers as a file of results.
 
-    python3 reference/benchmarks/calculix.py [NAME..] > theirs.json       NAME: pb01-cantilever-tip-stop; ccx must be in the path
+    python3 reference/benchmarks/calculix.py [NAME..] > theirs.json       NAME: such as pb01-cantilever-tip-stop
     contct verify --results theirs.json
 
-A beam is one of B32R elements, so slender that its shear does not show. A pair is a SPRINGA with a table to a fixed node below.
-Springs with tables need NLGEOM, so displacements are scaled until nothing turns.
+ccx must be in PATH. A beam consists of B32R elements, which are so slender that their shear is negligible. A pair is a
+SPRINGA with a table, from the pair's node to a fixed node. Springs with tables need NLGEOM, so displacements are scaled
+down until CalculiX finds no rotation.
 """
 import json
 import re
@@ -15,20 +16,21 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 TOLERANCE = 1e-4
-# In a deck displacements are so many times the problem's, and forces.
+# Factors of displacements and of forces in a deck.
 SCALE, FORCE_SCALE = 1e-6, 1e6
-# A spring's table: outside it the force is constant, and the far end alone would misplace the face by its rounding.
+# Ends of a spring's table in the problem's lengths, outside which the force is constant. The far end is rounded, so the
+# near end defines the face.
 FAR_AWAY, NEAR = 1e4, 1.0
-DIRECTIONS = {"w": (3, 1), "theta": (5, -1)}  # the direction in CalculiX, and the sign: dw/dx turns against axis y
+DIRECTIONS = {"w": (3, 1), "theta": (5, -1)}  # (direction in CalculiX, sign): dw/dx is negative about axis y
 
 
 def field(x):
-    """CalculiX cuts a field after 20 characters."""
+    """Returns x in at most 20 characters, after which CalculiX cuts a field."""
     return f"{float(x):.12e}"
 
 
 def is_known(problem):
-    """Can it be translated? Moments at nodes of a shell cannot."""
+    """Returns True if the problem can be translated. Moments at nodes of a shell, among others, cannot."""
     kind = problem["structure"]["kind"]
     plain = not any(step["settlements"] for step in problem["steps"]) and all(spring is None for *_, spring in problem["supports"])
     if kind == "plate":
@@ -37,14 +39,17 @@ def is_known(problem):
 
 
 def section(name, kind, modulus, nu, thickness):
-    """A material so soft, or so stiff, that a section of this thickness bends as the problem's."""
+    """Returns a section of this thickness, with the elastic modulus that gives the bending stiffness of the problem."""
     beam = f"*BEAM SECTION,ELSET={name},MATERIAL={name},SECTION=RECT\n{field(thickness)},{field(thickness)}\n0.,1.,0."
     plate = f"*SHELL SECTION,ELSET={name},MATERIAL={name}\n{field(thickness)}"
     return f"*MATERIAL,NAME={name}\n*ELASTIC\n{field(modulus * FORCE_SCALE / SCALE)},{nu}\n{beam if kind == 'beam' else plate}"
 
 
 def beam(structure):
-    """Nodes 1 to n as in the problem, then the middles of elements; what holds it in its plane."""
+    """Returns (coordinates of nodes, lines, number of elements, supports that hold the beam in its plane).
+
+    Nodes 1 to n are those of the problem; the nodes in the middle of elements follow.
+    """
     x, stiffness = structure["x"], structure["EI"]
     depth = (x[-1] - x[0]) / 400
     places = [(at, 0.0) for at in x + [(a + b) / 2 for a, b in zip(x, x[1:])]]
@@ -57,7 +62,7 @@ def beam(structure):
 
 
 def plate(structure):
-    """The same: nodes as in the problem, then the middles of sides along x, then along y."""
+    """Returns the same as `beam` for a plate. Nodes in the middle of sides follow, along x and then along y."""
     x, y, nu = structure["x"], structure["y"], structure["nu"]
     columns, thickness = len(x), (x[-1] - x[0]) / 200
     along_x = [((a + b) / 2, at) for at in y for a, b in zip(x, x[1:])]
@@ -74,13 +79,13 @@ def plate(structure):
 
 
 def springs(problem, faces, places, first_element):
-    """A fixed node and a spring for each pair, one that presses alone. The fixed nodes' numbers follow those of `places`."""
+    """Returns a fixed node and a spring without tension for each pair. Fixed nodes are numbered after `places`."""
     away, lines = (places[-1][0] - places[0][0]) / 10, []
     for i, (pair, face) in enumerate(zip(problem["pairs"], faces)):
         ground, (x, y), side = len(places) + 1 + i, places[pair["node"] - 1], -1 if pair["surface"] == "below" else 1
         lines.append(f"*NODE,NSET=GROUND\n{ground},{field(x)},{field(y)},{field(side * away)}")
         lines.append(f"*ELEMENT,TYPE=SPRINGA,ELSET=S{i}\n{first_element + i},{pair['node']},{ground}\n*SPRING,ELSET=S{i},NONLINEAR")
-        touch = -side * face * SCALE  # how much longer the spring is at the face
+        touch = -side * face * SCALE  # elongation of the spring when the pair is at its face
         for inside in (FAR_AWAY, NEAR):
             lines.append(f"{field(-pair['stiffness'] * inside * FORCE_SCALE)},{field(touch - inside * SCALE)}")
         lines.append(f"0.,{field(touch)}\n0.,{field(touch + FAR_AWAY * SCALE)}")
@@ -105,7 +110,7 @@ def deck(problem, step):
 
 
 def values_at_end(dat, quantity, name):
-    """{node: (x, y, z)} of a set at time 1, the step's end."""
+    """Returns {node: (x, y, z)} of a quantity and a set of nodes at time 1, the end of the step."""
     tables = re.split(r"^ (\w+) \(\w+,\w+,\w+\) for set (\w+) and time +(\S+)$", dat, flags=re.M)
     found = [text for what, which, time, text in zip(tables[1::4], tables[2::4], tables[3::4], tables[4::4])
              if (what, which) == (quantity, name) and float(time) == 1.0]
@@ -116,13 +121,13 @@ def values_at_end(dat, quantity, name):
 
 
 def contact_forces(problem, dat):
-    """What presses in each pair."""
+    """Returns the contact force of each pair, at the end of the step."""
     up = [force[2] / FORCE_SCALE for _, force in sorted(values_at_end(dat, "forces", "GROUND").items())] if problem["pairs"] else []
     return [force if pair["surface"] == "below" else -force for pair, force in zip(problem["pairs"], up, strict=True)]
 
 
 def answers_of_step(problem, number, dat):
-    """The numbers of a step that a .dat file has, by their names in verification.toml."""
+    """Returns the step's numbers of the benchmark that the .dat file has, with their keys in verification.toml."""
     u, reactions, pressed = values_at_end(dat, "displacements", "ALL"), values_at_end(dat, "forces", "ALL"), contact_forces(problem, dat)
     loads = {(node, dof): value for node, dof, value in problem["steps"][number - 1]["loads"]}
     for asked in (n for n in problem["numbers"] if n["step"] == number):
@@ -166,14 +171,14 @@ def results(names, folder, ccx="ccx"):
             "problems": given}
 
 
-# Those in which its Newton steps converge, the last step of PB5 apart.
+# Problems in which CalculiX's Newton steps converge, except in the last step of PB5.
 CONVERGE = ["pb01-cantilever-tip-stop", "pb02-beam-over-cantilever", "pb03a-point-load-on-bed-l4", "pb03b-point-load-on-bed-l6-coarse",
             "pb04a-end-loads-on-bed-short", "pb04c-end-loads-on-bed-long", "pb05-cantilever-over-flat-obstacle", "pb06-settled-middle-support",
             "pb07-three-gap-supports", "pb10-cantilever-gapped-spring", "pb12-two-spans-moving-load"]
 
 
 def words(found):
-    """As JSON, a line for each number."""
+    """Returns the results as JSON with one line for each number."""
     rows = ",\n".join(f"  {json.dumps(name)}: [\n   " + ",\n   ".join(map(json.dumps, entries)) + " ]" for name, entries in found["problems"].items())
     head = json.dumps({key: value for key, value in found.items() if key != "problems"})
     return f"{head[:-1]},\n \"problems\": {{\n{rows} }} }}\n"

@@ -1,11 +1,10 @@
-"""Writes the benchmark problems as plain data, NAME.json in this folder, from reference/problems and reference/verification.toml, and the
-table of reference/benchmarks.md:
+"""Writes the benchmark problems as plain data, NAME.json in this folder, and the table of reference/benchmarks.md:
 
-    python3 reference/benchmarks/make.py            writes
-    python3 reference/benchmarks/make.py --check    compares what is here, and writes nothing
+    python3 reference/benchmarks/make.py            writes the files
+    python3 reference/benchmarks/make.py --check    compares the existing files, and writes nothing
 
-The problem files are read without the program, by reference/check_problem.py. The exact numbers are those of the table, which
-tests/lab/write_exact.py has from `contct exact`.
+reference/check_problem.py reads the problem files, without the program. The exact numbers are those of
+reference/verification.toml, which tests/lab/write_exact.py computes by `contct exact`.
 """
 import json
 import sys
@@ -20,18 +19,18 @@ sys.path.insert(0, str(REFERENCE))
 from check_problem import Problem, real  # noqa: E402
 
 LEAST = 51
-# What a published source says of a family, where one is known.
+# Published sources of families of problems (PB3a and PB3b are one family), and their results.
 PUBLISHED = {"pb02": "data: studysoup.com, question 142235", "pb03": "Kerr, Soicher: contact does not depend on the load",
              "pb04": "Lovtsov 2025: 0.4 F / alpha", "pb09": "Code_Aster SSNL130: -208/58875, 176/153075", "pb10": "data: Code_Aster V5.02.104",
              "pb11": "SEAINT list: 3 (B/2 - e)", "pb15": "data: Code_Aster V5.02.105", "pb16": "PETSc ex9: B - A log r", "pp01": "Dempsey 1984, abstract"}
-# Tried by calculix.py: of each problem at least one step does not converge.
+# Families for which calculix.py was tried: at least one step of each problem does not converge.
 NO_CONVERGENCE = ("pb08", "pb09", "pb11", "pb13")
 KINDS = {"w": "length", "gap": "length", "force": "force", "reaction": "force"}
 PLACE = ("step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along")
 
 
 class Names:
-    """A dof as a node from 1 and a name; of a matrix, as a label."""
+    """Names a dof by its node, from 1, and its name; a dof of a matrix by its label."""
 
     def __init__(self, problem, labels):
         self.problem, self.labels = problem, labels
@@ -51,7 +50,7 @@ def structure(toml, problem, labels):
         return {"kind": "matrix", "dofs": labels, "stiffness": entries}
     lines = [[float(x) for x in line] for line in problem.lines]
     if len(lines) == 1:
-        # The entry for both rotations of an element of length h is 4 EI / h; a hinge at its right end leaves 3 EI / h for the left one.
+        # The diagonal entry of an element's left rotation is 4 EI / h, or 3 EI / h with a hinge at the right end.
         hinges = [problem.lines[0].index(real(hinge["x"])) + 1 for hinge in toml.get("hinge", [])]
         stiffness = [element.stiffness[1][1] * (b - a) / (3 if e + 2 in hinges else 4)
                      for e, ((element, _, _), a, b) in enumerate(zip(problem.elements, problem.lines[0], problem.lines[0][1:]))]
@@ -69,7 +68,7 @@ def pairs(problem, name):
 
 
 def steps(problem, name):
-    """Totals at the end of each step; forces are the consistent ones of all loads."""
+    """Returns the consistent forces, settlements and moves at the end of each step; they are totals."""
     found = []
     for step in problem.steps:
         loads, settled, _ = problem.loads(step)
@@ -78,7 +77,7 @@ def steps(problem, name):
 
 
 def numbers(checks):
-    """Each once, with what it is compared with."""
+    """Returns each number once, with all values with which it is compared."""
     found = {}
     for check in checks:
         place = {key: check[key] for key in PLACE if key in check}
@@ -88,7 +87,7 @@ def numbers(checks):
 
 
 def problem_of(file):
-    """A problem file as plain data."""
+    """Returns a problem file as plain data."""
     toml = tomllib.loads(file.read_text(), parse_float=Fraction)
     problem = Problem(toml, file.parent)
     labels = (file.parent / toml["matrix"]["dofs"]).read_text().split() if "dofs" in toml.get("matrix", {}) else []
@@ -107,7 +106,7 @@ def benchmark(case):
 
 
 def words(value):
-    """A line for each entry of a list of objects, so that a change is a line."""
+    """Returns JSON with one line for each entry of a list of objects, so that a change affects few lines."""
     parts = []
     for key, part in value.items():
         text = json.dumps(part, ensure_ascii=False)
@@ -118,7 +117,7 @@ def words(value):
 
 
 def errors(problem, answers):
-    """Of another program's numbers, as contct verify --results judges them."""
+    """Returns the relative errors of another program's numbers, as contct verify --results computes them."""
     key, sizes = lambda number: json.dumps({k: number[k] for k in PLACE if k in number}), {}
     exact = {key(number): number["exact"] for number in problem["numbers"]}
     for number in (n for n in problem["numbers"] if n["quantity"] != "state"):
@@ -134,7 +133,7 @@ def errors(problem, answers):
 
 
 def row(family, problems, programs):
-    """Of PB3a, PB3b and so on, those of a family."""
+    """Returns the table's row of a family of problems, such as PB3a and PB3b."""
     first, title = problems[0], problems[0]["title"].partition("  ")[2] or problems[0]["title"]
     number = f"{family[:2].upper()}{int(family[2:])}"
     picture = f"![{number}](benchmarks/{family}.svg)" if (HERE / f"{family}.svg").exists() else ""
@@ -150,7 +149,7 @@ def row(family, problems, programs):
 
 
 def page_with(table, problems):
-    """benchmarks.md with the table."""
+    """Returns the text of benchmarks.md with its table renewed."""
     programs = [json.loads((HERE / name).read_text())["problems"] for name in ("calculix.json", "siconos.json")]
     families = {}
     for problem in problems:

@@ -1,10 +1,10 @@
-"""Writes PB16 on N intervals a side, 20 in reference/problems: python3 reference/benchmarks/membrane.py FOLDER N
+"""Writes PB16 with N intervals on each side: python3 reference/benchmarks/membrane.py FOLDER N. PB16 has 20.
 
 The obstacle problem of PETSc's examples (snes/tutorials/ex9.c): a membrane on the square from -2 to 2 hangs over the unit ball,
     u >= sqrt(1 - r^2),   -laplace u = 0 where it does not touch,   u = exact on the boundary,
     exact: the ball up to r = R, beyond it u = -A log r + B,   A = R^2 / sqrt(1 - R^2),   B = A log 2,   R^2 log(2 / R) = 1 - R^2.
-The matrix is that of the five-point formula, times h^2, without the boundary, which loads its neighbours. Written is w = u - 1, so that
-the ball's top is at 0 and nothing is inside it at first.
+The matrix is that of the five-point formula, times h^2. It has no boundary nodes; their values are loads on their
+neighbours. The unknowns are w = u - 1, so that the top of the ball is at 0 and the unloaded membrane is not inside it.
 """
 import sys
 from math import hypot, log, sqrt
@@ -12,12 +12,12 @@ from pathlib import Path
 
 R = 0.697965148223374
 A = R**2 / sqrt(1 - R**2)
-STIFFNESS = 1e6  # of the ball, against 4 of a node of the membrane
-HIGHEST = 0.9  # pairs stand up to this r: beyond it the ball is far below
+STIFFNESS = 1e6  # of the ball at each node; the diagonal of the matrix is 4
+HIGHEST = 0.9  # largest r of a pair; contact ends at r = R
 
 
 def exact(x, y):
-    """w = u - 1."""
+    """Returns the exact w = u - 1."""
     r = hypot(x, y)
     return (sqrt(1 - r**2) if r <= R else A * log(2 / r)) - 1
 

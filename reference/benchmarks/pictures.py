@@ -1,6 +1,7 @@
 """Writes a picture of each benchmark, NAME.svg, in this folder: PYTHONPATH=build/release python3 reference/benchmarks/pictures.py
 
-Drawn as those of the cookbook: the state at the end of a step by the corrected rule. PB15, a matrix without coordinates, has none.
+As in the cookbook, a picture shows the state at the end of a step by the corrected rule. PB15 is a matrix without
+coordinates, and has no picture.
 """
 import sys
 from pathlib import Path
@@ -10,7 +11,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE.parent / "cookbook"))
 from pictures import svg  # noqa: E402
 
-# Of each family one problem, and the step in which most of its pairs are in contact or separated.
+# One problem of each family, and the step that is shown.
 SHOWN = {"pb01-cantilever-tip-stop": 2, "pb02-beam-over-cantilever": 1, "pb03a-point-load-on-bed-l4": 1, "pb04c-end-loads-on-bed-long": 1,
          "pb05-cantilever-over-flat-obstacle": 6, "pb06-settled-middle-support": 3, "pb07-three-gap-supports": 3, "pb08b-heavy-beam-up-4": 2,
          "pb09a-plate-on-springs-ei-1e6": 1, "pb10-cantilever-gapped-spring": 1, "pb11a-strip-footing-n20": 1, "pb12-two-spans-moving-load": 1,

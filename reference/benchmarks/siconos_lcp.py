@@ -1,11 +1,12 @@
-"""Siconos on benchmark problems of this folder, each as a linear complementarity problem that its Lemke solver answers.
+"""Solves benchmark problems of this folder as linear complementarity problems, by Lemke's method in Siconos.
 
-    python3 reference/benchmarks/siconos_lcp.py [NAME..] > theirs.json    NAME: pb01-cantilever-tip-stop; needs python3-siconos, numpy
+    python3 reference/benchmarks/siconos_lcp.py [NAME..] > theirs.json    NAME: such as pb01-cantilever-tip-stop
     contct verify --results theirs.json
 
-K is read from the problem file by reference/check_problem.py, without contct. Every pair starts as a spring k that also pulls; z >= 0
-takes its tension away. With A, the compliance of the structure on all springs, and u0, its displacements at z = 0:
-force(z) = k n (u0 - c) + (1 - k n A n) z >= 0, z >= 0, force(z) z = 0, where n is +1 for a face above and -1 for a face below.
+Needs python3-siconos and numpy. reference/check_problem.py reads K from the problem file, without contct. Every pair is
+a spring k that can pull, and z >= 0 is the force that cancels its tension. With the compliance A of the structure on all
+springs, the displacements u0 at z = 0, the faces c, and n = +1 for a face above and -1 for a face below:
+    force(z) = k n (u0 - c) + (1 - k n A n) z >= 0,   z >= 0,   force(z) z = 0.
 """
 import json
 import sys
@@ -25,7 +26,7 @@ from check_problem import Problem  # noqa: E402
 
 
 class Structure:
-    """K on all springs, with the rows and columns of fixed dofs apart."""
+    """A problem's K, and the compliance of its free dofs with the springs of all pairs."""
 
     def __init__(self, file):
         toml = tomllib.loads(file.read_text(), parse_float=Fraction)
@@ -34,7 +35,7 @@ class Structure:
         for i, row in enumerate(problem.K):
             for j, k in row.items():
                 self.K[i, j] = float(k)
-        self.sees = numpy.zeros((len(problem.pairs), problem.n))  # a row for each pair: n times what it sees
+        self.sees = numpy.zeros((len(problem.pairs), problem.n))  # sees @ u: n times the displacement of each pair
         for row, (dof, n, *_), other in zip(self.sees, problem.pairs, problem.others):
             row[dof] = n
             if other is not None:
@@ -45,7 +46,7 @@ class Structure:
         self.compliance = numpy.linalg.inv(held)
 
     def end_of(self, step):
-        """Displacements, contact forces and gaps at the end of a step, and the forces that hold fixed dofs and elastic supports."""
+        """Returns displacements, contact forces, gaps, and the reactions of fixed dofs [dofs], at the end of a step."""
         loads, settled, _ = self.problem.loads(step)
         loads, u = numpy.array([float(f) for f in loads]), numpy.zeros(self.problem.n)
         for dof, value in settled.items():

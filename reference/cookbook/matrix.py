@@ -1,6 +1,6 @@
-"""Writes matrix.mtx, matrix.dof and matrix.xyz into the folder where it runs: what your program would hand to contct.
+"""Writes matrix.mtx, matrix.dof and matrix.xyz into the working folder, as your program would write them for contct.
 
-A grillage of two girders along x and three cross beams along y. Dofs of a node: z, and the rotations rx = dz/dy, ry = -dz/dx.
+A grillage of two girders along x and three cross beams along y. A node has the dofs z, rx = dz/dy and ry = -dz/dx.
 """
 EI = {"x": 2.1e8 * 8.36e-5, "y": 2.1e8 * 1.943e-5}  # IPE 300 and IPE 200, kN m^2
 GJ = {"x": 8.1e7 * 2.01e-7, "y": 8.1e7 * 6.98e-8}
@@ -9,7 +9,7 @@ BEAMS = [(f"{g}{i}", f"{g}{i + 1}", "x") for g in "ab" for i in range(1, 5)] + [
 
 
 def element(first, second, along):
-    """{(dof, dof): stiffness}, from the bending of z and the slope along the beam, and the twist."""
+    """Returns {(dof, dof): stiffness} of an element: bending by z and the slope along the beam, and torsion."""
     h = abs(NODES[second][0] - NODES[first][0]) + abs(NODES[second][1] - NODES[first][1])
     k, sign = EI[along] / h**3, -1.0 if along == "x" else 1.0
     slope, twist = ("ry", "rx") if along == "x" else ("rx", "ry")

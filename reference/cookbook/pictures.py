@@ -1,7 +1,7 @@
 """Writes a picture of each job of the cookbook, NAME.svg, from its result: PYTHONPATH=build/release python3 pictures.py, in this folder.
 
-Drawn is the state at the end of the step that the page speaks of, by the corrected rule: deflections magnified, the unloaded
-structure in grey, contacts filled where they press and hollow where they are separated, the largest force in kN.
+A picture shows the state at the end of the step that cookbook.md discusses, by the corrected rule: deflections
+magnified, the unloaded structure in grey, pairs filled if in contact and hollow if separated, the largest force in kN.
 """
 from pathlib import Path
 
@@ -12,13 +12,13 @@ WIDTH, HEIGHT, SIDE = 640, 220, 40
 
 
 def project(place, flat):
-    """Where a point of the structure is seen: beams from the side, all others from above at an angle."""
+    """Returns a point's place in the picture: beams are seen from the side, other structures from above at an angle."""
     x, y, z = place
     return (x, z) if flat else (x + 0.45 * y, 0.36 * y + z)
 
 
 def drawing(result, step):
-    """The parts of the picture, in its own coordinates."""
+    """Returns the SVG elements of the picture, and the magnification of deflections."""
     shape, end = result.to_dict()["structure"], result.to_dict()["steps"][step - 1]
     flat = shape["kind"] == "beam"
     nodes = [(n["x"], n.get("y") or 0.0, 0.0) for n in shape["nodes"]]

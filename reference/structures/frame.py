@@ -1,7 +1,7 @@
-"""Writes frame.mtx, frame.dof, frame.xyz and wind.mtx: what another program would hand to contct.
+"""Writes frame.mtx, frame.dof, frame.xyz and wind.mtx into the working folder, as another program would for contct.
 
-A portal frame of Hermite beams with axial stiffness, three dofs a node: x, y and r, the rotation
-counter-clockwise. No supports: these stand in frame.toml. Run it in the folder the files shall be in.
+A portal frame of Hermite beams with axial stiffness. A node has the dofs x, y and r, the rotation counter-clockwise.
+The supports are in frame.toml.
 """
 
 EA = 1.05e9  # N
@@ -13,7 +13,7 @@ elements = [(1, 2), (2, 3), (3, 4), (4, 5), (5, 6), (6, 7), (7, 8), (9, 10), (10
 
 
 def stiffness(h):
-    """Of an element along x: u, v, r at its first node, then at its second."""
+    """Returns the stiffness matrix of an element along x: u, v, r at its first node, then at its second."""
     k = EI / h**3
     a = EA / h
     return [
@@ -27,11 +27,11 @@ def stiffness(h):
 
 
 def assemble():
-    """The lower triangle, {(row, column): value}, from 0."""
+    """Returns the lower triangle of K as {(row, column): value}, from 0."""
     matrix = {}
     for first, second in elements:
         (xa, ya), (xb, yb) = nodes[first - 1], nodes[second - 1]
-        h = abs(xb - xa) + abs(yb - ya)  # along an axis, all of them
+        h = abs(xb - xa) + abs(yb - ya)  # every element is parallel to an axis
         c, s = (xb - xa) / h, (yb - ya) / h
         turn = [[c, s, 0], [-s, c, 0], [0, 0, 1]]
         local = stiffness(h)
@@ -64,7 +64,7 @@ def main():
     )
     write("frame.dof", [f"{n + 1}.{name}" for n in range(len(nodes)) for name in ("x", "y", "r")])
     write("frame.xyz", ["# node, x, y; m"] + [f"{n + 1} {x} {y}" for n, (x, y) in enumerate(nodes)])
-    # 8 kN to the right on the left column, shared by its upper nodes; 20 kN down on the middle of the beam.
+    # 8 kN to the right, on nodes 2 to 4 of the left column; 20 kN down on the middle of the beam.
     load = [0.0] * size
     for node, x, y in ((2, 3e3, 0.0), (3, 3e3, 0.0), (4, 2e3, 0.0), (6, 0.0, -2e4)):
         load[3 * (node - 1)] += x

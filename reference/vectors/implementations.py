@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""implementations.py [--check]: writes the table of ../implementations.md from reports/*.json, or compares it with what it would
-write. A file NAME.json in reports is "contct-report-1" of `contct replay --report` for the golden set."""
+"""implementations.py [--check]: writes the table of ../implementations.md from reports/*.json; with --check, compares
+the existing table instead. reports/NAME.json is the output of `contct replay --report` for the golden set."""
 import json
 import sys
 from pathlib import Path

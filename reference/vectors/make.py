@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""make.py [--check]: writes contct-vectors-1.json and contct-vectors-1.txt from ../traces and caught.json, or with --check
-compares them with what it would write (exit status 1: they differ).
+"""make.py [--check]: writes contct-vectors-1.json and contct-vectors-1.txt from ../traces and caught.json. With
+--check, compares the existing files instead (exit status 1: a file differs). README.md describes the format.
 
-caught.json says which call of a trace is the first that shows a mutant of tests/mutants, or an erratum of ../errata.toml undone:
-`mutants.py BUILD.json --caught FILE` writes it. Format: README.md.
+caught.json has the first call of each trace that detects each mutant of tests/mutants, and each erratum of ../errata.toml
+if its correction is undone; `mutants.py BUILD.json --caught FILE` writes caught.json.
 """
 import hashlib
 import json
@@ -15,7 +15,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 VERSION = "1.0.0"
 BRANCHES = "no_response", "stationary", "check_positive", "s_positive", "s_is_smallest", "no_events", "within_epsmul", "was_separated"
-NEAR = 4  # a number is at a threshold within so many units in the last place
+NEAR = 4  # ULPs from a threshold within which a number is at the threshold
 
 
 def number(hexfloat):
@@ -23,13 +23,13 @@ def number(hexfloat):
 
 
 def words(line):
-    """`key value key value ..` as a dictionary."""
+    """Returns `key value key value ..` as a dictionary."""
     parts = line.split(" ")
     return dict(zip(parts[::2], parts[1::2]))
 
 
 def read_call(lines):
-    """A call from its lines in a trace, `call N` first. Numbers stay hex floats."""
+    """Returns a call from its lines in a trace, from `call N` on. Real numbers stay hex floats."""
     call = {"call": int(lines[0].split()[1]), "why": "", "dof": [], "dd": [], "dtest": [], "text": []}
     call.update({key: [] for key in ("id", "isep", "isurf", "cc", "ss", "isep_after")})
     for line in lines[1:]:
@@ -72,8 +72,8 @@ def at(x, threshold, real):
 
 
 def decisions(call, real):
-    """(an IF of the listing, its outcome) in order, and ("at ..", True) where a number is at a threshold. The answer is taken from
-    the trace: no kernel takes part."""
+    """Yields (an IF of the listing, its outcome) in order, and ("at ..", True) if a number is at a threshold. The
+    answer is that of the trace."""
     epsgap, epsmul = rounded(1e-10, real), 0.390625e-02
     dofs = dict(zip(call["dof"], zip(map(number, call["dd"]), map(number, call["dtest"]))))
     least = 1.0
@@ -102,7 +102,7 @@ def decisions(call, real):
 
 
 def special(x, real):
-    """The kinds of number that programs lose."""
+    """Returns which special kinds of number x is: NaN, infinity, negative zero, subnormal."""
     smallest = sys.float_info.min if real == 8 else 2.0**-126
     kinds = {"NaN": math.isnan(x), "infinity": math.isinf(x), "negative zero": x == 0 and math.copysign(1, x) < 0, "subnormal": 0 < abs(x) < smallest}
     return {kind for kind, it_is in kinds.items() if it_is}
@@ -116,8 +116,8 @@ def flags(call, real, mutants):
 
 
 def both(hexfloats):
-    """Hex floats, and the shortest decimals: JSON has no number for NaN and infinities, so these are texts. The sign of a NaN is lost:
-    NaN equals NaN."""
+    """Returns the numbers as hex floats without the sign of NaN, and as shortest decimals. NaN and infinities are
+    texts, because JSON has no numbers for them."""
     names = {"nan": "NaN", "-nan": "NaN", "inf": "Infinity", "-inf": "-Infinity"}
     return {"hex": [x.replace("-nan", "nan") for x in hexfloats], "decimal": [names.get(x) or number(x) for x in hexfloats]}
 
@@ -133,12 +133,12 @@ def vectors():
                 call[key] = both(call[key])
             call["smin"] = {key: value[0] for key, value in both([call["smin"]]).items()}
         case["flags"] = sorted(set().union(*(call["flags"] for call in case["calls"])))
-        case["calls"] = case.pop("calls")  # last, for those who read it
+        case["calls"] = case.pop("calls")  # moved to the end of the file's entry, for readers
     return {"format": "contct-vectors-1", "version": VERSION, "listing_sha256": listing, "cases": cases}
 
 
 def as_json(document):
-    """A line each call."""
+    """Returns the vectors as JSON, with one line for each call."""
     def line(value):
         return json.dumps(value, separators=(",", ":"), allow_nan=False)
     cases = []
@@ -150,7 +150,7 @@ def as_json(document):
 
 
 def as_text(document):
-    """The same calls, for languages without a reader of JSON."""
+    """Returns the calls as text, for languages without a JSON reader."""
     def plain(x):
         return repr(x) if isinstance(x, float) else x.lower().replace("infinity", "inf")
     lines = []

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""verify_report.py REPORT --kernel NAME [--contct PROGRAM] [--traces FOLDER]: repeats what a report says was done, with the kernel
-NAME, and compares. REPORT is what `contct replay --report` or `contct fuzz --report` wrote, "contct-report-1".
+"""verify_report.py REPORT --kernel NAME [--contct PROGRAM] [--traces FOLDER]: repeats the run of a report with the
+kernel NAME, and compares the results. REPORT: a file that `contct replay --report` or `contct fuzz --report` wrote.
 
-Exit status 0: the same comes out, for the kernel with that SHA-256; 1: something differs; 2: no such report, or usage.
+Exit status 0: the results and the kernel's SHA-256 are the same; 1: something differs; 2: no such report, or usage.
 """
 import argparse
 import json
@@ -18,7 +18,7 @@ FUZZ = re.compile(r"contct fuzz --kernels ([\w-]+),.* (--calls \d+ --problems \d
 
 
 def command_of(report, kernel, traces, program):
-    """The command that repeats a report: nothing that it holds gets to a shell or into an option but numbers and known names."""
+    """Returns the command that repeats a report, made from numbers and known names in the report only."""
     if report["command"] == "replay":
         golden = {path.stem: path for path in sorted(traces.glob("*.trace"))}
         if unknown := [trace["name"] for trace in report["traces"] if trace["name"] not in golden]:

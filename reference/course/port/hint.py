@@ -1,8 +1,9 @@
-"""hint.py KERNEL: puts a kernel, pipe:COMMAND or plugin:PATH, to the golden calls and says what its wrong answers tell about it.
-Exit status: 0 all answers are right, to the bit; 1 not.
+"""hint.py KERNEL: tests a kernel, pipe:COMMAND or plugin:PATH, in the golden calls, and prints a hint on its fault.
+Exit status 0: all answers are right to the bit; 1: otherwise.
 
-hints.toml has, for faults that were put into the kernels on purpose, a sentence, and what their answers were: how many were right, the
-first wrong value, and a digest of them all; stages.toml has the digests of unfinished kernels. A kernel with the same answers has the same fault, or one that no golden call distinguishes from it.
+hints.toml has a sentence for each fault that was put into the kernels on purpose, with the number of right answers, the
+first wrong value, and a digest of all answers; stages.toml has the digests of unfinished kernels. A kernel with the same
+answers has the same fault, or a fault that no golden call distinguishes from it.
 """
 import ctypes
 import shlex
@@ -15,8 +16,8 @@ from pathlib import Path
 from stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[3]
-MARGIN = 4096  # elements around DD and DTEST, so that a wrong index finds NaN
-UNSET = -7.0  # what SMIN and SS hold before a call
+MARGIN = 4096  # NaN elements before and after DD and DTEST, for wrong indices
+UNSET = -7.0  # SMIN and SS before a call
 SECONDS = 10
 WHERE = {"SS": "SS is the first quantity that is wrong: look at DO 10, lines 27 to 39 of the listing.",
          "SMIN": "Every SS of this call is right, but SMIN is not: look at lines 26 and 40.",
@@ -25,7 +26,7 @@ WHERE = {"SS": "SS is the first quantity that is wrong: look at DO 10, lines 27 
 
 
 def call_of(lines):
-    """The inputs of a call, from the lines before `ask`."""
+    """Returns the inputs of a call from its lines before `ask`."""
     words = [line.split() for line in lines if not line.startswith(("call", "note"))]
     return {"indof": int(words[0][1]), "ndofpn": int(words[0][3]), "ndof": int(words[0][5]),
             "dofs": [(int(w[1]), float.fromhex(w[3]), float.fromhex(w[5])) for w in words if w[0] == "dof"],
@@ -33,7 +34,7 @@ def call_of(lines):
 
 
 def golden_calls(root=ROOT):
-    """The calls of the golden set in 8-byte REAL, in order: the text that asks, the inputs, and the answer of the listing."""
+    """Returns the golden calls in 8-byte REAL, in order: text of the call, inputs, and answer of the listing."""
     calls = []
     for file in sorted((root / "reference/traces").glob("*.trace")):
         header, *texts = file.read_text().split("\ncall ")
@@ -47,7 +48,7 @@ def golden_calls(root=ROOT):
 
 
 def answer_in(lines, pairs):
-    """(SMIN, SS, ISEP) of lines from `smin` to `end`; None where they are no answer to a call with so many pairs."""
+    """Returns (SMIN, SS, ISEP) from the lines of an answer, or None if they do not answer a call with so many pairs."""
     try:
         (key, smin), *rest = [line.split() for line in lines if line and not line.startswith("|") and line != "end"]
         if key != "smin" or [w[:3:2] for w in rest] != [["pair", "ss"]] * pairs:
@@ -58,7 +59,8 @@ def answer_in(lines, pairs):
 
 
 def answers_of(kernel, calls):
-    """The answers of a kernel, None where it has none; after a failure it is started anew."""
+    """Returns the answers of a kernel, None for a missing one. The kernel is restarted after a failure, but not after a
+    timeout."""
     kind, _, what = kernel.partition(":")
     command = what if kind == "pipe" else f"{sys.executable} {__file__} --serve {shlex.quote(what)}"
     answers = []
@@ -81,7 +83,7 @@ def bits(x):
 
 
 def digest(answers):
-    """32 bits of all values of all answers; port.js computes the same."""
+    """Returns a 32-bit hash of all values of all answers, the same as in port.js."""
     h = 2166136261
     for answer in answers:
         smin, ss, isep = answer or (UNSET, [], [])
@@ -92,7 +94,7 @@ def digest(answers):
 
 
 def first_difference(answer, right):
-    """(quantity, pair from 1 or 0, value, the right one), in the order in which the listing computes them; None where all bits are equal."""
+    """Returns the first difference: (quantity, pair from 1 or 0, value, right value); None if all bits are equal."""
     if answer is None:
         return "no answer", 0, "", ""
     (smin, ss, isep), (right_smin, right_ss, right_isep) = answer, right
@@ -106,14 +108,14 @@ def first_difference(answer, right):
 
 
 def findings(calls, answers):
-    """What hints.toml has of a fault: how many answers are right, the first wrong value, the digest."""
+    """Returns the entries of hints.toml for these answers, and (call, difference) of the first wrong answer or None."""
     wrong = [(call, difference) for call, a in zip(calls, answers) if (difference := first_difference(a, call["answer"]))]
     first = "" if not wrong else f"{wrong[0][0]['name']} {wrong[0][1][0]} {wrong[0][1][1]} {wrong[0][1][2]}"
     return {"right": len(calls) - len(wrong), "first": first, "digest": digest(answers)}, wrong[0] if wrong else None
 
 
 def hints(found, quantity, table):
-    """Sentences, and what they are worth."""
+    """Returns a heading that says how certain the hints are, and the hints."""
     same = [t["says"] for t in table.values() if t["digest"] == found["digest"]]
     if same:
         return "All answers are those of this fault:", same

@@ -1,9 +1,9 @@
-"""An empty kernel in Python: it reads calls and writes answers, over a pipe, and computes nothing yet. stages.toml grows it."""
+"""An empty kernel in Python: reads calls and writes answers over a pipe. The stages of stages.toml complete it."""
 import sys
 
 
 def contct(indof, ndofpn, dofs, pairs):
-    """The answer to one call: SMIN, and SS and ISEP of each pair (node, isep, isurf, face). `dofs` has (d, d_star) by number."""
+    """Returns SMIN, and SS and ISEP of each pair (node, isep, isurf, face). `dofs`: {number of a dof: (d, d_star)}."""
     smin = 0.0
     ss = [0.0 for pair in pairs]
     isep = [pair[1] for pair in pairs]

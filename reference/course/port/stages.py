@@ -1,5 +1,5 @@
-"""python3 reference/course/port/stages.py K [py|c|f90]: writes that kernel, kernel.py if none is named, with the first K stages of stages.toml to
-standard output."""
+"""python3 reference/course/port/stages.py K [py|c|f90]: prints kernel.py, kernel.c or kernel.f90 (default:
+kernel.py) with the first K stages of stages.toml."""
 import sys
 import tomllib
 from pathlib import Path

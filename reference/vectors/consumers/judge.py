@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Judges a kernel in Python: python3 judge.py ../contct-vectors-1.json FOLDER. The kernel is the function `contct` of
-FOLDER/contct_kernel.py, such as ../../kernels. Exit status 0: equal to the bit in every call; 1: not; 2: nothing was compared.
+"""Compares a kernel in Python with the vectors: python3 judge.py ../contct-vectors-1.json FOLDER. The kernel is the
+function `contct` of FOLDER/contct_kernel.py; FOLDER is, for example, ../../kernels.
+Exit status 0: equal to the bit in every call; 1: otherwise; 2: nothing was compared.
 """
 import json
 import struct
@@ -19,7 +20,7 @@ def bits(x):
 
 
 def pairs_of(call):
-    """D, d*, face, ISEP and ISURF of every pair."""
+    """Returns (D, d*, face, ISEP, ISURF) of each pair."""
     dofs = dict(zip(call["dof"], zip(doubles(call["dd"]), doubles(call["dtest"]))))
     at = [dofs[(node - 1) * call["ndofpn"] + call["indof"]] for node in call["id"]]
     return [(*both, *rest) for both, *rest in zip(at, doubles(call["cc"]), call["isep"], call["isurf"])]
