@@ -21,7 +21,8 @@ expected_number number(std::string quantity, std::string exact, int node = 0, in
   return e;
 }
 
-/// Two deflections, the first with two sources, two forces, a state and a number of contacts.
+/// Returns a table of two problems. The first has two deflections, one of them twice, two contact forces, the
+/// state of a pair, and a number of contacts.
 std::vector<verification_case> small_table() {
   expected_number state = number("state", "separated", 0, 2);
   state.value = separated;
@@ -40,7 +41,7 @@ foreign_results judged(const std::string& entries, const std::string& tolerance 
   return judge_results(file, small_table());
 }
 
-/// Returns the message about these entries, without the file's folder.
+/// Returns the message, without the file's folder, that refuses a file with these entries, or "accepted".
 std::string refused(const std::string& entries, const std::string& tolerance = "1e-3") {
   std::string said = "accepted";
   try {

@@ -1,4 +1,4 @@
-// Tests the trace of a found case. app/fuzz_test.cpp tests the result of a run.
+// Tests the trace of a found mismatch. app/fuzz_test.cpp tests the result of a fuzz run.
 #include "catch.hpp"
 #include "contct/lab/fuzz.hpp"
 #include "contct/lab/random_calls.hpp"
@@ -7,7 +7,7 @@ using namespace contct;
 
 namespace {
 
-/// Returns a case of one adversarial call with a few pairs.
+/// Returns a found mismatch in one adversarial call with at least three pairs.
 found_case a_case() {
   call_source source(1989, 8);
   std::uint64_t number = 2;

@@ -1,5 +1,5 @@
-// Tests fuzz runs on calls and on whole problems: their counts, their report on a different follower, and
-// their failure if too little was compared.
+// Tests fuzz runs on calls and on whole problems: their counts, their report on a follower with other
+// answers, and their failure if too little was compared.
 #include "contct/lab/fuzz.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ fuzz_result of_calls(std::vector<std::string> kernels, std::int64_t calls = 1, i
   return run_fuzz({std::move(kernels), calls, 0, 5, shard, shards}).result;
 }
 
-/// An answered call in which a pair at its face breaks and a pair one unit away makes contact.
+/// An answered call in which a pair at its face separates, and a pair with a gap of 1 makes contact.
 struct two_toggles {
   std::vector<double> dd = {0.0, 0.0}, dtest = {1.0, 1.0}, cc = {1e-11, 1.0}, ss = {0.5, 0.5};
   std::vector<int> id = {1, 2}, before = {in_contact, separated}, after = {separated, in_contact},

@@ -37,7 +37,8 @@ TEMPLATE_TEST_CASE(
     double) {
   using Real = TestType;
   random_calls<Real> source(1989);
-  std::map<branch, std::array<int, 3>> near;  // on the threshold; true and false by one ULP
+  // Counts of IFs whose sides are equal, differ by one ULP and are true, differ by one ULP and are false.
+  std::map<branch, std::array<int, 3>> near;
   std::vector<Real> ss;
   std::vector<int> isep;
   std::vector<event> events;
@@ -61,7 +62,8 @@ TEMPLATE_TEST_CASE(
     CHECK(near[b][0] >= 20);
     CHECK(near[b][1] + near[b][2] >= 20);
   }
-  CHECK(near[branch::within_epsmul][0] >= 20);  // one ULP of SS changes DIFF by many ULPs
+  // One ULP of SS changes DIFF by many ULPs, so DIFF is rarely one ULP from EPSMUL.
+  CHECK(near[branch::within_epsmul][0] >= 20);
   CHECK(near[branch::check_positive][0] >= 20);
 }
 
@@ -75,7 +77,7 @@ TEST_CASE("a random call depends only on its seed and its number") {
     call_source other(8, real_bytes);
     int same = 0;
     for (std::uint64_t n = 1; n <= 200; ++n) same += digest(other.at(n)) == seen[n] ? 1 : 0;
-    CHECK(same < 10);  // calls without pairs are the same
+    CHECK(same < 10);  // calls without pairs are equal
   }
 }
 

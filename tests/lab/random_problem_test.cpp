@@ -1,5 +1,5 @@
-// Tests that random problems have their declared properties, and judges thousands of them. Minimum counts
-// ensure that enough was checked.
+// Tests that random problems have their declared properties, and that their paths are solved and certified.
+// Minimum counts ensure that enough was checked.
 #include "contct/lab/random_problem.hpp"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ TEST_CASE("every random problem has valid supports, pairs and steps") {
     REQUIRE_FALSE(p.pairs.empty());
     for (const contact_pair& c : p.pairs) {
       CHECK((c.node >= 0 && c.node < count));
-      // A pair may be at a fixed node only if no other node was drawn. This node is the middle node.
+      // If no other pair was drawn, there is a pair at the middle node, which may be fixed.
       CHECK((!fixed.contains(c.node) || c.node == count / 2));
       CHECK((c.surface == face_above || c.surface == face_below));
       CHECK(c.stiffness > 0.0);

@@ -11,7 +11,7 @@ using namespace contct;
 
 namespace {
 
-/// Returns true if a pair of the call in contact has an s between 0.1 and 1/3.
+/// Returns true if a pair in contact has gap / d* between 0.1 and 1/3.
 bool approaches(const call_inputs<double>& in) {
   for (std::size_t i = 0; i < in.pairs(); ++i) {
     const std::size_t dof = in.dof_of_pair(i);
@@ -81,7 +81,7 @@ TEST_CASE("a mismatch is reproduced with new kernels, and the case has the leade
   const auto leader = make_kernel("fortran");
   const fresh_kernel in_single_precision = [] { return make_kernel("cpp-r4"); };
   const call_sequence calls = some_calls(3);
-  // Single precision gives different answers to these calls, like another kernel.
+  // Single precision gives other answers than the leader.
   const auto found = reproduce(*leader, in_single_precision, calls, "");
   REQUIRE(found);
   CHECK(found->what.call == 3);

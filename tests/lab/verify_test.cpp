@@ -18,7 +18,7 @@ namespace {
 
 const std::filesystem::path reference = CONTCT_REFERENCE;
 
-/// A reference problem and FORTRAN's path.
+/// A reference problem, and its path by the FORTRAN kernel.
 struct followed {
   explicit followed(const char* name) : p(read_problem((reference / "problems" / name).string())) {
     path.go({});

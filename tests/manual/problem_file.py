@@ -21,7 +21,8 @@ BEAM = "[beam]\nlength = 2\nelements = 2\n%s\n"
 PLATE = "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0\n"
 MATRIX = '[matrix]\nstiffness = "frame.mtx"\n'
 STRUCTURES = {"beam": BEAM % "EI = 1", "plate": PLATE, "matrix": MATRIX}
-# Each section with a table of keys, and a TOML table of this kind, in which %s is replaced by an unknown key.
+# Sections of the page that have a table of keys: {section: (the structure that has these keys or None, problem file)}.
+# The test replaces %s by an unknown key.
 OWN_TABLES = {
     "Top level": (None, "%s\n[beam]\n"),
     "`[units]`": (None, "[units]\n%s\n[beam]\n"),

@@ -17,7 +17,7 @@ from documented import first_difference, objects, parsed, result_of, same, seen_
 from manual import blocks
 
 
-# Every state of a reference problem is reached by its path.
+# No result has "ended_by", because every path of a reference problem reaches the ends of its steps.
 UNSEEN = {("A step", "ended_by")}
 LEAST_RUNS, LEAST_KEYS = 134, 255
 

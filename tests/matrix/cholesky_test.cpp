@@ -55,7 +55,7 @@ TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
   for (const int n : {1, 2, 7, 50, 400}) {
     const linear_structure s = simple_span(n, 1.0);
     const double ours = rcond_of(s);
-    // Computes the estimate by dpbcon for the same scaled matrix.
+    // dpbcon gets the same scaled matrix.
     stiffness_matrix scaled = s.stiffness;
     std::vector<double> d;
     for (const double entry : scaled.diagonal_with({})) d.push_back(1.0 / std::sqrt(entry));
@@ -78,7 +78,7 @@ TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
 }
 
 TEST_CASE("the condition number of a 2 by 2 matrix is exact") {
-  band_matrix a(2, 1);  // scaled [[1, .5], [.5, 1]]: norm 1.5, its inverse 2
+  band_matrix a(2, 1);  // scaled: [[1, .5], [.5, 1]] of norm 1.5, with an inverse of norm 2
   a.add(0, 0, 4.0);
   a.add(1, 1, 25.0);
   a.add(1, 0, 5.0);

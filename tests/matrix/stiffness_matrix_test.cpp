@@ -102,7 +102,7 @@ TEST_CASE("a band stores the entry (row, column) of its lower half at column * (
 
 namespace {
 
-/// 4 . 1 / . 5 . / 1 . 6
+/// The matrix [[4, 0, 1], [0, 5, 0], [1, 0, 6]].
 const sparse_matrix small = {3, {{2, 0, 1.0}, {0, 0, 4.0}, {2, 2, 6.0}, {1, 1, 5.0}}};
 
 }  // namespace
@@ -132,7 +132,7 @@ TEST_CASE("entries in any order become columns in ascending order, each with its
   CHECK(k.order() == 4);
   CHECK(k.starts == std::vector<int>{0, 2, 5, 6, 7});
   CHECK(k.rows == std::vector<int>{0, 3, 1, 2, 3, 2, 3});
-  CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 has no diagonal entry in the file
+  CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 of `a` has no diagonal entry
 }
 
 TEST_CASE("the columns of a band omit its zeros, except those on the diagonal") {

@@ -117,7 +117,7 @@ TEST_CASE("a pair at a dof that no rigid-body motion moves removes no rigid-body
   body.stiffness = braced(box_at(0), 1e5);
   std::vector<support> only_x_is_left;
   for (const int dof : {2, 5, 8, 1, 4})
-    only_x_is_left.push_back({dof, 0, true});  // z at three corners and y at two
+    only_x_is_left.push_back({dof, 0, true});  // fixes z at three corners and y at two
   REQUIRE(build(body, only_x_is_left, {}).rigid_motions == 1);
   for (const int dof : {7, 10, 14, 20, 23}) CHECK(rank_of(build(body, only_x_is_left, {at_dof(dof)})) == 0);
   CHECK(rank_of(build(body, only_x_is_left, {at_dof(21)})) == 1);
@@ -130,8 +130,8 @@ TEST_CASE(
   CHECK(by_matrix(build(beam_of(1000), {}, {}), clamp, {}).rigid_motions == 0);
   assembled longer;
   longer.stiffness = entries_of(build(beam_of(2500), {}, {}));
-  CHECK(build(longer, clamp, {}).rigid_motions == 0);     // 1.3e-14 exceeds the 1e-16 of doubles
-  for (const matrix_entry& e : longer.stiffness.entries)  // entries of 14 digits
+  CHECK(build(longer, clamp, {}).rigid_motions == 0);
+  for (const matrix_entry& e : longer.stiffness.entries)  // declares 14 digits for each entry
     longer.stiffness.last_digits.push_back(
         static_cast<std::int16_t>(std::floor(std::log10(std::abs(e.value))) - 13));
   CHECK(build(longer, clamp, {}).rigid_motions > 0);

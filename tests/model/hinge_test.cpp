@@ -72,7 +72,7 @@ TEST_CASE("A hinge over a support makes two simple beams of a beam with two span
 }
 
 TEST_CASE("A load that grows along an element with a hinge at its right end is condensed exactly") {
-  // The left element is clamped, and its hinge is on a prop. Under q = -2 x it has the clamp moment of a
+  // The left element is clamped, and its hinge is on a prop. Its clamp moment under q = -2 x is that of a
   // propped cantilever, 7 q0 L^2 / 120.
   const beam b = hinged({0, 3, 5}, {1}, 7);
   const load l = {{}, {{{0.0, -2.0}, {0}}}};

@@ -171,7 +171,7 @@ TEST_CASE("A mixture of two loads contains each placed load times its share of t
 
 namespace {
 
-/// All elements of this grid have different sizes.
+/// Returns a plate whose elements all have different sizes.
 plate uneven_grid() {
   return {{-1.0, 0.2, 0.5, 2.0}, {0.0, 0.7, 1.0, 1.1, 3.0}, 2.5, 0.3};
 }

@@ -21,7 +21,7 @@ std::vector<double> even_lines(double length, int elements) {
   return lines;
 }
 
-/// All elements of this grid have different sizes.
+/// Returns a plate whose elements all have different sizes.
 plate uneven_plate(double scale_x = 1.0, double scale_y = 1.0) {
   plate p{{-1.0, 0.2, 0.5, 2.0}, {0.0, 0.7, 1.0, 1.1, 3.0}, 2.5, 0.3};
   for (double& x : p.x) x *= scale_x;
@@ -56,7 +56,8 @@ element_results moments_in(const plate& p, const field& of) {
   return results_in_elements(p, {}, at_nodes(p, of));
 }
 
-/// Returns the largest difference between two answers, relative to the largest w, wx or wy.
+/// Returns the largest difference between `a` and `b` in w, wx or wy, relative to the largest w, wx or wy of
+/// `b`.
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double worst = 0.0;
   for (std::size_t kind = 0; kind < 3; ++kind) {
@@ -90,7 +91,7 @@ load edge_moments(const plate& p, double m_x, double m_y) {
   return l;
 }
 
-/// Returns the field of these moments, level at the first node.
+/// Returns the deflection under uniform moments m_x and m_y, with w = wx = wy = 0 at the first node.
 field bent_by(const plate& p, double m_x, double m_y) {
   const double stiff = p.D * (1 - p.nu * p.nu);
   const double k_x = (m_x - p.nu * m_y) / stiff;
@@ -101,7 +102,7 @@ field bent_by(const plate& p, double m_x, double m_y) {
           [=](double x, double) { return k_x * (x - x0); }, [=](double, double y) { return k_y * (y - y0); }};
 }
 
-/// Returns corner forces of 2 M_xy that twist a free plate to M_xy everywhere.
+/// Returns corner forces of 2 M_xy, under which a free plate has the twisting moment M_xy everywhere.
 load corner_forces(const plate& p, double m_xy) {
   const int right = p.columns() - 1;
   const int top = p.rows() - 1;
@@ -126,7 +127,7 @@ std::vector<support> held_at_first_node() {
   return {{0, 0, true}, {0, 1, true}, {0, 2, true}};
 }
 
-/// Returns a quarter of PP1's simply supported square plate, with side 1 and supports that also pull.
+/// Returns a quarter of PP1's square plate of side 1, without supports.
 plate quarter_of_square(int n) {
   return {even_lines(0.5, n), even_lines(0.5, n), 1.0, 0.3};
 }
@@ -148,7 +149,7 @@ std::vector<support> simply_supported_quarter(const plate& p) {
 
 const load unit_pressure_down{{}, {{{-1.0}, {}}}};
 
-/// Returns K with absolute values, which measures the rounding in K u.
+/// Returns `s` with the absolute values of K, to measure the rounding in K u.
 linear_structure magnitudes(linear_structure s) {
   const std::size_t entries =
       static_cast<std::size_t>(s.dofs()) * static_cast<std::size_t>(s.stiffness.band().subdiagonals() + 1);
@@ -204,7 +205,7 @@ TEST_CASE(
     for (int node = 0; node < p.nodes(); ++node) {
       for (int d = 0; d < 3; ++d) all.push_back({node, d, true});
     }
-    // Returns the largest force, or moment divided by the element's length in its direction.
+    // Returns the largest reaction relative to the largest load. Moments are divided by an element's length.
     const std::array<double, 3> lever = {1.0, 1.0, narrow};
     const auto excess = [&](const field& f, const load& l) {
       double applied = 0.0;

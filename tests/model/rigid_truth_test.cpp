@@ -1,4 +1,4 @@
-// Tests decisions about rigid-body motions by decimals, which doubles would get wrong.
+// Tests decisions about rigid-body motions that are right in decimals and would be wrong in doubles.
 #include <array>
 
 #include "catch.hpp"
@@ -176,7 +176,7 @@ TEST_CASE(
     return s.has_equilibrium(s.truth->work_of(l));
   };
   CHECK(carried(bare, points({{1, 0, -2.0}})) == true);
-  CHECK(carried(bare, points({{2, 0, -2.0}})) == true);  // over the second pair
+  CHECK(carried(bare, points({{2, 0, -2.0}})) == true);  // the load is over the second pair
   CHECK(carried(bare, points({{2, 0, -2.0}, {2, 1, 1e-300}})) == true);
   CHECK(carried(bare, points({{2, 0, -2.0}, {2, 1, -1e-300}})) == false);
   CHECK(carried(bare, points({{1, 0, 1.0}})) == false);

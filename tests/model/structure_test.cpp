@@ -10,7 +10,7 @@ using namespace contct;
 
 namespace {
 
-/// Returns two nodes of two dofs each, with the rows in reverse order.
+/// Returns a structure of two nodes with two dofs each, and rows in the reverse order of dofs.
 linear_structure four_dofs() {
   linear_structure s;
   s.dofs_per_node = 2;

@@ -51,7 +51,7 @@ TEST_CASE("the low part of a decimal, found without rational numbers, is that of
   CHECK(long_decimal_of(0.1).lo == -0.4 * 0x1p-56);  // 0.1 is 0x1.999999999999ap-4 less 2/5 of 2^-56
   contct::random_numbers random(11);
   std::size_t compared = 0;
-  for (int i = 0; i < 20'000; ++i) {  // of all lengths and sizes, most of which take the short way
+  for (int i = 0; i < 20'000; ++i) {  // most of them need no rational numbers
     const double digits = std::floor(random.unit() * std::pow(10.0, random.whole(1, 16)));
     const double x = (i % 2 == 0 ? digits : -digits) * std::pow(10.0, random.whole(-30, 5));
     const double_double fast = long_decimal_of(x);
@@ -61,7 +61,7 @@ TEST_CASE("the low part of a decimal, found without rational numbers, is that of
   CHECK(compared == 20'000);
 }
 
-TEST_CASE("a rational is rounded to the nearest double, and a tie to the even one") {
+TEST_CASE("a rational is rounded to the nearest double, and a tie to the even double") {
   // Halfway between a double and the next double up, and a tiny amount below and above it.
   const double least = std::numeric_limits<double>::denorm_min();
   const rational hair(integer(1), integer(1) << 2000U);

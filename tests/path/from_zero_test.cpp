@@ -6,8 +6,8 @@ using namespace contct;
 
 namespace {
 
-/// A clamped beam between stops. The first load presses it on the stops below, and the second load on a stop
-/// above.
+/// Returns a clamped beam between stops. The first load presses the beam on the stops below, and the second
+/// load on a stop above.
 beam_problem between_stops() {
   beam_problem p;
   p.geometry = even_beam(4.0, 8, 100.0);
@@ -29,7 +29,7 @@ recorder seen(const beam_problem& p, const std::string& engine, const std::strin
   return r;
 }
 
-/// A beam that lies on stops at its ends.
+/// Returns a beam that lies on stops at its ends.
 beam_problem lying(const std::vector<load>& steps) {
   beam_problem p;
   p.geometry = even_beam(4.0, 4, 100.0);

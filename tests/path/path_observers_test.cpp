@@ -80,10 +80,10 @@ TEST_CASE(
   early_toggles early;
   const event makes{0, change::make};
   const std::vector<event> events = {makes};
-  call_with(early, 0.0, -2.0, -1.0, 0.5, in_contact);  // reaches its face at -1
+  call_with(early, 0.0, -2.0, -1.0, 0.5, in_contact);  // the pair reaches its face at -1
   early.incremented({1, 1, 0.5, 0.5, events});
   CHECK(early.all().empty());
-  call_with(early, 0.0, -2.0, -1.25, 0.5, in_contact);  // is 0.25 before its face
+  call_with(early, 0.0, -2.0, -1.25, 0.5, in_contact);  // the pair is 0.25 before its face
   early.incremented({1, 2, 0.5, 1.0, {}});              // the driver has undone the toggle
   CHECK(early.all().empty());
   call_with(early, 0.0, -2.0, -1.25, 0.5, in_contact);

@@ -47,8 +47,8 @@ TEST_CASE("a free beam above its stops moves as a rigid body at constant load un
   CHECK(r.increments[0].fraction == 0.0);
   CHECK(r.increments[1].fraction == 0.0);
   CHECK(r.increments[2].fraction == 1.0);
-  // The load is nearer to the second stop, so that end falls faster. The rigid-body motion has the ratio of
-  // the work on translation and rotation, 8 to 4, so the ends move by 1/2 and 3/2 of the middle.
+  // The load of 8 at x = 3 acts on the right half, so the right end falls faster: the ends move by 1/2 and
+  // 3/2 of the middle.
   CHECK(r.events() == std::vector<event>{{1, change::make}, {0, change::make}});
   REQUIRE(r.steps.size() == 1);
   CHECK(r.steps[0].u[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-12));
@@ -80,7 +80,7 @@ TEST_CASE("a free beam moves from the stops below it to the stops above it, and 
 }
 
 TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
-  // Both halves are cantilevers under 2 a length, with q l^4 / 8 EI at their tips.
+  // Both halves are cantilevers under q = 2, whose tips deflect by q l^4 / 8 EI.
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
@@ -92,7 +92,7 @@ TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
   CHECK(r.steps[0].u[4] == Approx(middle).epsilon(1e-12));
   CHECK((r.steps[0].u[0] + r.steps[0].u[8]) / 2 == Approx(middle - droop).epsilon(1e-12));
   CHECK(r.steps[0].isep == std::vector<int>{in_contact, separated});
-  CHECK(r.steps[0].rcond > 0.0);  // with the pair's spring
+  CHECK(r.steps[0].rcond > 0.0);  // K with the pair's spring
 }
 
 TEST_CASE(
@@ -184,8 +184,8 @@ TEST_CASE("the path of the 1989 rule ends at its start if a free beam is above i
 
 namespace {
 
-/// Toggles pair 0 without progress of the load as long as it responds, and otherwise follows the corrected
-/// rule. Counts the calls without a response.
+/// Toggles pair 0 without progress of the load in each call in which the response of pair 0 is not 0, and
+/// otherwise follows the corrected rule. Counts both kinds of calls.
 struct restless_first_pair {
   int toggles = 0;
   int quiet = 0;
@@ -202,7 +202,7 @@ struct restless_first_pair {
   }
 };
 
-/// Returns a cantilever with a pair in its middle that is always pressed, and a stop at its tip.
+/// Returns a cantilever with a stop at its tip, and a pair in its middle that every load presses.
 beam_problem cantilever_on_two() {
   return {even_beam(2.0, 2, 1e4),
           {{0, 0, true}, {0, 1, true}},
@@ -330,7 +330,7 @@ TEST_CASE(
     return i.step == 2 &&
            std::find(i.events.begin(), i.events.end(), event{0, change::make}) != i.events.end();
   });
-  CHECK(makes_again);  // its pair was separated in the proved state
+  CHECK(makes_again);  // pair 0 was separated in the proved state
 }
 
 TEST_CASE(
@@ -368,8 +368,8 @@ TEST_CASE("a path has no fallback under the 1989 rule or if the reference soluti
 }
 
 TEST_CASE("a path that cannot continue in one step continues from the reference solution in the next step") {
-  // The first step never ends, and later steps follow the corrected rule. Both pairs have a force after the
-  // first step, and separate in the second step.
+  // The kernel toggles without end in the first step, and then follows the corrected rule. Both pairs are in
+  // contact after the first step, and separate in the second step.
   bool is_found = false;
   made_kernel never = endless();
   made_kernel k([&](call<double>& c) { is_found ? contct_corrected(c) : never.answer(c); });
@@ -394,7 +394,7 @@ TEST_CASE("a path that cannot continue in one step continues from the reference 
   CHECK(r.steps[1].isep == sound.steps[1].isep);
   for (std::size_t dof = 0; dof < 6; ++dof)
     CHECK(r.steps[1].u[dof] == Approx(sound.steps[1].u[dof]).epsilon(1e-12).margin(1e-18));
-  CHECK(r.increments.back().number == 3);  // two events, and the rest of the load
+  CHECK(r.increments.back().number == 3);  // two increments with events, and one to full load
 }
 
 TEST_CASE(
@@ -409,7 +409,7 @@ TEST_CASE(
   p.steps = {tip_load(3, -8.0)};
   recorder limited;
   CHECK(p.run("corrected", {&limited}, {1, any.ends}).status == path_status::solved);
-  p.geometry.EI.assign(4, 1e30);  // the springs are lost to rounding
+  p.geometry.EI.assign(4, 1e30);  // so stiff that the springs are lost to rounding
   recorder lost;
   CHECK(p.run("corrected", {&lost}, any).status == path_status::solved);
   for (const recorder* r : {&limited, &lost}) {

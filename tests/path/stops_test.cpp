@@ -20,7 +20,7 @@ TEST_CASE("a mechanism names the pair whose separation caused it, and the share 
   CHECK(end.pairs == std::vector<int>{0});
   // About pair 2 the moments are 4 * 1 = F * 1, so F = 4, a share of 2/3 of 6.
   CHECK(end.fraction == Approx(2.0 / 3).epsilon(1e-10));
-  // In the final state the contact force is 0.
+  // In the final state the contact force of the first pair is 0.
   REQUIRE(r.steps.size() == 2);
   CHECK(r.steps[1].fraction == end.fraction);
   CHECK(r.steps[1].u[2] == Approx(0.0).margin(1e-12));
@@ -29,7 +29,8 @@ TEST_CASE("a mechanism names the pair whose separation caused it, and the share 
 }
 
 TEST_CASE("a free beam on a bed can be unloaded and loaded again, although all pairs separate at zero load") {
-  // In PB8 the middle or a part next to it lifts off. Then all load is removed.
+  // A force lifts the middle of the beam, or presses it so that other parts lift off. Then all load is
+  // removed.
   for (const double force : {4.0, -50.0, -100.0}) {
     beam_problem p = free_beam_on_springs(20.0, 100, 1.0, 4.0);
     const load heavy{{}, {{{-1.0}, {}}}};
@@ -120,7 +121,7 @@ TEST_CASE("a path whose factorisation fails ends with the share of the step that
   const path_end end = follow_path(s, 1, total, engine, *make_kernel("cpp"), {});
   CHECK(end.status == path_status::not_factored);
   CHECK(end.step == 1);
-  CHECK(end.fraction == Approx(0.25).epsilon(1e-12));  // contact at -15 of -60
+  CHECK(end.fraction == Approx(0.25).epsilon(1e-12));  // the tip reaches its stop at -15 of -60
 }
 
 TEST_CASE("after a failed solve, the next step has the springs of the pairs in contact") {
@@ -162,7 +163,7 @@ TEST_CASE("loads beyond the range of doubles end the path, and no state has an i
   recorder r;
   const path_end end = p.run("fortran", {&r});
   CHECK(end.status == path_status::not_factored);
-  p.pairs.clear();  // without pairs the path has no infinite number either
+  p.pairs.clear();
   CHECK(p.run("fortran", {&r}).status == path_status::not_factored);
   for (const auto& step : r.steps) {
     for (const double x : step.u) CHECK(std::isfinite(x));

@@ -653,7 +653,7 @@ def beside_the_listing():
     check(len(lines) >= 15 and seen == [expected[line] for line in lines], f"the C++ of each line is beside it: {len(lines)} lines")
 
 
-# The faults of kernel.js: (its mutant in hints.toml, a text of the kernel, its replacement).
+# Faults that are put into kernel.js: (name of the mutant in hints.toml, a text of the kernel, its replacement).
 FAULTS = [("smin-quotient-dropped", " - smin) / smin", " - smin)"), ("epsmul-le", "diff < 1", "diff <= 1"), ("gap-reversed", "cc[i] - dd[dof]", "dd[dof] - cc[i]"),
           ("toggled-by-sign", "isep[i] === 1 ? -1 : 1", "-isep[i]"), ("sschk-negated", "(isep[i] * isurf[i])", "(-isep[i] * isurf[i])"),
           ("do-30-from-2", "let i = 0; i < nc; ++i) {\n    const diff", "let i = 1; i < nc; ++i) {\n    const diff"), ("nodes-from-0", "(id[i] - 1)", "id[i]"),

@@ -20,7 +20,7 @@ namespace {
 
 using contct::random_numbers;
 
-/// Returns zeros, infinities, NaN, and large and small numbers of few or all 64 bits.
+/// Returns a zero, an infinity, a NaN, or a large or small number with few or all 64 bits.
 long double any_number(random_numbers& random) {
   constexpr long double infinity = std::numeric_limits<long double>::infinity();
   constexpr long double not_a_number = std::numeric_limits<long double>::quiet_NaN();

@@ -1,5 +1,5 @@
 // contct_texts STEP: compares the texts of gfortran's FORMAT and of C++ for every STEP-th 4-byte SMIN below
-// 1. SMIN is above 0 and at most 1, as is proved; FORMAT 20 writes 1 itself.
+// 1. The prover shows that SMIN is above 0 and at most 1; only FORMAT 20 writes the value 1.
 #include <array>
 #include <bit>
 #include <cstdint>

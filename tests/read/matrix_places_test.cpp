@@ -89,7 +89,7 @@ TEST_CASE("dofs whose labels have no known node, and rotations, are counted as n
   const placed_nodes places = places_by_coordinates(
       "a 0 0\nb.c 1 0\n", "K.xyz", with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"}));
   CHECK(places.dofs[1].node == 1);
-  // The labels a.1 and a.x mean the same direction.
+  // The label a.1 means the same direction as a.x, which comes first, so dof 6 is not drawn.
   for (std::size_t dof = 3; dof < 8; ++dof) CHECK(places.dofs[dof].node == -1);
   REQUIRE(places.notes.size() == 2);
   CHECK_THAT(places.notes[0], Contains("5 of 8 dofs") && Contains("as \"d.x\""));
@@ -111,7 +111,7 @@ TEST_CASE("two nodes have one edge if the matrix couples them, and an entry of 0
 
 TEST_CASE(
     "a matrix has no edges if it couples more than three times as many pairs of nodes as it has nodes") {
-  // In a full matrix, 8 nodes have 28 couplings, more than 24, and 7 nodes have 21.
+  // A full matrix couples 28 pairs of 8 nodes, of which 24 are allowed, and 21 pairs of 7 nodes.
   for (const int n : {7, 8}) {
     std::string text;
     std::vector<std::string> labels;

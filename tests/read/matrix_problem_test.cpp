@@ -76,7 +76,7 @@ std::string exported(const problem& p, const scratch_folder& to) {
   return to.write("problem.toml", text);
 }
 
-/// FORTRAN's path with C++ in lockstep.
+/// A problem, and its path by FORTRAN with C++ in lockstep.
 struct followed {
   explicit followed(problem p)
       : what(std::move(p)),

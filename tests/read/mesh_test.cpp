@@ -42,7 +42,7 @@ TEST_CASE(
   }
   CHECK(0.7 * 3 / 7 != 0.3);
   CHECK(find_coordinate(std::vector<double>{0.0, 0.1 + 0.2, 1.0}, 0.3) == 1);
-  // Relative to the end with the larger magnitude.
+  // The tolerance is relative to the end with the larger magnitude.
   CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("element_size makes a node at every x that the problem file names, in 
     CHECK(std::ranges::count(x, named) == 1);
   }
   CHECK(longest(x) <= 2.5);
-  CHECK(x.size() == 10);  // the named ones, and one between 0.3 and 4.1
+  CHECK(x.size() == 10);  // the named nodes, and one between 0.3 and 4.1
 }
 
 TEST_CASE("element_size keeps the nodes listed in x, and divides the lengths between them") {

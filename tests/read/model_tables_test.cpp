@@ -1,5 +1,5 @@
 // Tests the forms of [beam] and [plate]; bad_inputs.hpp and bad_plates.hpp list their refusals. For [matrix]
-// and [calculix], tests the named files, the storage of K, and refusals before it is allocated.
+// and [calculix], tests the named files, the storage of K, and refusals before K is allocated.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -255,7 +255,7 @@ TEST_CASE("a mesh too coarse for a bed gives one warning with a suitable element
     return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
         .warnings;
   };
-  // The required size is half of (4 EI / modulus)^(1/4) = 2.
+  // Elements may be at most 1 long: half of (4 EI / modulus)^(1/4) = 2.
   const std::string bed = "[[bed]]\nmodulus = 1\nface = 0\n";
   CHECK(warnings_of("elements = 8\nEI = 4", bed).empty());
   const auto coarse =

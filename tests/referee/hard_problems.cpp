@@ -40,7 +40,7 @@ class hard_drawing {
  private:
   int two_digits() { return random_.whole(10, 99); }
   double either_way(double x) { return random_.chance(0.5) ? x : -x; }
-  /// Returns 1.0 to 9.9 times 10^exponent in the units of lengths or forces.
+  /// Return 1.0 to 9.9 times 10^exponent, in the units of lengths, forces or moments.
   double length(int exponent) { return decimal(two_digits(), exponent - 1 + u_); }
   double force(int exponent) { return decimal(two_digits(), exponent - 1 + e_ - 2 * u_); }
   double moment(int exponent) { return decimal(two_digits(), exponent - 1 + e_ - u_); }
@@ -125,7 +125,7 @@ class hard_drawing {
     if (random_.chance(0.3)) step({{node_between(), 0, -force(random_.whole(-3, 1))}});
   }
 
-  /// The small load moves its pairs by 10^(small - k), about their gaps.
+  /// The small load moves the pairs by about 10^(small - k), which is the order of magnitude of their gaps.
   void small_after_large() {
     make_beam(random_.whole(3, 6));
     if (random_.chance(0.5)) return large_between_two_pairs();

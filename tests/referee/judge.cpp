@@ -49,9 +49,9 @@ double size_of(const rational& x) {
   return rounded(rational(abs(x)));
 }
 
-/// The largest number of each kind in an exact state. A quantity that is 0 by symmetry gets at least a size
-/// from the others: slopes from deflections over the span, moments from forces times the span, deflections
-/// from slopes times the span, and forces from moments over the span.
+/// The largest number of each kind in an exact state. Some numbers are 0 by symmetry, so slopes are at least
+/// deflections / span, moments at least forces * span, and, instead of 0, deflections are slopes * span and
+/// forces moments / span.
 struct sizes {
   double deflection = 0.0, slope = 0.0, force = 0.0, moment = 0.0;
 
@@ -140,7 +140,7 @@ class comparing {
     }
   }
 
-  /// Returns the proved bound of a kind, or for moments of supports the bound of moments.
+  /// Returns the proved bound of a kind of number; for a reaction moment the bound of moments.
   [[nodiscard]] double bound_of(number_kind kind, std::size_t at) const {
     const bool of_moment = kind == number_kind::reaction && p_.supports[at].dof != 0;
     constexpr quantity quantities[] = {quantity::w, quantity::slope, quantity::force, quantity::reaction};
@@ -148,7 +148,8 @@ class comparing {
     return judged_->error[q].value_or(std::numeric_limits<double>::infinity());
   }
 
-  /// Compares a number. `size`: of its kind in this state, or `path_size` if that is 0; `at`: node, pair or
+  /// Compares a number with the exact one. The relative error refers to `size`, the largest number of the
+  /// kind in the state, or to `path_size`, the largest on the path, if `size` is 0. `at`: node, pair or
   /// support, from 0.
   void number(number_kind kind, double given, const rational& exactly, double size, double path_size,
               std::size_t at) {
@@ -193,7 +194,8 @@ class comparing {
   const exact_answer& exactly_;
   bool is_refined_;
   judgement& result_;
-  const exact_step_end* state_ = nullptr;  // the compared step, as for the members below
+  // Of the step that is compared:
+  const exact_step_end* state_ = nullptr;
   const kept_state* kept_ = nullptr;
   const certificate* judged_ = nullptr;
   sizes here_, seen_;
@@ -268,7 +270,7 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
     j.findings.push_back(*wrong);
     return;
   }
-  // Final-only, exact and lost paths lack events.
+  // These paths do not have all events.
   if (how == way::final_only || kept.exact || kept.lost) return;
   constexpr double tie = 1e-9;
   const kernel_digits r = counter.result("corrected", end.status, tie);

@@ -18,10 +18,10 @@ enum class way { default_engine, refactor, final_only, listing };
 inline constexpr int ways = 3;  ///< the first three follow the corrected rule
 [[nodiscard]] std::string_view name_of(way w);
 
-/// The errors of a run. `outside`: a number of a certified step has an error above the certificate's
-/// tolerance, which is relative to the largest number of the path. `beyond`: its error exceeds 1e-6 of the
-/// largest of its kind in its own state, or on the path for an unloaded state. `loose`: the proved bounds of
-/// a step are too large to certify it, although its final state is the only equilibrium.
+/// The errors of a run. `outside`: the error of a number exceeds the proved bound. `beyond`: the error of a
+/// number in a certified step exceeds 1e-6 of the largest exact number of its kind in the state or, if this
+/// is 0, on the path. `loose`: the proved bounds of a step are too large for a certificate, although its
+/// final state is the only equilibrium.
 enum class fault {
   outside_deflection,
   outside_slope,
@@ -32,7 +32,7 @@ enum class fault {
   beyond_force,
   beyond_reaction,
   loose,
-  digits,           ///< a step claims at least half a digit more than its worst number has
+  digits,           ///< a step claims over half a digit more than its worst number has
   false_solution,   ///< solved, although there is no equilibrium
   false_mechanism,  ///< no equilibrium is found, although there is one
   refused,          ///< exit status 2, although there is an equilibrium or a mechanism
@@ -57,7 +57,7 @@ struct exact_answer {
 /// One error of a run.
 struct finding {
   fault what;
-  double amount;  ///< error over tolerance; for `beyond` relative error; for `digits` missing digits
+  double amount;  ///< error over bound; for `beyond` relative error; for `digits` missing digits
   std::string words;
 };
 

@@ -150,9 +150,9 @@ std::vector<judged_problem> judge_stretch(const options& o, std::uint64_t first,
 }
 
 /// The known numbers of errors in a run of `count` problems of `seed`, and the least number of compared
-/// values. Events differ where rounding decides. A bound is loose if half a unit in a matrix's last digits
-/// decides whether it is held. A path that is followed exactly is not an error. Another LAPACK rounds
-/// differently and changes the numbers.
+/// values. Events differ where rounding decides. A bound is loose if half a unit in the last digits of a
+/// matrix decides whether the structure has a rigid-body motion. `exactly` counts paths that were followed
+/// exactly, which is no error. The numbers are those of one LAPACK, since another rounds differently.
 struct known_counts {
   std::uint64_t count, seed;
   long values, loose, events, exactly;

@@ -122,7 +122,7 @@ TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the m
   }
   CHECK(taken(contct_run(nullptr, nullptr)).at("exit") == 2);
   const std::string cut = "{\"engine\": \"" + std::string(5000, 'x');
-  // The message quotes only a part.
+  // The message quotes only a part of the text.
   CHECK(error_of(taken(contct_run(problem.c_str(), cut.c_str()))).size() < 1000);
   // Recursion would overflow the stack on these texts.
   const std::string deep = "{\"engine\": " + std::string(200'000, '[') + std::string(200'000, ']') + "}";

@@ -15,7 +15,7 @@ TEST_CASE("an event's load is described with the keys of the problem file") {
       parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
   CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
   const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
-  // Every row has six digits. If the line is too long, the place is omitted first, and then the kind.
+  // Numbers have six digits. If the text is too long, the place is omitted first, and then the kind.
   CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
   CHECK(load_path(p).words_at(1, 0.123456, 20) == "w -7.40736 at node 3");
   CHECK(load_path(p).words_at(1, 0.123456, 19) == "w -7.40736");

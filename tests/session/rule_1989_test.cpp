@@ -1,4 +1,4 @@
-// Tests the 1989 rule next to the answer: its different events, and its wrong states.
+// Tests the comparison of the 1989 rule with the corrected rule: different events, and wrong states.
 #include "contct/session/rule_1989.hpp"
 
 #include <string>

@@ -21,7 +21,8 @@ using namespace contct;
 
 namespace {
 
-/// Structures with supports and moderate condition numbers, on which the allowed differences depend.
+/// Returns the kind of random problems with supports and moderate condition numbers. The allowed difference
+/// grows with the condition number.
 random_problem_kind held_problems(double plates) {
   random_problem_kind kind;
   kind.least_unit = 1e-3;
@@ -38,7 +39,7 @@ std::vector<double> load_of(const random_problem& p, const linear_structure& s) 
 }
 
 /// Returns the largest difference between two responses relative to `size`, the largest deflection of any
-/// node. The responses at the pairs may be only rounding.
+/// node, since the responses at the pairs may be only rounding.
 double difference(const std::vector<double>& a, const std::vector<double>& b, double size) {
   double off = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
@@ -65,7 +66,8 @@ struct toggled {
   double worst = 0.0;  // relative to the allowed difference
 };
 
-/// Toggles `toggles` pairs, drawn from `choices` pairs, and compares every response.
+/// Toggles one of the first `choices` pairs `toggles` times, and compares every response with that of
+/// refactor.
 toggled toggle_back_and_forth(const random_problem& p, const std::string& engine, int toggles, int choices,
                               random_numbers& random) {
   toggled t;

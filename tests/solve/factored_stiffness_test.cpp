@@ -132,7 +132,7 @@ TEST_CASE(
   const std::vector<spring_at> springs = {{0, 12.0}};
   std::vector<double> u(3);
   int solves = 0;
-  const auto jacobi = [&solves](double factor) {  // ignores the coupling of -1
+  const auto jacobi = [&solves](double factor) {  // approximate: ignores the coupling of -1
     return [&solves, factor](std::span<double> b) {
       ++solves;
       b[0] *= factor / 16;

@@ -25,8 +25,7 @@ inline const std::string propped_cantilever =
     "[beam]\nlength = 2.0\nelements = 2\nEI = 100.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[support]]\nnode = 3\nfix = [\"w\"]\n[[step]]\nuniform = -8.0\n";
 
-/// A run of FORTRAN with C++ in lockstep or, with another leader, of one kernel, with everything that outputs
-/// need.
+/// A run with everything that outputs need: of FORTRAN with C++ in lockstep, or of one other kernel alone.
 struct a_run {
   const problem what;
   const linear_structure structure;

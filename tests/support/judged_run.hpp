@@ -42,7 +42,7 @@ struct judged_run final : observer {
   std::vector<end_numbers> numbers;
   std::vector<std::vector<double>> displacements;
   std::vector<std::vector<int>> statuses;
-  std::vector<char> exactly, reference;  // 1 if the state is the exact path's end, or the reference solution
+  std::vector<char> exactly, reference;  // 1 if the state is from the exact path; from the reference solution
 };
 
 }  // namespace contct

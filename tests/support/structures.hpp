@@ -10,7 +10,8 @@
 
 namespace contct {
 
-/// Returns the text of a problem with full paths of its files, in which each piece of `replaced` is replaced.
+/// Returns the text of a problem file with full paths of the named files. Replaces each first text of
+/// `replaced` by the second; throws std::invalid_argument if the file does not contain the first text.
 inline std::string structure_problem(const std::string& folder, const std::string& name,
                                      const std::vector<std::pair<std::string, std::string>>& replaced = {}) {
   const std::string structures = CONTCT_REFERENCE "/structures/";
@@ -29,7 +30,7 @@ inline std::string structure_problem(const std::string& folder, const std::strin
   return text;
 }
 
-/// Returns the portal frame. Without coordinates only its matrix and its dofs' names are known.
+/// Return the problem of the portal frame, with and without the coordinates of its nodes.
 inline std::string portal_frame() {
   return structure_problem("", "frame");
 }

@@ -35,7 +35,7 @@ struct path_counts final : observer {
   void step_ended(const step_state& s) override { fallbacks += s.from_reference ? 1 : 0; }
 };
 
-/// Returns the largest of all measures of the certificates.
+/// Returns the largest error measure in any certificate.
 inline double needed_by(const problem_result& t) {
   double needed = 0.0;
   for (const certificate& c : t.certificates)

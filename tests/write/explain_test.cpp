@@ -30,7 +30,7 @@ explained_path explain_run(const problem& p, explained_path::sink sink, observer
   return path;
 }
 
-/// A node that reaches its stop at a quarter of the load, and a clamped node at a face.
+/// A cantilever whose tip reaches its stop at a quarter of the load, with another pair at the clamped node.
 const char* const two_pairs =
     "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n"

@@ -87,7 +87,7 @@ TEST_CASE("the proved digits of a run are those of its worst step") {
       "[[step]]\nuniform = -1.0\n[[step]]\npoint = [ { node = 200, w = 1.0 } ]\n");
   double worst = 0.0;
   for (const auto& c : two.result.judged.steps()) worst = std::max(worst, c.value().worst_share);
-  REQUIRE(worst > 1e-10);  // the digits of doubles
+  REQUIRE(worst > 1e-10);  // otherwise the summary is "10 digits or more"
   const int digits = static_cast<int>(-std::log10(worst));
   const std::string said = digits >= 10 ? "10 digits or more" : std::to_string(digits) + " digits";
   CHECK(certificate_summary(two.result, true)[1] == "proved: " + said + " of every number");
