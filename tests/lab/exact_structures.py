@@ -1,7 +1,7 @@
-"""What a beam or a plate has between its nodes, in fractions: lines of elements, their extremes, moments.
+"""Computes results between the nodes of beams and plates in fractions: deflections, moments, shears and their extremes.
 
-Written from the differential equations and not after the program's C++, which it is compared with. Polynomials are lists,
-constant first; a number that is not rational is a Fraction within 1e-60 of it, relative to its size.
+Derived from the differential equations, independently of the C++ code with which it is compared. Polynomials are lists
+with the constant first. An irrational number is replaced by a Fraction with a relative error below 1e-60.
 """
 from fractions import Fraction
 from itertools import zip_longest
@@ -9,12 +9,12 @@ from math import comb, isqrt
 
 
 def decimal(text):
-    """The number that `contct exact` takes this literal for: the shortest decimal that reads as its double."""
+    """Returns the exact value of a literal, as `contct exact` does: the shortest decimal of the same double."""
     return Fraction(repr(float(text)))
 
 
 def grid(table, key, which=None):
-    """Coordinates of nodes: given, or equal parts of a length."""
+    """Returns the coordinates of grid lines, given one by one or as equal parts of a length."""
     if key in table:
         return [Fraction(x) for x in table[key]]
     length, parts = (table["length"], table["elements"]) if which is None else (table["size"][which], table["elements"][which])
@@ -33,7 +33,7 @@ def derivative(p):
 
 
 def shifted(p, left):
-    """p(left + t) as a polynomial in t."""
+    """Returns p(left + t) as a polynomial in t."""
     return [sum(c * comb(i, k) * left ** (i - k) for i, c in enumerate(p) if i >= k) for k in range(len(p))]
 
 
@@ -44,7 +44,7 @@ def stripped(p):
 
 
 def rounded(x, digits=150):
-    """x to so many digits, where it has more: what follows need not carry thousands of them."""
+    """Returns x rounded to this number of digits if it has many more, so that later numbers stay short."""
     size = max(len(str(x.numerator)), len(str(x.denominator)))
     if size <= 2 * digits or x == 0:
         return x
@@ -53,7 +53,7 @@ def rounded(x, digits=150):
 
 
 def root_of_square(x):
-    """The root of x >= 0: exact where it is rational."""
+    """Returns the square root of x >= 0, exact if it is rational."""
     n, d = isqrt(x.numerator), isqrt(x.denominator)
     if n * n == x.numerator and d * d == x.denominator:
         return Fraction(n, d)
@@ -62,7 +62,7 @@ def root_of_square(x):
 
 
 def zeros_inside(p, h):
-    """Where p changes its sign between 0 and h: between neighbouring zeros of its derivative at most once."""
+    """Returns where p changes its sign between 0 and h: at most once between neighbouring zeros of its derivative."""
     p = stripped(p)
     if len(p) < 2:
         return []
@@ -90,7 +90,7 @@ def zeros_inside(p, h):
 
 
 def hull(p, h):
-    """Bounds of p from 0 to h: the least and largest coefficient in Bernstein's form."""
+    """Returns bounds of p from 0 to h: the least and largest coefficient of its Bernstein form."""
     n = max(len(p) - 1, 1)
     scaled = [c * h**i for i, c in enumerate(p)]
     b = [sum(Fraction(comb(j, i), comb(n, i)) * c for i, c in enumerate(scaled[: j + 1])) for j in range(n + 1)]
@@ -98,7 +98,7 @@ def hull(p, h):
 
 
 class Beam:
-    """A beam's problem: x [nodes], EI [elements], and what acts in each step: see loads_of."""
+    """The structure of a beam problem: x [nodes], EI [elements], and the loads of each step as in loads_of."""
 
     dofs = ("w", "theta")
 
@@ -118,13 +118,14 @@ class Beam:
         return len(self.x)
 
     def way(self, along):
-        """Places along the beam, and their nodes."""
+        """Returns (place, node) along the beam."""
         return [(x, node) for node, x in enumerate(self.x)]
 
     def chain(self, step, e, w, slope, moment, shear):
-        """The pieces of element e between the places of loads, and w and the slope at the right end, from what the left end has.
+        """Returns the pieces of element e between the places of loads, and w and the slope at the right end.
 
-        Each piece is (left, length, polynomials in x - left): EI (w'' - curvature) is the moment, its slope the shear, whose slope is the load.
+        They follow from w, slope, moment and shear at the left end. A piece is (left, length, polynomials in x - left).
+        The moment is EI (w'' - curvature), the shear is its derivative, and the load is the derivative of the shear.
         """
         lines, points, curvatures = self.loads[step]
         left, right = self.x[e], self.x[e + 1]
@@ -147,7 +148,7 @@ class Beam:
         return pieces, w, slope
 
     def pieces(self, u, step, e):
-        """The same with the displacements of both ends."""
+        """Returns the pieces of element e between the places of loads, from the displacements of both ends."""
         h, (w0, slope0, w1, slope1) = self.x[e + 1] - self.x[e], u[2 * e : 2 * e + 4]
         pieces, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
         missing, turn = w1 - w, slope1 - slope
@@ -164,7 +165,7 @@ class Beam:
         return at(line[quantity], h if end == "right" else Fraction(0))
 
     def extreme(self, u, step, quantity, most):
-        """The largest (or least) value, and the x of all places where it is."""
+        """Returns the largest (or least) value, and the x of all places with this value."""
         sign = 1 if most else -1
         best, places = None, []
         for left, h, line in (piece for e in range(len(self.x) - 1) for piece in self.pieces(u, step, e)):
@@ -183,9 +184,9 @@ class Beam:
 
 
 def loads_of(step, x):
-    """What acts along a beam: (from, to, polynomial in x), (x, force, moment) between nodes and (from, to, curvature).
+    """Returns a step's loads along a beam: (from, to, polynomial in x), (x, force, moment) and (from, to, curvature).
 
-    What these problems do not have is refused.
+    Raises ValueError for forms of loads that the reference problems do not use.
     """
     def ends(part):
         return Fraction(part.get("from", x[0])), Fraction(part.get("to", x[-1]))
@@ -200,7 +201,7 @@ def loads_of(step, x):
 
 
 class Plate:
-    """A plate's problem: x, y [grid lines], D, nu."""
+    """The structure of a plate problem: x, y [grid lines], D, nu."""
 
     dofs = ("w", "wx", "wy")
     # The exponents (i, j) of the terms x^i y^j of an element's w.
@@ -223,7 +224,7 @@ class Plate:
 
     @staticmethod
     def term(monomial, x, y, dx, dy):
-        """The derivative of x^i y^j, dx times by x and dy times by y."""
+        """Returns the derivative of x^i y^j, dx times by x and dy times by y."""
         (i, j), factor = monomial, 1
         if i < dx or j < dy:
             return Fraction(0)
@@ -234,12 +235,12 @@ class Plate:
         return factor * x ** (i - dx) * y ** (j - dy)
 
     def corners(self, e):
-        """Grid points of element e, counter-clockwise from the lower left."""
+        """Returns the grid points (column, row) of element e, counter-clockwise from the lower left corner."""
         i, j = e % (len(self.x) - 1), e // (len(self.x) - 1)
         return [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
 
     def element(self, u, e):
-        """Coefficients of the monomials, in coordinates from the element's lower left corner, and its sides."""
+        """Returns the coefficients of element e's monomials, with its lower left corner as origin, and its sides."""
         corners = self.corners(e)
         a = self.x[corners[1][0]] - self.x[corners[0][0]]
         b = self.y[corners[3][1]] - self.y[corners[0][1]]
@@ -259,7 +260,7 @@ class Plate:
         return self.moments(u, element - 1, corner)[quantity]
 
     def extreme(self, u, step, quantity, most):
-        """The largest (or least) value, w at nodes, moments at corners of elements; and the x of all places where it is."""
+        """Returns the largest (or least) w at nodes or moment at corners of elements, and the x of all its places."""
         if quantity == "w":
             found = [(w, self.x[node % len(self.x)]) for node, w in enumerate(u[::3])]
         else:
@@ -271,7 +272,7 @@ class Plate:
 
 
 def solved(rows, right):
-    """The solution of a square system, by elimination."""
+    """Returns the solution of a square system, by elimination."""
     rows = [[Fraction(v) for v in row] + [r] for row, r in zip(rows, right)]
     for k in range(len(rows)):
         pivot = next(i for i in range(k, len(rows)) if rows[i][k] != 0)
@@ -284,7 +285,7 @@ def solved(rows, right):
 
 
 class Matrix:
-    """A structure given by its matrix: what is asked of it is in the path, and each dof is a node of its own."""
+    """A structure given by its matrix. Each dof counts as a node, and all numbers come from the exact path."""
     dofs = ["value"]
 
     def nodes(self):

@@ -1,11 +1,11 @@
-"""Writes the exact numbers into reference/verification.toml, or compares those that stand there:
+"""Writes the exact numbers into reference/verification.toml, or with --check compares the existing ones:
 
     python3 tests/lab/write_exact.py CONTCT reference            writes
     python3 tests/lab/write_exact.py CONTCT reference --check --least 716 [--most-nodes N]
 
-CONTCT is the program. `contct exact --json` has the displacements, forces and shares of every path as fractions; moments,
-shears, extremes and changes of sign come from exact_structures.py. Each number becomes the fraction where its numerator
-and denominator have at most 40 digits together, otherwise 40 significant digits, the last one rounded.
+CONTCT is the program. `contct exact --json` has the displacements, forces and shares of every path as fractions;
+moments, shears, extremes and changes of sign come from exact_structures.py. A number is written as a fraction if its
+numerator and denominator have at most 40 digits together, and otherwise rounded to 40 significant digits.
 """
 import argparse
 import json
@@ -25,7 +25,7 @@ DIGITS = 40
 
 
 def words(x):
-    """The fraction where it is short, otherwise its first 40 digits, rounded."""
+    """Returns x as a fraction if it is short, and otherwise rounded to 40 digits."""
     if len(str(abs(x.numerator))) + len(str(x.denominator)) <= DIGITS:
         return str(x)
     exponent = len(str(abs(x.numerator))) - len(str(x.denominator))
@@ -43,7 +43,7 @@ def words(x):
 
 
 def zero_right_of(way, w, start):
-    """Where w, linear between the nodes, changes its sign nearest to the right of `start`, measured from there."""
+    """Returns the distance from `start` to the next change of sign of w to the right; w is linear between the nodes."""
     for (s, node), (beyond, following) in zip(way, way[1:]):
         left, right = w[node], w[following]
         if s >= start and left * right <= 0 and left != right:
@@ -74,7 +74,7 @@ class ExactPath:
             step["displacement"] = [Fraction(x) for x in step["displacement"]]
 
     def of(self, check):
-        """The exact value of what a [[case.check]] asks for: a Fraction, or a state."""
+        """Returns the exact value of the quantity in a [[case.check]]: a Fraction, or a state."""
         step, quantity = self.steps[check["step"] - 1], check["quantity"]
         u, names = step["displacement"], self.structure.dofs
         if quantity in names:
@@ -111,7 +111,7 @@ def exact_words(path, check):
 
 
 def with_exact(text, found):
-    """The table with a line "exact" behind each "value"; `found` has the words of all checks, in order."""
+    """Returns the table with a line "exact" after each "value". `found`: the exact numbers of all checks, in order."""
     lines, values = [], iter(found)
     for line in text.splitlines():
         if line.startswith("exact "):
@@ -123,7 +123,7 @@ def with_exact(text, found):
 
 
 def compare(case, check, found):
-    """Whether the table has the number; says where not."""
+    """Returns True if the table has the exact number; otherwise prints the difference."""
     if check.get("exact") == found:
         return True
     place = ", ".join(f"{k} {check[k]}" for k in ("step", "quantity", "node", "pair", "element", "dof") if k in check)
@@ -132,7 +132,7 @@ def compare(case, check, found):
 
 
 def printing(words, exact):
-    """How a printed decimal stands to the exact number: "rounded", "cut" after its digits, or "neither"."""
+    """Returns how a printed decimal follows from the exact number: "rounded", "cut" (truncated), or "neither"."""
     x, unit = Fraction(words), Fraction(10) ** Decimal(words).as_tuple().exponent
     if x == exact:
         return "rounded"
@@ -144,7 +144,10 @@ def printing(words, exact):
 
 
 def misprints(case, check):
-    """How many numbers of a check are not what the table says they are; says which. Its floats are texts, as they are written."""
+    """Prints the numbers of a check that are not rounded or truncated as the table says, and returns how many.
+
+    The floats of the table are texts.
+    """
     if check["quantity"] == "state":
         return 0
     wrong = 0

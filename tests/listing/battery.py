@@ -1,8 +1,8 @@
-"""battery.py LIBRARY: every call of the battery, put to the CONTCT of a shared library.
+"""battery.py LIBRARY: makes every call of the battery to CONTCT in a shared library.
 
-A process of its own, because a copy of the listing may crash, stop or hang. A line a field goes to standard output, flushed
-after every call, so that what came before a crash is known. Unit 26 is left in fort.26 of the working folder, as the listing
-leaves it.
+It is a separate process, because a changed copy of the listing may crash, stop or hang. Prints one line for each field
+of an answer, and flushes the output after each call, so that the answers before a crash are known. The listing writes
+unit 26 to fort.26 in the working folder.
 """
 import ctypes
 import math
@@ -17,17 +17,17 @@ TIE = 0.5 * (1.0 + EDGE)
 
 
 def makes_at(node, s):
-    """A separated pair over a face below, `s` of whose test response of -1 is free."""
+    """Returns a separated pair above a face, which it reaches at the share `s` of its response -1."""
     return node, 0.0, -1.0, -s, APART, BELOW
 
 
 def breaks_at(node, s):
-    """A closed pair on a face below, pressed by 1, that the test response lifts off at `s`."""
+    """Returns a pair in contact 1 below its face, which the response lifts off at the share `s`."""
     return node, -1.0, 1.0 / s, 0.0, TOUCHING, BELOW
 
 
 def at_face(node, d_star, isep, isurf):
-    """A pair that stands at its face, at 0."""
+    """Returns a pair at its face at 0."""
     return node, 0.0, d_star, 0.0, isep, isurf
 
 
@@ -104,7 +104,7 @@ FOREIGN, UNSET = 77.0, -5.0  # D and D* of dofs without pairs; SS and SMIN on en
 
 
 def ask(contct, common, pairs, indof, ndofpn):
-    """The answer to one call: a list of (field, value), reals as the digits of their bits."""
+    """Returns the answer to one call as a list of (field, value), with real numbers as the digits of their bits."""
     dofs = [(pair[0] - 1) * ndofpn + indof - 1 for pair in pairs]
     size, count = max(dofs, default=-1) + 1, len(pairs)
     dd, dtest = (ctypes.c_double * size)(*[FOREIGN] * size), (ctypes.c_double * size)(*[-FOREIGN] * size)

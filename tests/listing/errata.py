@@ -1,5 +1,5 @@
-"""errata.py FORTRAN CMAKE ROOT: every erratum of reference/errata.toml is undone in turn on a copy of the listing, and what then
-happens must be what the file says. An erratum that nothing notices fails, and so does a table of ERRATA.md that says otherwise.
+"""errata.py FORTRAN CMAKE ROOT: undoes every erratum of reference/errata.toml in turn in a copy of the listing. The
+effect must be the one that the file states. Fails if an erratum has no effect, or if the table of ERRATA.md differs.
 """
 import resource
 import subprocess
@@ -24,7 +24,7 @@ LEAST_ERRATA, LEAST_UNDOS, LEAST_CALLS = 22, 80, 50
 
 @dataclass
 class Behaviour:
-    """All that one copy did: answers of the calls that returned, (call, field, value), and unit 26."""
+    """The behaviour of a copy: (call, field, value) of the calls that returned, and the text of unit 26."""
     compiles: bool
     ends_well: bool = False
     answers: tuple = ()
@@ -33,7 +33,7 @@ class Behaviour:
 
 
 def try_out(source, options):
-    """A copy, compiled and put to the battery."""
+    """Compiles a copy of the listing, makes the calls of the battery, and returns the behaviour."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "copy.f").write_text(source)
         # The linker requires a definition of CONTCT, so that a subroutine of another name fails.
@@ -60,7 +60,7 @@ def checksum_refuses(source):
 
 
 def outcome(listing, copy, source):
-    """How a copy differs from the listing, as (what, call, field): the first difference there is."""
+    """Returns the first difference of a copy from the listing as (what, call, field)."""
     if not copy.compiles:
         return "does-not-compile", "", ""
     if not copy.ends_well:
@@ -76,12 +76,12 @@ def outcome(listing, copy, source):
 
 
 def in_one_line(text):
-    """As the OCR shows it: every run of blanks and line ends is one blank."""
+    """Returns the text with every run of blanks and line ends replaced by one blank, as in the OCR."""
     return " ".join(text.split())
 
 
 def check_undos(erratum, untouched):
-    """Carry out every undo of an erratum."""
+    """Tries every undo of an erratum, and checks the outcome."""
     undone = []
     for undo in erratum["undo"]:
         where = f"erratum {erratum['number']}, undo {undo['name']}"
@@ -98,7 +98,7 @@ def check_undos(erratum, untouched):
 
 
 def row(erratum):
-    """Of the first table of ERRATA.md; outcomes in order of first appearance, with how often each is seen."""
+    """Returns the row of an erratum in the first table of ERRATA.md: outcomes in order, with their counts."""
     ocr, compiled = (", ".join(f"`{text}`" for text in erratum[key]) for key in ("ocr", "compiled"))
     seen = Counter(undo["expect"] for undo in erratum["undo"])
     outcomes = ", ".join(what + (f" ({n})" if n > 1 else "") for what, n in seen.items())
@@ -118,7 +118,7 @@ def check_page(errata):
 
 
 def check_battery(listing):
-    """It is large enough, and reaches every line."""
+    """Checks that the battery has enough calls, and that they reach every WRITE of the listing."""
     assert listing.ends_well and {call for call, _, _ in listing.answers} == set(BATTERY) and len(BATTERY) >= LEAST_CALLS, listing
     for text in ("NO EVENTS", "MAKING CONTACT", "BREAKING CONTACT", "CONTACT PAIR:", "NODE: ***"):
         assert text in listing.text, f"no call writes {text}"

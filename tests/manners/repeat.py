@@ -1,7 +1,8 @@
-"""repeat.py PROGRAM REPLAY ROOT: everything that every command prints and writes is the same bytes on every run.
+"""repeat.py PROGRAM REPLAY ROOT: tests that every command prints and writes the same bytes in every run.
 
-Each command runs twice, in folders of different names: plainly, and with memory that is not 0, in another time zone, on another terminal and
-in a language with a decimal comma where one can be made. What differs is told with the first line that does; durations are cut off.
+Each command runs twice, in folders of different names. The second time memory is not 0, and time zone and terminal are
+different; the language has a decimal comma if one can be installed. Prints the first line that differs, after removing
+durations.
 """
 import os
 import re
@@ -19,7 +20,7 @@ PROBLEMS = ("problems/pb07-three-gap-supports.toml", "problems/pb11a-strip-footi
 
 
 def run(problem, name, *options):
-    """`contct run` with every file that it can write."""
+    """Returns the command `contct run` with every output file."""
     files = [word for output in OUTPUTS for word in (f"--{output}", f"{name}.{output}")]
     files = files if "frame" not in problem else [w for w in files if w != "--vtu" and not w.endswith(".vtu")]
     return [program, "run", f"reference/{problem}", *options, *files]
@@ -44,7 +45,7 @@ def commands():
 
 
 def settings(folder):
-    """Two environments."""
+    """Returns the environments of the two runs."""
     plain = {"PATH": os.environ["PATH"], "SOURCE_DATE_EPOCH": "1700000000"}
     other = plain | {"MALLOC_PERTURB_": "165", "TZ": "Asia/Kolkata", "LANGUAGE": "de", "TERM": "dumb", "LC_ALL": "C.UTF-8"}
     if shutil.which("localedef") and not subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", folder / "de_DE.UTF-8"], capture_output=True).returncode:
@@ -53,7 +54,7 @@ def settings(folder):
 
 
 def told(out, command, environment):
-    """{file: its bytes without durations}, of all that the command writes; standard streams and exit status are files, too."""
+    """Returns {name: bytes without durations} of all files, the standard streams and the exit status of a command."""
     out.mkdir(parents=True)
     (out / "reference").symlink_to(root / "reference")
     run = subprocess.run(list(map(str, command)), cwd=out, env=environment, capture_output=True)

@@ -1,10 +1,10 @@
-"""check_results.py PROGRAM ROOT PLUGIN BENCH: what contct fuzz, verify, exact and explain and the program BENCH, contct_bench,
-write with --json is documented, key by key. PLUGIN is a kernel that differs from FORTRAN in the last bit.
+"""check_results.py PROGRAM ROOT PLUGIN BENCH: tests that the pages document every key that contct fuzz, verify, exact,
+explain and contct_bench (BENCH) write with --json. PLUGIN: a kernel that differs from FORTRAN in the last bit.
 
-- fuzz, verify: reference/check-results.md documents reference/check-results.schema.json, and results are as that schema
-  says. Every key of the schema is in some result. The examples of the page are what the program writes.
-- exact, explain, contct_bench: every key of a result stands in reference/exact.md, explain-format.md or speed.md, and every key that these document is in
-  some result.
+- fuzz, verify: reference/check-results.md documents reference/check-results.schema.json, and results follow the schema.
+  Every key of the schema is in a result. The examples of the page are output of the program.
+- exact, explain, contct_bench: reference/exact.md, explain-format.md and speed.md document exactly the keys of the
+  results.
 """
 import json
 import re
@@ -38,7 +38,7 @@ OF_PEERS = {"method", "steps", "digits", "wrong_statuses", "values"}
 
 
 def doctored_reference(root, folder):
-    """A reference folder in which one exact number is wrong."""
+    """Makes a reference folder in which one exact number is wrong, and returns its path."""
     (folder / "wrong").mkdir()
     (folder / "wrong/problems").symlink_to(root / "reference/problems")
     table = (root / "reference/verification.toml").read_text()
@@ -47,7 +47,7 @@ def doctored_reference(root, folder):
 
 
 def of_schema(program, root, plugin, folder):
-    """(name in the schema, arguments, exit status) for each result."""
+    """Yields (name in the schema, arguments, exit status) for each result."""
     yield "fuzz", ["fuzz", "--calls", 1000, "--problems", 0], 0
     yield "fuzz", ["fuzz", "--calls", 2000, "--shard", "2/3", "--kernels", f"fortran,cpp,plugin:{plugin}"], 1
     yield "verify", ["verify", "--reference", root / "reference"], 0
@@ -56,7 +56,7 @@ def of_schema(program, root, plugin, folder):
 
 
 def with_schema(program, root, plugin, folder):
-    """What is wrong with the results that have a schema, in words, or a summary."""
+    """Tests the results that have a schema. Returns a summary; raises ValueError for an error."""
     text = (root / "reference/check-results.md").read_text()
     schema, results = (json.loads((root / f"reference/{name}.schema.json").read_text()) for name in ("check-results", "result"))
     if difference := first_difference(text, schema):
@@ -82,7 +82,7 @@ def with_schema(program, root, plugin, folder):
 
 
 def keys_in(value, found):
-    """Add every key in a result; loads are those of contct run --json, and the name of a kernel is no key of the format."""
+    """Adds every key of a result to `found`, except the keys of loads, which contct run --json has too, and names."""
     for key, inner in value.items() if isinstance(value, dict) else ():
         if re.fullmatch(r"\w+", key):
             found.add(key)
@@ -93,7 +93,7 @@ def keys_in(value, found):
 
 
 def documented_keys(text):
-    """The keys that a page's JSON shows, and those in the first column of its tables or, in braces, in their cells."""
+    """Returns the keys in a page's JSON, in the first column of its tables, and in braces in cells of its tables."""
     shown = set(re.findall(r'"(\w+)":', "".join(b.text for b in blocks(text) if b.language == "json")))
     rows = [line for line in text.splitlines() if line.startswith("| `")]
     first = {key for row in rows for key in re.findall(r"`(\w+)`", row.split("|")[1])}
@@ -102,7 +102,7 @@ def documented_keys(text):
 
 
 def plain_difference(documented, named, found):
-    """`named`: every name in backticks too, which may document a key, but need not be one."""
+    """Returns the first difference in words, or None. `named`: names in backticks, which may document a key."""
     if missing := found - documented - named:
         return f"written, not documented: {min(missing)}"
     if missing := documented - found:
@@ -111,7 +111,7 @@ def plain_difference(documented, named, found):
 
 
 def plainly(program, root, plugin, bench, folder):
-    """What is wrong with the results of exact, explain and contct_bench raises a ValueError; returns a summary."""
+    """Tests the results of exact, explain and contct_bench. Returns a summary; raises ValueError for an error."""
     pb07 = root / "reference/problems/pb07-three-gap-supports.toml"
     (folder / "free.toml").write_text(FREE)
     of_case = (BEAM % (2.0, 2, 2.0)).replace("[[step]]", '[[case]]\nname = "G"')

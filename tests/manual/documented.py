@@ -1,7 +1,7 @@
-"""The comparison of a manual with a JSON Schema, and of results with both.
+"""Compares a manual with a JSON Schema, and results with both.
 
-The manual has a table of keys for each object of the schema, below the object's title. Keys that have a description in the schema
-have no row. A row says on which condition a key is there, and what null means.
+The manual has a table of keys for each object of the schema, under the title of the object. Keys with a description in
+the schema have no row. A row states the condition under which a key is present, and the meaning of null.
 """
 import json
 import math
@@ -14,20 +14,20 @@ from manual import key_tables
 
 
 class validator:
-    """`others`: the schemas of other files that this one refers to, by the files' names."""
+    """Validates values by a schema. `others`: {file name: schema} of the files to which the schema refers."""
     def __init__(self, schema, others=None):
         store = {f"file:///{file}": other for file, other in (others or {}).items()}
         resolver = jsonschema.RefResolver("file:///", schema, store=store)
         self.known = jsonschema.Draft202012Validator(schema, resolver=resolver)
 
     def fault(self, value, schema=None):
-        """In words with its place; None where it is as the schema, or a part of it, says."""
+        """Returns the first fault of a value with its place, or None. `schema`: the part of the schema that applies."""
         wrong = next((self.known if schema is None else self.known.evolve(schema=schema)).iter_errors(value), None)
         return wrong and f"{wrong.json_path}: {wrong.message[:300]}"
 
 
 def written_by(line, folder, status, file):
-    """What a command writes into a file; the command ends with this exit status."""
+    """Runs a command and returns the text of the file that it writes. Raises ValueError for another exit status."""
     finished = subprocess.run([str(word) for word in line], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if finished.returncode != status:
         raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
@@ -43,25 +43,25 @@ def parsed(text):
 
 
 def objects(schema):
-    """The objects of the schema by their titles. The schema itself is one, or a choice of them."""
+    """Returns {title: object} of the schema, which may include the schema itself."""
     return {o["title"]: o for o in [schema, *schema["$defs"].values()] if "title" in o}
 
 
 def target(schema, wanted):
-    """The object that a key's schema refers to, directly, as an entry of a list, or beside null; None where there is none."""
+    """Returns the object to which a key's schema refers directly, as a list's entry or beside null; otherwise None."""
     choices = [wanted, wanted.get("items", {}), *wanted.get("anyOf", [])]
     names = [choice["$ref"].rpartition("/")[2] for choice in choices if choice.get("$ref", "").startswith("#")]
     return schema["$defs"][names[0]] if names else None
 
 
 def is_null(wanted):
-    """Can a key's value, or an entry of it, be null?"""
+    """Returns True if a key's value, or an entry of the value, may be null."""
     inner = wanted.get("anyOf", []) + ([wanted["items"]] if "items" in wanted else [])
     return any(map(is_null, inner)) or "null" in wanted.get("type", "")
 
 
 def row_fault(of, key, row):
-    """What a row of the manual says of a key that the schema does not, in words; None where they agree."""
+    """Returns the difference between a row of the manual and the schema in words, or None."""
     absent, meaning = row["key"].endswith("?"), row["meaning"]
     if absent != (key not in of["required"]):
         return "whether it may be absent"
@@ -77,7 +77,7 @@ def undescribed(of):
 
 
 def first_difference(text, schema):
-    """The first difference between the manual and the schema, in words; None where there is none."""
+    """Returns the first difference between the manual and the schema in words, or None."""
     tables, known = key_tables(text), objects(schema)
     if different := (set(tables.rows) ^ {title for title, of in known.items() if undescribed(of)}) - tables.shared():
         return f"an object that only one of the two has: {min(different)}"
@@ -94,7 +94,7 @@ def first_difference(text, schema):
 
 
 def seen_keys(schema, value, of, seen):
-    """Add (title of the object, key) for every key in a valid value."""
+    """Adds (title of the object, key) to `seen` for every key in a valid value."""
     for key, inner in value.items():
         seen.add((of["title"], key))
         to = target(schema, of["properties"][key])
@@ -104,7 +104,7 @@ def seen_keys(schema, value, of, seen):
 
 
 def same(shown, found):
-    """Is a value of the manual, whose numbers are shortened, that of a result? Tiny numbers are rounding."""
+    """Returns True if a value of the manual, with shortened numbers, is that of a result. Tiny numbers count as 0."""
     if isinstance(shown, dict):
         return list(shown) == list(found) and all(same(shown[key], found[key]) for key in shown)
     if isinstance(shown, list):

@@ -1,8 +1,8 @@
 """Reads a manual page in Markdown: its sections, its tables of keys and its code blocks.
 
-A table of keys is one whose first column is called "key". A cell of that column has keys in backticks, of which the row says the same, or a
-link such as [place](#places) to the section whose keys are meant; `?` behind a key: it may be absent. The column "structure", where there is
-one, says where a key belongs.
+In a table of keys the first column has the title "key". Its cells have keys in backticks, or a link such as
+[place](#places) to the section whose keys are allowed. A key followed by `?` may be absent. If there is a column
+"structure", it names the structures that have the key.
 """
 import re
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.M | re.S)
 
 
 def sections(text):
-    """The sections of a page in their order: (heading, text below it, up to the next heading of any level)."""
+    """Returns the sections of a page in order: (heading, text up to the next heading of any level)."""
     hidden = FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)  # a comment in a code block is not a heading
     starts = list(re.finditer(r"^#+ (.*)$", hidden, re.M))
     ends = [m.start() for m in starts[1:]] + [len(text)]
@@ -19,13 +19,13 @@ def sections(text):
 
 
 def anchor(heading):
-    """What a link has behind # for a heading."""
+    """Returns the anchor of a heading: the part of a link after #."""
     return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
 def rows(heading, body):
-    """{title: the rows of its table of keys, each a dictionary by the names of the columns}: the section's heading is the first title,
-    a row that begins with bold text the next one."""
+    """Returns {title: rows of the table of keys}; a row is a dictionary by the names of columns. The first title is the
+    heading of the section, and each row that begins with bold text is the next title."""
     header, title, found = None, heading, {}
     for line in FENCE.sub("", body).splitlines():
         if not line.startswith("|"):
@@ -46,7 +46,7 @@ def rows(heading, body):
 
 
 class key_tables:
-    """The keys that a page documents, section by section."""
+    """The keys that a page documents, by sections."""
 
     def __init__(self, text):
         self.rows = {}
@@ -55,18 +55,18 @@ class key_tables:
         self.by_anchor = {anchor(heading): heading for heading in self.rows}
 
     def linked(self, row):
-        """The heading of the section whose keys a row means; None where the row is of a key."""
+        """Returns the heading of the section to which a row links; None if the row has a key."""
         link = re.fullmatch(r"\[\w+\]\(#([\w-]+)\)", row["key"])
         if not link and row["key"][0] != "`":
             raise ValueError(f"found {row['key']}, allowed: keys in backticks, or a link to a section")
         return link and self.by_anchor[link.group(1)]
 
     def shared(self):
-        """The headings of sections whose keys other sections mean."""
+        """Returns the headings of the sections to which other sections link."""
         return {self.linked(row) for found in self.rows.values() for row in found} - {None}
 
     def keys(self, heading, structure=None):
-        """{key: its row} under a heading; those of one structure where it is named."""
+        """Returns {key: row} under a heading; if `structure` is given, only its keys."""
         found = {}
         for row in self.rows[heading]:
             if structure and row.get("structure") and structure not in row["structure"].split(", "):
@@ -78,7 +78,7 @@ class key_tables:
 
 @dataclass
 class block:
-    """A code block: its language, its lines, and the line of the page on which it begins."""
+    """A code block: its language, its text, and the line of the page on which the block begins."""
     language: str
     text: str
     line: int

@@ -1,8 +1,9 @@
-"""problem_file.py PROGRAM ROOT: reference/problem-file.md documents the keys that the program accepts, and its examples run.
+"""problem_file.py PROGRAM ROOT: tests that reference/problem-file.md documents the keys that the program accepts, and
+that its examples run.
 
-- Every table of a problem file is given a key that does not exist. The refusal lists the keys that are allowed there. They must
-  be those that the manual documents for that table and that structure.
-- Every example is read and solved; every example of a refusal, there and in refusals.md, is refused with the message that is shown.
+- Every table of a problem file gets an unknown key. The program's message lists the keys that are allowed in the table;
+  the manual must document the same keys for the table and the structure.
+- Every example is read and solved. Every example of a refusal, also in refusals.md, is refused with the shown message.
 """
 import re
 import shutil
@@ -57,7 +58,7 @@ LEAST_KEYS, LEAST_EXAMPLES, LEAST_REFUSALS = 150, 20, 12
 
 
 def probes():
-    """(section, structure, problem file) for every table of every structure."""
+    """Yields (section, structure, problem file) for every table of every structure."""
     for heading, (structure, text) in OWN_TABLES.items():
         yield heading, structure, text
     for heading, text in STRUCTURES_TABLES.items():
@@ -67,7 +68,7 @@ def probes():
 
 
 class contct:
-    """The program, in a folder with the files that the examples name."""
+    """Runs the program in a folder with the files that the examples name."""
 
     def __init__(self, program, root):
         self.program = Path(program).resolve()
@@ -79,7 +80,7 @@ class contct:
                 shutil.copy(file, self.folder)
 
     def __call__(self, command, text):
-        """The exit status for a problem file of this text, and what standard error says."""
+        """Returns the exit status for a problem file with this text, and the text of standard error."""
         (self.folder / "beam.toml").write_text(text)
         finished = subprocess.run([self.program, command, "beam.toml", "--quiet"], cwd=self.folder, text=True,
                                   stdin=subprocess.DEVNULL, capture_output=True)
@@ -87,7 +88,7 @@ class contct:
 
 
 def accepted_keys(run, text):
-    """The keys that the program allows where `text` has one that does not exist."""
+    """Returns the keys that the program allows at the place of the unknown key in `text`."""
     status, said = run("check", text % f"{UNKNOWN} = 1")
     listed = re.search(rf"{UNKNOWN}: found an unknown key; allowed: (.*)$", said, re.M)
     if status != 2 or not listed:
@@ -96,7 +97,7 @@ def accepted_keys(run, text):
 
 
 def first_difference(text, accepted):
-    """The first table whose documented keys are not those that are accepted, in words; None where there is none."""
+    """Returns in words the first table whose documented keys are not the accepted keys, or None."""
     tables = key_tables(text)
     unprobed = set(tables.rows) - {heading for heading, _ in accepted} - SHARED
     if unprobed:
@@ -114,7 +115,7 @@ def first_difference(text, accepted):
 
 
 def chunks(text):
-    """The tables of a TOML text: (name, lines), what stands before the first with an empty name."""
+    """Returns (name, text) of the tables of a TOML text; the text before the first table has an empty name."""
     found = [("", [])]
     for line in text.splitlines(keepends=True):
         header = re.match(r"\[+([\w.]+)\]+", line)
@@ -125,7 +126,7 @@ def chunks(text):
 
 
 def merged(whole, part):
-    """`whole` with the tables of `part` in the place of those of the same name, or behind all others."""
+    """Returns `whole` with the tables of `part`, which replace tables of the same names or are added at the end."""
     new = {name for name, _ in chunks(part)} - {""}
     out, placed = [], set()
     own = {name: "".join(text if text.endswith("\n\n") else text + "\n" for other, text in chunks(part) if other == name)
@@ -144,7 +145,7 @@ def structure_of(text):
 
 
 def examples(text):
-    """(line, problem file, message or None) for every example of the page."""
+    """Yields (line, problem file, message or None) for every example of the page."""
     shown = blocks(text)
     whole = {}
     for b in shown:
@@ -162,12 +163,12 @@ def examples(text):
 
 
 def on_one_line(text):
-    """The page breaks long messages into lines."""
+    """Returns the text in one line, since the page breaks long messages into lines."""
     return " ".join(text.split())
 
 
 def wrong_example(run, line, problem, message):
-    """What is wrong with an example, in words."""
+    """Returns what is wrong with an example in words, or None."""
     status, said = run("check", problem)
     if message is not None:
         if status != 2 or on_one_line(said) != on_one_line(message):

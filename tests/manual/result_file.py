@@ -1,11 +1,13 @@
-"""result_file.py PROGRAM ROOT PLUGIN: what contct run --json writes is as reference/result.schema.json says, and
-reference/result-file.md documents that schema. PLUGIN is a kernel that differs from FORTRAN in the last bit.
+"""result_file.py PROGRAM ROOT PLUGIN: tests that results of contct run --json follow reference/result.schema.json, and
+that reference/result-file.md documents this schema. PLUGIN: a kernel that differs from FORTRAN in the last bit.
 
-- Every result of every reference problem, under the 1989 rule and the corrected one, is valid, and so is one of each other kind.
-- Each key of the schema has a row in the manual or a description in the schema; a row says whether it may be absent or null.
+- The results of every reference problem under the 1989 and the corrected rule, and results of each other kind, are
+  valid.
+- Each key of the schema has a row in the manual or a description in the schema; a row states whether the key may be
+  absent or null.
 - The result in a page is valid too.
-- Each exit status comes with the `status` of the result that the manual says.
-- Every key of the schema is in some result, but for those in UNSEEN. The example of the manual is what the program writes.
+- The key "status" of a result and the exit status are a pair that the manual lists.
+- Every key of the schema except those in UNSEEN is in a result. The example of the manual is output of the program.
 """
 import json
 import re
@@ -120,13 +122,13 @@ settlement = [ { node = 1, theta = 1.0e-3 } ]
 
 
 def exit_statuses(text):
-    """(exit status, a `status` that gives it) by the manual."""
+    """Returns the pairs (exit status, value of the key "status") in the manual."""
     rows = re.findall(r'^\| `"([\w-]+)"` \| (.*) \|$', text.split("\n## Exit status")[1].split("\n## ")[0], re.M)
     return {(int(number), status) for status, cell in rows for number in re.findall(r"\d", cell)}
 
 
 def runs(root, plugin):
-    """(problem file or text, options, exit status) for each result."""
+    """Yields (problem file or text, options, exit status) for each result."""
     problems = sorted(p for folder in ("problems", "structures") for p in (root / "reference" / folder).rglob("*.toml"))
     for problem in problems:
         ended = 5 if problem.stem in ("locked-in-forces", "standstill") else 0
@@ -155,7 +157,7 @@ def runs(root, plugin):
 
 
 def result_of_run(program, folder, problem, options, status):
-    """The result of a run that ends with this exit status; of a page, the one that is embedded in it."""
+    """Returns the result of a run with this exit status; with --html, the result that is embedded in the page."""
     if isinstance(problem, str):
         (folder / "own.toml").write_text(problem)
         problem = "own.toml"

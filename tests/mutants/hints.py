@@ -1,7 +1,10 @@
-"""hints.py BUILD.json [--write]: builds the mutants of the listing and of contct.hpp as shared libraries and puts them to the golden calls.
+"""hints.py BUILD.json [--write]: builds the mutants of the listing and of contct.hpp as shared libraries, and runs them
+in the golden calls.
 
-Every mutant whose numbers differ, unless it is the C++ twin of another, must have a sentence of its own in reference/course/hints.toml, its answers must be as that file has them,
-and hint.py must give its sentence. --write puts the answers into the file, beside the sentences."""
+Every mutant whose numbers differ must have a separate sentence in reference/course/hints.toml, unless it is the C++
+version of another mutant. Its answers must be those in the file, and hint.py must print its sentence. --write updates
+the answers in the file.
+"""
 import json
 import os
 import sys
@@ -43,7 +46,7 @@ def build_library(build, file, source, folder):
 
 
 def found_of(build, file, replacements, calls):
-    """What hints.toml has to say of a mutant's answers, and the quantity of the first difference."""
+    """Returns the entries of hints.toml for a mutant's answers, and the quantity of the first difference."""
     with tempfile.TemporaryDirectory() as folder:
         build_library(build, file, edited((ROOT / file).read_text(), replacements), Path(folder))
         found, first = hint.findings(calls, hint.answers_of(f"plugin:{folder}/kernel.so", calls))

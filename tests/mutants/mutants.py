@@ -1,11 +1,12 @@
-"""mutants.py BUILD.json [--first N | --errata | --caught FILE]: builds every mutant of mutants.toml, and the listing with each erratum
-of reference/errata.toml undone that changes numbers or text, and puts it to the golden set.
+"""mutants.py BUILD.json [--first N | --errata | --caught FILE]: tests that the golden set kills every mutant of
+mutants.toml, and every copy of the listing with an undone erratum of reference/errata.toml that changes numbers or
+text.
 
-A mutant is contct-replay linked with an object of the mutated kernel in front of the libraries: what an object defines keeps a
-library's member out. Before the mutants of a source it goes the same way as it is, and has to live. With
---first only so many mutants of each source are tried, with --errata only errata. The first call of each trace that shows a mutant of the
-listing has to be the one in reference/vectors/caught.json; --caught writes these calls to FILE. Exit status 1 where a mutant lives, or does
-not compile: it is none.
+A mutant is contct-replay linked with an object of the mutated kernel, which replaces the member of the library. The
+unchanged source, built in the same way, must survive. --first tries only N mutants of each source, and --errata only
+errata. The first call of each trace that detects a mutant of the listing must be the one in
+reference/vectors/caught.json; --caught writes these calls to FILE. Exit status 1: a mutant survives or does not
+compile.
 """
 import difflib
 import json
@@ -38,7 +39,7 @@ def run_tool(command, folder):
 
 
 def undone_errata():
-    """(name, replacements, options of the compiler)"""
+    """Yields (name, replacements, options of the compiler) of each undone erratum that changes numbers or text."""
     for erratum in tomllib.loads((ROOT / "reference/errata.toml").read_text())["erratum"]:
         for undo in erratum["undo"]:
             if undo["expect"] in ("other-numbers", "other-text"):
@@ -46,7 +47,7 @@ def undone_errata():
 
 
 def compile_listing(build, copy, folder, options):
-    """Under both of its names. A line cut at column 72 would be another mutant than the one that is written down."""
+    """Compiles the listing under both names. A line over 72 columns is an error, because it would be cut."""
     common = [build["fortran"], *build["fortran_flags"].split(), "-O2", "-std=legacy", "-ffp-contract=off",
               "-Werror=line-truncation", *options, "-cpp", "-c", copy]
     run_tool([*common, "-DCONTCT=CONTC8", "-fdefault-real-8", "-o", "r8.o"], folder)
@@ -55,7 +56,7 @@ def compile_listing(build, copy, folder, options):
 
 
 def compile_cpp(build, copy, folder, _):
-    """The folder of the mutant comes before the tree, so that a header in it is the one that is included."""
+    """Compiles the C++ kernel. The folder of the mutant is searched first, so that its header is included."""
     unit = ROOT / "cpp/contct/kernel/contct.cpp" if copy.suffix == ".hpp" else copy
     names = [f'-DCONTCT_{name}=""' for name in ("FORTRAN_COMPILER", "CXX_COMPILER", "FORTRAN_FLAGS", "CXX_FLAGS")]
     run_tool([build["cxx"], *build["cxx_flags"].split(), "-O1", "-std=c++20", "-ffp-contract=off", *names,
@@ -73,8 +74,8 @@ def build_program(build, file, source, folder, options):
 
 
 def noticed(file, folder):
-    """(the first trace that shows the mutant, in words, or None where none does; the lines that are named, one for each kernel; the
-    first call of each trace that shows it)"""
+    """Returns (the first trace that detects the mutant in words, or None; the named line of each kernel; the first call
+    of each trace that detects the mutant)."""
     def limited():
         resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -90,7 +91,7 @@ def noticed(file, folder):
 
 
 def tried(build, file, name, replacements, options=()):
-    """(is it as it has to be, what came of it, the lines that are named, the calls that show it)"""
+    """Returns (True if the result is as required, the result in words, the named lines, the detecting calls)."""
     named, calls = [], {}
     try:
         with tempfile.TemporaryDirectory() as folder:
@@ -106,7 +107,8 @@ def tried(build, file, name, replacements, options=()):
 
 
 def lines_of(file, name, replacements, table):
-    """The lines of the listing at fault: of the table, or that the edit changes; beside an insertion both. None where there is none."""
+    """Returns the faulty lines of the listing, or None: those of the table, or the lines that the edit changes; for an
+    insertion, the lines before and after it."""
     if name in table or not file.endswith(".f"):
         return set(table[name]) or None
     source, lines = (ROOT / file).read_text(), set()

@@ -1,11 +1,12 @@
-"""commands.py ROOT PROGRAMS NOT_RUN LEAST: runs every command that the pages outside the course show, and compares what
-comes out where a page shows that.
+"""commands.py ROOT PROGRAMS NOT_RUN LEAST: runs every command that the pages outside the course show, and compares the
+output with the output that the page shows.
 
-A command stands in a block fenced as `sh` (the `text` block behind it is its output), in a CI job fenced as `yaml` or in a file of
-reference/adopt, in an indented line, or in a code span. One that a page has twice runs once. FILE
-and other names in capitals stand for the files in NAMES. Every command ends with 0, or is in NOT_RUN with the reason why it is not
-run, "PAGE: COMMAND -> reason", or with the exit status with which it ends instead, "PAGE: COMMAND -> exit 1: reason". A code span that only names a command, as in "see `contct run`", is none. PROGRAMS is the release
-build. There must be LEAST commands or more that ran.
+Commands are in blocks fenced as `sh` (a `text` block after such a block is the output), in CI jobs fenced as `yaml` or
+in files of reference/adopt, in indented lines, and in code spans. A code span that only names a command, as in "see
+`contct run`", is not run. A command that a page has twice is run once. FILE and other names in capitals stand for the
+files in NAMES. Every command must end with exit status 0, unless the file NOT_RUN has it: "PAGE: COMMAND -> reason" if
+it is not run, or "PAGE: COMMAND -> exit 1: reason" for another exit status. PROGRAMS: the folder of the release build.
+Fails if fewer than LEAST commands ran.
 """
 import os
 import re
@@ -25,7 +26,7 @@ NAMES = {"FILE": PB07, "F": "f.out", "K.mtx": "frame.mtx", "RESULT.json": "resul
 
 
 def is_mention(command):
-    """Does a code span only name a command, or one of its options?"""
+    """Returns True if a code span only names a command or an option, and is not to be run."""
     named = re.fullmatch(rf"{PROGRAM}(?: (\w+))?(.*)", command)
     if not named or (not named[1] and not named[2]):
         return command in ("sh -c",)
@@ -36,15 +37,15 @@ def is_mention(command):
 
 
 def job_commands(text):
-    """What the CI job of a yaml block runs, once where it is a matrix; the script of a GitLab job is one command, whose lines share
-    variables. What installs and builds this project is left out."""
+    """Returns the commands of the CI job in a yaml block, except those that install or build this project. A matrix job
+    is run once. The script of a GitLab job is one command, because its lines share variables."""
     script = [line for line in re.findall(r"^    - (.*)$", text, re.M) if not INSTALLS.match(line)]
     steps = [line.replace("${{ matrix.shard }}", "1") for line in re.findall(r"^ *- run: (.*)$", text, re.M) if not INSTALLS.match(line)]
     return ["; ".join(script)] if "  script:\n" in text else steps
 
 
 def commands_of(text):
-    """(line, command, lines shown as its output or None) in the page's order."""
+    """Returns (line, command, lines shown as its output or None) in the order of the page."""
     found, blocks = [], list(FENCE.finditer(text))
     for number, block in enumerate(blocks):
         if block.group(1) == "yaml":
@@ -67,13 +68,13 @@ def commands_of(text):
 
 
 def reasons(path):
-    """{(page, command): reason} of NOT_RUN."""
+    """Returns {(page, command): reason} of the file NOT_RUN."""
     rows = [re.fullmatch(r"(\S+): (.*) -> (.*)", line) for line in path.read_text().splitlines() if line and line[0] != "#"]
     return {(row[1], row[2]): row[3] for row in rows}
 
 
 def as_run(command):
-    """The command with files in the place of names."""
+    """Returns the command with names such as FILE replaced by files."""
     words = [NAMES.get(word, word) for word in command.split(" ")]
     if words[:2] == ["contct", "new"]:
         words = [word.replace(PB07, "new.toml") for word in words]
@@ -81,7 +82,7 @@ def as_run(command):
 
 
 class work_place(place):
-    """Also a copy of what the pages' commands change, the files of structures, and what the jobs of conformance.md have."""
+    """A working folder that also has a copy of reference/, the files of structures, and files for the CI jobs."""
 
     def __init__(self, root, programs):
         super().__init__(root, programs)
@@ -100,7 +101,7 @@ class work_place(place):
 
 
 def wrong_in(here, command, shown, allowed):
-    """What is wrong with a command, in words; None where nothing is."""
+    """Returns what is wrong with a command in words, or None."""
     lines, status = here.run(as_run(command))
     if status != allowed:
         return f"found exit status {status}, allowed: {allowed}\n" + "\n".join(lines[-5:])

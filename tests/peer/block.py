@@ -1,4 +1,4 @@
-"""Blocks of bricks over springs with gaps, as decks for CalculiX and as problem files that read the matrix that CalculiX writes."""
+"""Writes blocks of bricks over springs with gaps, as decks for CalculiX and as problem files with CalculiX's matrix."""
 
 # The range of a spring's table in the problem's lengths. It is wide because Newton's first steps may go far, and
 # outside it the force is constant. A second point is near the answer, since the rounding of the far point would move a
@@ -7,12 +7,16 @@ FAR_AWAY, NEAR = 1e6, 4
 
 
 def field(x):
-    """CalculiX cuts a field after 20 characters; this has 19 at most."""
+    """Returns x in at most 19 characters, since CalculiX cuts a field after 20 characters."""
     return f"{float(x):.12e}"
 
 
 class Block:
-    """A block of C3D8I bricks, clamped at x = 0, over springs with gaps: (node, face, stiffness). A step for each load at a node, along z."""
+    """A block of C3D8I bricks, clamped at x = 0, over springs with gaps.
+
+    supports: (node, face, stiffness) of each spring. Each entry of `loads` is a step with this load along z at
+    `loaded`.
+    """
 
     YOUNGS = 1e4
     # Factors of displacements and forces in a deck of peer_deck. Displacements are so small that CalculiX's NLGEOM
@@ -43,11 +47,11 @@ class Block:
         return "\n".join(lines) + "\n", len(cells)
 
     def matrix_deck(self):
-        """CalculiX writes the stiffness matrix under the name of the job."""
+        """Returns the deck for which CalculiX writes the stiffness matrix."""
         return self.mesh(self.YOUNGS)[0] + "*STEP\n*FREQUENCY,SOLVER=MATRIXSTORAGE\n1\n*END STEP\n"
 
     def peer_deck(self, load):
-        """CalculiX's own nonlinear run under one step's load. The springs' grounds are the nodes after the block's."""
+        """Returns the deck of a nonlinear run under a load. The fixed nodes of springs follow the block's nodes."""
         text, element = self.mesh(self.YOUNGS * self.FORCE_SCALE / self.SCALE)
         for ground, (node, face, stiffness) in enumerate(self.supports, len(self.places) + 1):
             x, y, z = self.where(node)
@@ -61,7 +65,7 @@ class Block:
         return text + "*NODE PRINT,NSET=ALL\nU\n*NODE PRINT,NSET=GROUND\nRF\n*END STEP\n"
 
     def problem(self):
-        """The problem file that reads that matrix."""
+        """Returns the problem file with the matrix that CalculiX writes."""
         text = f'title = "{self.name}"\n\n[calculix]\njob = "{self.name}"\n'
         for node, face, stiffness in self.supports:
             text += f'\n[[contact]]\ndof = "{node}.3"\nsurface = "below"\nface = {face}\nstiffness = {stiffness}\n'

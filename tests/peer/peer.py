@@ -1,6 +1,9 @@
-"""peer.py CONTCT CCX REFERENCE FOLDER: CalculiX as a peer: from the matrix that CalculiX writes of a solid, contct comes to the states
-that CalculiX comes to by its own contact springs and its own way of solving; so does its own structure of beams or shells, for benchmark
-problems and the combinations of a base plate. Siconos solves all benchmark problems as linear complementarity problems."""
+"""peer.py CONTCT CCX REFERENCE FOLDER: compares contct with CalculiX and Siconos.
+
+contct and CalculiX must find the same states of solids, for which contct reads the matrix that CalculiX writes. They
+must also agree on benchmark problems and on combinations of a base plate, for which CalculiX uses its beams or shells.
+Siconos solves all benchmark problems as linear complementarity problems.
+"""
 import json
 import subprocess
 import sys
@@ -24,14 +27,14 @@ def check(good, words):
 
 
 def run_contct(problem, *options):
-    """The result, certified in every final state."""
+    """Returns the result of contct; fails unless every final state is certified."""
     file = FOLDER / "contct.json"
     subprocess.run([CONTCT, "run", problem, "--quiet", "--strict", "--json", file, *options], check=True)
     return json.loads(file.read_text())
 
 
 def run_both(problem):
-    """The same of both kernels in lockstep: equal."""
+    """Returns the result of FORTRAN and C++ in lockstep; raises ValueError unless they were compared and are equal."""
     result = run_contct(problem, "--kernels", "fortran,cpp")
     if result["lockstep"]["calls"] == 0 or result["lockstep"]["mismatches"] != 0:
         raise ValueError(f"{problem}: the kernels were not compared, or differ")
@@ -48,13 +51,13 @@ def run_ccx(job, deck):
 
 
 def values_at_end(job, quantity, name, first, count):
-    """Values along x, y, z of nodes `first`, `first` + 1 and so on at the end of the step, which lasts from time 0 to 1."""
+    """Returns the values along x, y, z of `count` nodes from `first` on, at the end of the step."""
     at = calculix.values_at_end(Path(FOLDER, f"{job}.dat").read_text(), quantity, name)
     return [at[node] for node in range(first, first + count)]
 
 
 def check_example():
-    """The matrix that the example in reference/ keeps, against what CalculiX makes of its input now."""
+    """Checks that CalculiX still writes the matrix of the example in reference/structures."""
     kept = REFERENCE / "structures/calculix/console"
     run_ccx("console", kept.with_suffix(".inp").read_text())
     check(kept.with_suffix(".dof").read_text() == (FOLDER / "console.dof").read_text(), "console: the kept labels are CalculiX's")
@@ -68,7 +71,7 @@ def check_example():
 
 
 def check_block(block, events):
-    """Its matrix, the path by both kernels, and CalculiX's own end of every step: nothing but the contact is left to differ."""
+    """Compares the ends of steps by contct, with CalculiX's matrix and both kernels, with those of CalculiX."""
     path, nodes = FOLDER / f"{block.name}.toml", len(block.places)
     path.write_text(block.problem())
     run_ccx(block.name, block.matrix_deck())
@@ -95,7 +98,7 @@ def check_block(block, events):
 
 
 def check_benchmarks(results, kept, least):
-    """Another program's numbers for benchmark problems are within the tolerance of the exact ones, and of the numbers in the kept file."""
+    """Checks another program's numbers for benchmark problems against the exact ones and against the kept file."""
     theirs, out = FOLDER / "theirs.json", FOLDER / "judged.json"
     theirs.write_text(results)
     done = subprocess.run([CONTCT, "verify", "--reference", REFERENCE, "--results", theirs, "--least", str(least), "--quiet", "--json", out], check=False)
@@ -110,8 +113,9 @@ def check_benchmarks(results, kept, least):
 
 
 def combination_errors(elements):
-    """Of each combination of the base plate on so many elements along a side: its name, its largest difference of contact forces,
-    relative to the largest force, how many pairs were compared, and how many statuses differ where a force shows."""
+    """Returns for each combination of the base plate, with this number of elements along a side: its name, the largest
+    difference of contact forces relative to the largest force, the number of compared pairs, and the number of
+    different statuses of pairs with a noticeable force."""
     text = (REFERENCE / "cookbook/base-plate.toml").read_text()
     if "elements  = [10, 10]" not in text:
         raise ValueError("base-plate.toml: found another mesh; allowed: [10, 10]")
@@ -128,7 +132,7 @@ def combination_errors(elements):
 
 
 def check_combinations():
-    """A plate of shell elements on springs: CalculiX's S8R against ACM. The two meshes differ, and less on smaller elements."""
+    """Compares the base plate in CalculiX's S8R elements with ACM elements; differences must decrease with the size."""
     coarse = {name: error for name, error, *_ in combination_errors(10)}
     for name, error, count, other in combination_errors(20):
         check(error <= 5e-3 and error < coarse[name] / 2 and other == 0 and count > 400,

@@ -1,6 +1,6 @@
-"""The playground, a page in a browser without a window: what its WebAssembly computes is what the program computes, and it
-answers to typing, dragging, keys and links as people use them.
-usage: python3 check_playground.py WORK PROGRAM PAGE    (pictures of what was looked at go to WORK)"""
+"""Tests the playground in a headless browser: its WebAssembly gives the results of the program, and its page responds
+to typing, dragging, keys and links.
+usage: python3 check_playground.py WORK PROGRAM PAGE    (WORK: the folder for pictures of the page)"""
 import glob
 import json
 import os
@@ -28,7 +28,7 @@ value = browser.value
 
 
 def answer_of(name, *texts):
-    """The answer of contct_NAME, in the page, to texts and options."""
+    """Returns the answer of the page's function contct_NAME to texts and options."""
     given = ", ".join(json.dumps(json.dumps(t) if isinstance(t, dict) else t) for t in (name, *texts))
     return json.loads(value(f"answerOf({given})"))
 
@@ -44,7 +44,7 @@ def bits(x):
 
 
 def differences(page, native, place=""):
-    """The places where two JSON values differ; numbers with a point are compared to the bit. Counts numbers."""
+    """Returns the places where two JSON values differ. Compares real numbers to the bit, and counts them."""
     if isinstance(page, dict) and isinstance(native, dict):
         found = [f"{place}.{key} is there once" for key in page.keys() ^ native.keys()]
         for key in page.keys() & native.keys():
@@ -70,7 +70,7 @@ def count(result):
 
 
 def calls_of(trace):
-    """A trace without its header, which names compilers."""
+    """Returns a trace without its header, which names compilers."""
     at = trace.find("\ncall 1\n")
     return trace[at:] if at >= 0 else ""
 
@@ -78,7 +78,7 @@ def calls_of(trace):
 # ---- the program contct ----
 
 def run_natively(file, kernels):
-    """Exit status, what is said on standard error, and by name what the program writes."""
+    """Returns the exit status, the text of standard error, and {name: text} of the files that the program writes."""
     paths = {key: pathlib.Path(work, f"native.{key}") for key in ("json", "log", "trace")}
     for path in paths.values():
         path.unlink(missing_ok=True)
@@ -88,7 +88,7 @@ def run_natively(file, kernels):
 
 
 def lapacks_are_the_same(lapack):
-    """Bits are compared: the program must have reference LAPACK of the page's version."""
+    """Checks that the program has reference LAPACK of the page's version, so that results can be equal to the bit."""
     trace = run_natively(PB07, ["fortran"])[2]["trace"]
     native = re.search(r"^lapack (.*)$", trace, re.M).group(1)
     version = lapack.split(",")[0]
@@ -181,7 +181,7 @@ def center(script):
 
 
 def drag(script, dx, dy, steps=6, before_release=None):
-    """Gives what `before_release` is worth while the button is still held."""
+    """Drags an element of the page. Returns the value of the script `before_release` before the button is released."""
     value(f"({script}).scrollIntoView({{block: 'center'}})")
     x, y = center(script)
     mouse = lambda kind, x, y: browser.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1, clickCount=1)
@@ -195,7 +195,7 @@ def drag(script, dx, dy, steps=6, before_release=None):
 
 
 def keys(key, control=False, shift=False):
-    """Presses keys as a person does: what has the focus gets them."""
+    """Presses a key in the element that has the focus."""
     code = {"Tab": 9, "Enter": 13}.get(key) or ord(key.upper())
     for kind in ("keyDown" if key == "Enter" else "rawKeyDown", "keyUp"):
         browser.send("Input.dispatchKeyEvent", type=kind, key=key, code=key, modifiers=2 * control + 8 * shift, windowsVirtualKeyCode=code,
@@ -282,7 +282,7 @@ def messages():
 
 
 def plates():
-    """Every state of a plate has its picture, with the contact forces of that state as arrows."""
+    """Checks that every state of a plate has a picture with the contact forces of the state as arrows."""
     name = "pp01i-unilateral-edges-n24-k1e7"
     choose("menu", name)
     browser.wait_for("(result.calls || []).length > 0", 30)  # the page waits before it computes
@@ -357,7 +357,7 @@ def links():
 
 
 def report():
-    """Behind a pause the playground has what the page of --html has."""
+    """Checks that the playground shows the tables of the page of --html after a pause."""
     choose("kernels", "fortran,cpp")
     choose("menu", "pb07-three-gap-supports")
     browser.wait_for("(result.calls || []).length > 0", 30)
@@ -392,7 +392,7 @@ def print_times(words):
 
 
 def long_beam():
-    """1000 elements and 100 pairs, of which every one comes into contact."""
+    """Checks a beam of 1000 elements with 100 pairs, all of which make contact."""
     nodes = ", ".join(str(10 * i) for i in range(1, 101))
     type_text("[beam]\nlength = 100.0\nelements = 1000\nEI = 1.0e4\n[[support]]\nnodes = [1, 1001]\nfix = \"w\"\n"
               f"[[contact]]\nnodes = [{nodes}]\nsurface = \"below\"\nface = -0.01\nstiffness = 1.0e4\n[[step]]\nuniform = -1.0\n")
@@ -414,7 +414,7 @@ def told():
 
 
 def natively(command, text, kernels=("fortran", "cpp")):
-    """The program's own JSON of a text."""
+    """Returns the JSON that the program writes for a problem text."""
     file, out = os.path.join(work, "scene.toml"), os.path.join(work, "scene.json")
     pathlib.Path(file).write_text(text, encoding="utf-8")
     subprocess.run([program, command, file, "--kernels", ",".join(kernels), "--json", out], capture_output=True, check=False)
@@ -567,7 +567,8 @@ def takes_back():
 
 
 def like(shown, native):
-    """What the page has of what the program's JSON has: the page's result has states besides. JavaScript knows no whole numbers beyond 2^53."""
+    """Returns the page's values for the keys of the program's JSON, with types as in the program's JSON. JavaScript has
+    no integers, and the page has additional states."""
     if isinstance(native, dict) and isinstance(shown, dict):
         return {key: like(shown[key], of) for key, of in native.items() if key in shown}
     if isinstance(native, list) and isinstance(shown, list) and len(native) == len(shown):
@@ -578,12 +579,12 @@ def like(shown, native):
 
 
 def in_page(script):
-    """A value of the page with the signs of its zeros, which a browser does not hand over."""
+    """Returns a value of the page with "-0" for negative zeros, which the browser's protocol does not transfer."""
     return json.loads(value(f"JSON.stringify({script}, (key, x) => (Object.is(x, -0) ? '-0' : x))"))
 
 
 def scene_is_the_programs(at, name):
-    """A scene under a load, and all the shares on its line, or both of its beams."""
+    """Checks the numbers of a scene against the program."""
     before = counted["numbers"]
     this, spec = f"scenes.find((s) => s.holder === document.querySelectorAll('[data-scene]')[{at}])", SCENES[name]
     kernels = spec.get("rules") or spec.get("kernels") or ["fortran", "cpp"]
@@ -611,7 +612,7 @@ def scene_is_the_programs(at, name):
 
 
 def course_pages():
-    """Every page can be read at once, its scenes live and have the program's numbers, and its picture is that of the Markdown."""
+    """Checks that every page of the course loads fast, that its scenes have the program's numbers, and its pictures."""
     folder, slowest = pathlib.Path(page).resolve().parents[1] / "course", [0, 0]
     for markdown in sorted((root / "reference/course").glob("*.md")):
         name = "index" if markdown.stem == "README" else markdown.stem
@@ -638,7 +639,7 @@ def course_pages():
 
 
 def beside_the_listing():
-    """Page 7: beside each line that runs stands the C++ of the parallel edition."""
+    """Checks that page 7 shows the C++ of the parallel edition next to each executed line of the listing."""
     browser.open(str(pathlib.Path(page).resolve().parents[1] / "course/07-again.html"))
     browser.wait_for("document.querySelector('[data-lives]') !== null")
     value("scenes[0].push(12, -1.6, false), scenes[0].start()")
@@ -661,7 +662,7 @@ FAULTS = [("smin-quotient-dropped", " - smin) / smin", " - smin)"), ("epsmul-le"
 
 
 def judged(source):
-    """What the judge of page 12 says of a kernel, typed into its box."""
+    """Returns the text of page 12 about a kernel that is typed into its box."""
     value(f"document.querySelector('[data-port] textarea').value = {json.dumps(source)}")
     value("document.querySelector('[data-port] button').click()")
     browser.wait_for("!document.querySelector('[data-port] button').disabled", 20)
@@ -669,7 +670,7 @@ def judged(source):
 
 
 def judge_of_kernels():
-    """Page 12: a kernel in JavaScript is put to the golden calls."""
+    """Checks that page 12 runs a kernel in JavaScript in the golden calls, and shows the right hints."""
     table = tomllib.loads((root / "reference/course/hints.toml").read_text(encoding="utf-8"))
     right = (root / "tests/playground/kernel.js").read_text(encoding="utf-8")
     browser.open(str(pathlib.Path(page).resolve().parents[1] / "course/12-port-it.html"))

@@ -1,5 +1,6 @@
-"""The pictures of the course, drawn by the scenes of its pages: writes those that are missing or differ, or only tells of them.
-usage: python3 pictures.py COURSE [--check]      (COURSE: the folder build/course; exit 1 under --check where one differs)"""
+"""Writes the pictures of the course that are missing or differ; the scenes of its pages draw them. --check only
+reports.
+usage: python3 pictures.py COURSE [--check]      (COURSE: the folder build/course; exit status 1 if one differs)"""
 import json
 import pathlib
 import sys

@@ -1,4 +1,5 @@
-"""check_proof_test.py CONTCT REFERENCE [all]: every reference problem's proof is accepted, and each of the doctored ones is refused.
+"""check_proof_test.py CONTCT REFERENCE [all]: tests that check_proof.py accepts the proof of every reference problem,
+and refuses proofs with faults.
 
 Without `all`, plates of 16 x 16 elements and more are left out, which take most of the time.
 """
@@ -31,14 +32,14 @@ def fail(words):
 
 
 def proof_of(problem, folder, *options):
-    """The proof of a run, parsed; None where the run has no end."""
+    """Returns the parsed proof file of a run, or None if its exit status is not 0 or 3."""
     proof = Path(folder) / "proof.json"
     ended = subprocess.run([program, "run", problem, "--quiet", "--proof", proof, *options], capture_output=True, text=True)
     return json.loads(proof.read_text()) if ended.returncode in (0, 3) else None
 
 
 def verdict(problem, proof, folder):
-    """What the checker ends with, and what it says."""
+    """Returns the exit status and the output of check_proof.py."""
     file = Path(folder) / "checked.json"
     file.write_text(json.dumps(proof))
     said = io.StringIO()
@@ -48,7 +49,7 @@ def verdict(problem, proof, folder):
 
 
 def scaled(path, factor):
-    """A fault: the number at `path` of a step is multiplied."""
+    """Returns a fault that multiplies the number at `path` of a step by `factor`."""
     def fault(step):
         for key in path[:-1]:
             step = step[key]
@@ -69,12 +70,12 @@ def swapped(key, i, j):
 
 
 def wider(step, share):
-    """A fault, or none: the bound on deflections is this share of the largest one."""
+    """Sets the bound on deflections to this share of the largest deflection, which is not always a fault."""
     step["error"]["w"] = share * max(map(abs, step["displacement"][::2]))
 
 
 def unheld(step):
-    """A fault: a loaded step in the form of an unloaded one, with bounds that any number is within."""
+    """Gives a loaded step the form of an unloaded step, with bounds so large that they hold for any number."""
     for key in ("displacement", "state", "u", "closed", "z", "scale", "row_of", "shift", "L"):
         step.pop(key)
     step.update(certified=False, error={kind: None if kind in ("w", "slope", "gap") else 1e300 for kind in step["error"]})
@@ -151,7 +152,7 @@ MATRICES = {
 
 
 def check_semidefinite(folder):
-    """Which matrices the checker takes for semidefinite; and that it asks."""
+    """Tests which matrices check_proof.py accepts as semidefinite, and that it refuses others."""
     problem = Path(folder) / "matrix.toml"
     problem.write_text("[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndofs = [\"1\", \"2\"]\nsurface = \"below\"\nface = 0\nstiffness = 1\n[[step]]\npoint = [ { dofs = [\"1\", \"2\"], value = -1 } ]\n")
     for name, (lower, wanted) in MATRICES.items():
@@ -196,7 +197,7 @@ def check_reference(folder):
 
 
 def check_forms(folder):
-    """The examples of the manual have every key of its tables: a form that the checker reads otherwise fails here."""
+    """Tests that check_proof.py reads the examples of problem-file.md, which have every key of its tables."""
     page, texts = (reference / "problem-file.md").read_text(), []
     for file in [*(reference / "structures").iterdir(), *(reference / "structures/calculix").iterdir()]:
         if file.is_file():

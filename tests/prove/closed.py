@@ -1,4 +1,5 @@
-"""closed.py BUILD ROOT: what the prover cannot read leaves a kernel undecided; a kernel that does nothing differs."""
+"""closed.py BUILD ROOT: tests that kernels with code unknown to the prover stay undecided, and that an empty kernel
+differs."""
 
 import os
 import subprocess
@@ -29,14 +30,14 @@ CASES = {  # a kernel's body, and the reason that the prover must give
 
 
 def prove(*words: str, python: tuple[str, ...] = ("/usr/bin/python3",)) -> tuple[int, str]:
-    """Exit status, and all that was said."""
+    """Runs the prover, and returns its exit status and output."""
     said = subprocess.run([*python, "-m", "contct_prove", *words], env=os.environ | {"PYTHONPATH": str(build)},
                           capture_output=True, text=True)  # fmt: skip
     return said.returncode, said.stdout + said.stderr
 
 
 def check(name: str, found: tuple[int, str], expected: str) -> None:
-    """Undecided, for this reason."""
+    """Checks that the prover's result is undecided, for this reason."""
     assert found[0] == 2 and expected in found[1], f"{name}: expected exit 2 and {expected!r}; found {found}"
     assert "proved:" not in found[1], name
 

@@ -1,7 +1,8 @@
-"""faults.py BUILD ROOT ID|all...: no fault put into a kernel on purpose is proved to be CONTCT.
+"""faults.py BUILD ROOT ID|all...: tests that the prover proves no kernel with a fault to be CONTCT.
 
-The faults are those of tests/mutants/mutants.toml in the listing and in contct.hpp, and of faults.toml here. `equivalent`
-ones answer every call as they should: they may be proved, and must not differ. Two are judged at a time."""
+The faults are those of tests/mutants/mutants.toml in the listing and in contct.hpp, and those of faults.toml.
+`equivalent` kernels answer every call correctly, so they may be proved, but must not differ. Two faults are tried at
+a time."""
 
 import os
 import subprocess
@@ -22,7 +23,7 @@ VERDICTS = {0: "proved", 1: "differs", 2: "undecided"}
 
 
 def verdict_on(fault: dict, folder: Path) -> subprocess.CompletedProcess:
-    """What the prover says of a kernel with the fault."""
+    """Builds a kernel with the fault, and runs the prover."""
     text = (root / fault["file"]).read_text()
     assert text.count(fault["find"]) == 1, f"{fault['id']}: found {text.count(fault['find'])} times; allowed: once"
     edited, library = folder / Path(fault["file"]).relative_to("cpp" if "cpp/" in fault["file"] else "."), folder / "faulty.so"
@@ -35,7 +36,8 @@ def verdict_on(fault: dict, folder: Path) -> subprocess.CompletedProcess:
 
 
 def is_noticed(fault: dict) -> bool:
-    """Print the verdict on a fault. Only a plug-in can be run beside the listing, so others end undecided."""
+    """Prints the verdict on a fault, and returns True if it is allowed. Only plug-ins can be run against the listing to
+    find a difference; other kernels stay undecided."""
     with tempfile.TemporaryDirectory() as name:
         said = verdict_on(fault, Path(name))
     equivalent = fault["id"] in own["equivalent"]

@@ -1,5 +1,5 @@
-"""preconditions.py BUILD ROOT: a kernel that computes subscripts and products in 64 bits is proved within the preconditions,
-and not when any one of them is left out."""
+"""preconditions.py BUILD ROOT: tests that a kernel that computes subscripts and products in 64 bits is proved under the
+preconditions, and is not proved if one of them is left out."""
 
 import subprocess
 import sys
@@ -22,7 +22,7 @@ WIDER = {
 
 
 def fault_without(left_out: str) -> str:
-    """Why there is no proof without one of the preconditions; empty where there is one."""
+    """Returns why there is no proof without this precondition; empty if there is a proof."""
     machine = Machine(Image(library), Specification(64, left_out))
     try:
         Proof(machine, plugin(machine), machine.image.symbol("contct_kernel").address).prove()

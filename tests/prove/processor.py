@@ -1,5 +1,5 @@
-"""processor.py BUILD ROOT: every instruction of the kernels does in the interpreter what the processor does with it, on
-random and special states; and a wrong meaning put in on purpose is noticed for each mnemonic."""
+"""processor.py BUILD ROOT: tests that the prover's interpreter and the processor agree on every instruction of the
+kernels, on random and special states, and that a wrong meaning of any mnemonic is detected."""
 
 import ctypes
 import mmap
@@ -31,7 +31,7 @@ decoder.detail = True
 
 
 class Processor:
-    """Runs the bytes of one instruction on a state."""
+    """Executes the bytes of one instruction on a state by this machine's processor."""
 
     def __init__(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
@@ -45,7 +45,7 @@ class Processor:
         self.call = ctypes.CFUNCTYPE(None)(self.base)
 
     def run(self, code: bytes, state: bytes) -> bytes:
-        """The state afterwards: registers, flags, vectors, and the memory behind them."""
+        """Returns the state after the instruction: registers, flags, vectors, and then memory."""
         self.memory[self.hole : self.hole + 16] = code.ljust(16, b"\x90")
         self.memory[PAGE : PAGE + len(state)] = state
         self.call()
@@ -56,7 +56,7 @@ processor = Processor()
 
 
 class Concrete:
-    """The machine's side for a single instruction: memory is bytes, and every value is a number."""
+    """The prover's machine for a single instruction, with memory in bytes and only known numbers as values."""
 
     def __init__(self, data: bytes):
         self.data = bytearray(data)
@@ -83,8 +83,8 @@ SCALAR = {"add": 0x58, "mul": 0x59, "sub": 0x5C, "div": 0x5E}
 
 
 def constant(term: z3.ExprRef) -> z3.ExprRef:
-    """A term's value, in which the unknown functions stand for what the processor's scalar instructions do: that is their
-    meaning."""
+    """Returns the value of a term. Uninterpreted functions get the results of the processor's scalar instructions,
+    which they represent."""
     term = z3.simplify(term)
     if z3.is_bv_value(term) or z3.is_true(term) or z3.is_false(term):
         return term
@@ -118,7 +118,7 @@ def any_64() -> int:
 
 
 def prepared(ins: capstone.CsInsn) -> tuple[bytes, bytes, int]:
-    """The instruction's bytes, and a state in which what it addresses is in the memory that is there; where it stands."""
+    """Returns the instruction's bytes, a random state in which it addresses only existing memory, and its address."""
     code, address = bytearray(ins.bytes), processor.base + processor.hole
     values = {name: any_64() for name in ORDER}
     values["rsp"] = processor.base + DATA + 1024
@@ -144,14 +144,14 @@ def prepared(ins: capstone.CsInsn) -> tuple[bytes, bytes, int]:
 
 
 def conditions(flags: int) -> dict[str, bool]:
-    """What the flags say of each condition: the table of setcc in the processor's manual."""
+    """Returns {condition: value} for these flags, by the table of setcc in the processor's manual."""
     carry, parity, zero, sign, overflow = (bool(flags >> bit & 1) for bit in FLAG_BITS)
     return {"o": overflow, "b": carry, "e": zero, "s": sign, "p": parity, "be": carry or zero, "l": sign != overflow,
             "le": zero or sign != overflow}  # fmt: skip
 
 
 def interpreted(code: bytes, state: bytes, address: int, act) -> tuple[list[int], bytes, dict[str, bool]]:
-    """Registers and vectors afterwards, the memory, and what is known of conditions."""
+    """Returns registers and vectors, the memory, and the known conditions after an instruction in the interpreter."""
     ins = next(decoder.disasm(code, address, 1))
     s, machine = State(address), Concrete(state[DATA - PAGE :])
     held = struct.unpack_from("<16QQ8x32Q", state)
@@ -173,7 +173,7 @@ def natively(code: bytes, state: bytes) -> tuple[list[int], bytes, dict[str, boo
 
 
 def agrees(ins: capstone.CsInsn, act) -> bool:
-    """Whether a meaning is the processor's on one state."""
+    """Returns True if the interpreter, with the meaning `act`, agrees with the processor on one state."""
     code, state, address = prepared(ins)
     *found, known = interpreted(code, state, address, act)
     *expected, meant = natively(code, state)
@@ -181,7 +181,7 @@ def agrees(ins: capstone.CsInsn, act) -> bool:
 
 
 def wrong(mnemonic: str):
-    """Another meaning for a mnemonic: that of its neighbour, or none at all."""
+    """Returns a wrong meaning of a mnemonic: that of a similar mnemonic, or no effect."""
     neighbour = {"add": "sub", "sub": "add", "and": "or", "or": "and", "xor": "or", "cmp": "test", "test": "cmp", "movzx": "movsx",
                  "movsx": "movzx", "subsd": "addsd", "divsd": "mulsd", "mulsd": "divsd", "subss": "addss", "divss": "mulss",
                  "mulss": "divss", "minsd": "maxsd", "minss": "maxss", "sete": "setne", "setne": "sete"}  # fmt: skip
@@ -190,7 +190,7 @@ def wrong(mnemonic: str):
 
 
 def setting(jump: capstone.CsInsn) -> capstone.CsInsn:
-    """The setcc that reads the same condition as a jump: both numbers end in the condition's own."""
+    """Returns the setcc with the condition of a jump; the last 4 bits of both opcodes are the condition."""
     number = jump.opcode[1 if jump.opcode[0] == 0x0F else 0] & 0x0F
     ins = next(decoder.disasm(bytes([0x0F, 0x90 | number, 0xC0]), 0))
     assert ins.mnemonic[3:] == jump.mnemonic[1:], f"{ins.mnemonic} for {jump.mnemonic}"

@@ -1,4 +1,4 @@
-"""What all tests of contct.py have: the module, with NumPy or without, the project's root and the program."""
+"""Fixtures for all tests of contct.py, which run with and without NumPy."""
 import os
 import subprocess
 import sys
@@ -21,7 +21,7 @@ assert (contct._numpy is not None) == (NUMPY == "there"), f"NumPy: found {contct
 
 @pytest.fixture
 def ask():
-    """The program: ask("run", FILE, ..) is (exit status, standard output, standard error)."""
+    """Runs the program: ask("run", FILE, ..) returns (exit status, standard output, standard error)."""
     def run(*arguments):
         finished = subprocess.run([os.environ["CONTCT_BUILD"] + "/contct", *map(str, arguments)], capture_output=True, text=True)
         return finished.returncode, finished.stdout, finished.stderr
@@ -30,5 +30,5 @@ def ask():
 
 @pytest.fixture
 def beam():
-    """PB1 as a dict: a cantilever over a stop, four steps."""
+    """PB1 as a dict: a cantilever over a stop, in four steps."""
     return contct.read(PROBLEMS / "pb01-cantilever-tip-stop.toml")

@@ -1,4 +1,4 @@
-"""reference/atlas.py: the shares that it measures, and its picture and table in reference/DIVERGENCES.md."""
+"""Tests the shares that reference/atlas.py counts, and its picture and table in reference/DIVERGENCES.md."""
 import re
 import sys
 import xml.etree.ElementTree

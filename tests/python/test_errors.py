@@ -1,4 +1,5 @@
-"""Bad input is an exception with its place; other ends are results, or exceptions where that is asked for."""
+"""Tests that bad input raises an exception with its place, and that other ends are results or, on request,
+exceptions."""
 import os
 
 import contct
@@ -113,7 +114,7 @@ def test_strict_raises_what_is_not_solved_equal_and_certified(beam):
 
 
 def of_matrix(folder, name):
-    """A problem that names a file, and the file K.mtx in the folder."""
+    """Writes K.mtx into the folder, and returns a problem with the matrix file `name`."""
     (folder / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n")
     return {"matrix": {"stiffness": name}, "contact": [{"dof": "2", "surface": "above", "face": 0.5, "stiffness": 10.0}],
             "step": [{"point": [{"dof": "1", "value": 3.0}]}]}

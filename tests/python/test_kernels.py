@@ -1,4 +1,4 @@
-"""One call of a kernel; kernels written in Python, judged; recorded calls."""
+"""Tests single calls of kernels, kernels in Python, and recorded calls."""
 import array
 import json
 import sys
@@ -55,7 +55,7 @@ def scale_factor(d, d_star, face, isep, isurf):
 
 
 def listing(call, near=0.390625e-02, s_of=scale_factor):
-    """CONTCT, as in reference/kernels/contct_kernel.py."""
+    """Answers a call like reference/kernels/contct_kernel.py."""
     ss = [s_of(call.dd[dof], call.dtest[dof], *pair) for dof, *pair in zip(call.dofs, call.cc, call.isep, call.isurf)]
     smin = min([1.0] + [s for s in ss if 0 < s < 1])
     toggled = [smin != 1 and abs(s - smin) / smin < near for s in ss]

@@ -1,4 +1,4 @@
-"""Where the library is looked for, and what is said where it is not there."""
+"""Tests where contct.py searches its library, and the message if the library is not found."""
 import os
 import shutil
 import subprocess
@@ -10,7 +10,7 @@ BUILD = os.environ["CONTCT_BUILD"]
 
 
 def imported(folder, program="import contct; print(contct._library._name)", **environment):
-    """(exit status, output, errors) of a Python that imports the module of a folder, with little else in its environment."""
+    """Returns (exit status, output, errors) of a Python process that imports contct.py from the folder."""
     finished = subprocess.run([sys.executable, "-B", "-c", program], capture_output=True, text=True,
                               env={"PYTHONPATH": str(folder), "PATH": os.environ["PATH"], **environment})
     return finished.returncode, finished.stdout.strip(), finished.stderr
@@ -18,7 +18,7 @@ def imported(folder, program="import contct; print(contct._library._name)", **en
 
 @pytest.fixture
 def alone(tmp_path):
-    """The module without the library."""
+    """A folder with contct.py and without its library."""
     shutil.copy(os.path.join(BUILD, "contct.py"), tmp_path)
     return tmp_path
 

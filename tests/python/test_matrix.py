@@ -1,11 +1,11 @@
-"""contct.certify of a stiffness matrix in memory: what is proved of displacements that another program gives."""
+"""Tests contct.certify: proofs about another program's displacements of a structure with a matrix in memory."""
 import contct
 import pytest
 from conftest import PROBLEMS
 
 
 class Coo:
-    """What `tocoo` gives, without SciPy."""
+    """A sparse matrix as SciPy's `tocoo` returns it, without SciPy."""
 
     def __init__(self, size, entries, columns=None):
         self.shape = (size, columns or size)

@@ -1,4 +1,4 @@
-"""reference/python.md and the notebooks: every example runs and prints what is shown."""
+"""Tests that every example of reference/python.md and the notebooks runs and prints the output that is shown."""
 import ast
 import contextlib
 import io
@@ -10,7 +10,7 @@ from page import FENCE, difference, wildcards
 
 
 def printed(code, names, title, line=1):
-    """What Python code prints, and the repr of its last expression, or None; it changes `names`."""
+    """Runs Python code with the variables `names`. Returns its output, and the repr of its last expression or None."""
     tree = ast.parse("\n" * (line - 1) + code)
     last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
     out, value = io.StringIO(), None
@@ -28,7 +28,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_every_example_prints_what_the_page_shows(folder):
-    """Blocks fenced as `python`, one after the other; a `text` block behind one is what it prints."""
+    """Runs the `python` blocks in order; a `text` block after a `python` block is its output."""
     text = (ROOT / "reference/python.md").read_text()
     blocks, names, compared, wild = list(FENCE.finditer(text)), {}, 0, 0
     for block, following in zip(blocks, [*blocks[1:], None]):

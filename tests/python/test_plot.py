@@ -1,4 +1,4 @@
-"""Result.plot: what matplotlib is given to draw, against closed forms."""
+"""Tests the lines that Result.plot gives to matplotlib against closed forms."""
 import pickle
 import sys
 
@@ -12,7 +12,7 @@ L, EI, q = 6.0, 1000.0, -12.0
 
 @pytest.fixture
 def simple():
-    """A beam on two supports under a constant load, two elements; a stop in the middle that it does not reach."""
+    """Returns a beam of two elements on two supports under a uniform load, with a stop that it does not reach."""
     return {"title": "simple", "units": {"length": "m", "force": "kN"},
             "beam": {"length": L, "elements": 2, "EI": EI}, "support": [{"nodes": [1, 3], "fix": "w"}],
             "contact": [{"node": 2, "surface": "below", "face": -0.3, "stiffness": 1e4}],
@@ -20,7 +20,7 @@ def simple():
 
 
 def drawn(axes):
-    """Lines by their labels: x and y."""
+    """Returns {label: (x, y)} of the lines."""
     return {line.get_label(): (list(line.get_xdata()), list(line.get_ydata())) for line in axes.lines}
 
 

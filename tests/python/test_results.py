@@ -1,4 +1,4 @@
-"""What comes back: the program's own numbers, as attributes and items."""
+"""Tests that results have the program's numbers, as attributes and items."""
 import json
 import pickle
 import sys
@@ -115,7 +115,7 @@ def test_a_notebook_shows_the_page(beam, ask, tmp_path):
 
 
 def calls_of(trace):
-    """Without the title, which only the program writes, and the date."""
+    """Returns the lines of a trace without the title, which only the program writes, and without the date."""
     return [line for line in trace.splitlines() if not line.startswith(("about ", "contct-trace-1 "))]
 
 

@@ -1,4 +1,4 @@
-"""Dicts become TOML without losing a bit; what TOML does not have is refused with its place."""
+"""Tests that dicts become TOML with exact numbers, and that values unknown to TOML are refused with their place."""
 import array
 import math
 import random

@@ -1,4 +1,4 @@
-"""A program that uses the whole of contct.py: mypy --strict has nothing to say of it."""
+"""A program that uses all of contct.py, for which mypy --strict must report no error."""
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Optional

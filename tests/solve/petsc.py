@@ -1,9 +1,9 @@
 """petsc.py CONTCT REFERENCE [MPIEXEC RANKS]: `contct run --engine petsc`, a factor that the ranks of an MPI job share.
 
-With MPIEXEC: a beam, plates and matrices of REFERENCE by RANKS ranks have the events, shares of the step, statuses and
-certificates of one process on the engine `updated`, and D within the error bounds of both; what is refused is refused with one
-message and exit status 2, and leaves no file; and a mechanism has its exit status. Without MPIEXEC, where PETSc is not found:
-the message says how to get it. The program itself links neither MPI nor PETSc in either case.
+With MPIEXEC, tests that RANKS ranks give the events, shares of the step, statuses and certificates of one process with
+the engine `updated` for a beam, plates and matrices of REFERENCE, and D within the error bounds; that a refusal is one
+message with exit status 2 and leaves no file; and the exit status of a mechanism. Without MPIEXEC, if PETSc is not
+found, tests that the message says how to install PETSc. The program contct itself never links MPI or PETSc.
 """
 import json
 import os
@@ -52,12 +52,12 @@ def solved(line, folder):
 
 
 def events_of(step):
-    """By pair: the order of ties is rounding's, and all others' is in their shares."""
+    """Returns (pair, change, share) of the step's events, sorted, because rounding decides the order of ties."""
     return sorted((e["pair"], e["change"], i["fraction"]) for i in step["increments"] for e in i["events"])
 
 
 def difference(one, many, counts):
-    """The first difference between two results, in words; None where there is none."""
+    """Returns the first difference between two results in words, or None."""
     for a, b in zip(one["steps"], many["steps"], strict=True):
         where = f"step {a['step']}"
         for (pair, change, share), (other, its_change, its_share) in zip(events_of(a), events_of(b), strict=True):
@@ -92,7 +92,7 @@ def compare(contct, reference, job):
 
 
 def ends(line, problem, status, words):
-    """Exit status `status`, `words` on standard error once, and no file beside the problem."""
+    """Checks the exit status, that `words` are on standard error once, and that the run leaves no file."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "p.toml").write_text(problem)
         finished = run([*line, "run", "p.toml", "--engine", "petsc", "--kernels", "corrected"], folder)

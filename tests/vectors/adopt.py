@@ -1,8 +1,8 @@
-"""adopt.py ROOT REPLAY [BARE]: runs the shell lines of reference/adopt one by one, as their systems do, in a repository of a user's: they end
-with 0 for a kernel that is CONTCT, and one of them with 1 for a kernel with a fault. REPLAY is contct-replay.
+"""adopt.py ROOT REPLAY [BARE]: runs the shell lines of each file in reference/adopt, as CI systems do. All lines must
+end with 0 for a correct kernel, and one of them with 1 for a kernel with a fault. REPLAY: contct-replay.
 
-With BARE, a folder with a bare Debian, they run in there, where ROOT and REPLAY are too; git is the real one, and the Dockerfile's RUN
-lines run as well.
+With BARE, a folder with a bare Debian that contains ROOT and REPLAY, the lines run in this system, with the real git
+and with the RUN lines of the Dockerfile.
 """
 import os
 import re
@@ -18,7 +18,7 @@ from edits import edited  # noqa: E402
 
 
 def steps_of_action(text, adopt, replay):
-    """(line, its environment) for each step: what GitHub puts in the place of ${{ .. }}."""
+    """Yields (line, environment) for each step of action.yml, with GitHub's values of ${{ .. }}."""
     values = {"github.action_path": adopt, "inputs.source": "mine.c", "inputs.replay": replay}
     for line, environment in re.findall(r"- run: (.*)\n(?:      (?!env).*\n)*      env: \{ (.*) \}", text):
         line = line[1:-1].replace('\\"', '"') if line.startswith('"') else line
@@ -26,7 +26,7 @@ def steps_of_action(text, adopt, replay):
 
 
 def jobs(root, replay, bare):
-    """{file: [(line, environment)]}"""
+    """Returns {file of reference/adopt: [(line, environment)]}."""
     adopt, repository = root / "reference/adopt", {"CONTCT_REPOSITORY": f"file://{root}"}
     text = {file.name: file.read_text() for file in (HERE.parent.parent / "reference/adopt").iterdir()}
     installs = re.findall(r"^RUN (.*)$", text["Dockerfile"], re.M) if bare else []
@@ -39,7 +39,7 @@ def jobs(root, replay, bare):
 
 
 def copies(text, root):
-    """What COPY puts into the image is enough for its ENTRYPOINT."""
+    """Returns lines that copy the files of COPY in a Dockerfile, and run its ENTRYPOINT on mine.c."""
     lines = []
     for source, target in re.findall(r"^COPY (\S+) /(\S+)$", text, re.M):
         lines.append((f"mkdir -p {Path(target).parent} && cp -r {root / source} {target}", {}))

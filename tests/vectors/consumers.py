@@ -1,7 +1,8 @@
-"""consumers.py ROOT LANGUAGE [PROGRAM [REPLAY]]: the consumer of reference/vectors/consumers in that language finds the kernel that is
-CONTCT equal, and finds each fault of faults.toml. With PROGRAM, which is contct, `replay` and `fuzz` judge the same kernels, and
-have to agree, in the line of the listing at fault too, which is that of the mutant of the same name.
-With REPLAY, which is the static contct-replay, it judges them as commands, and has to agree as well. Exit status 77: the language is not installed.
+"""consumers.py ROOT LANGUAGE [PROGRAM [REPLAY]]: tests that the consumer of reference/vectors/consumers in this
+language accepts the correct kernel, and detects each fault of faults.toml. With PROGRAM (contct), `replay` and `fuzz`
+must give the same verdicts on the kernels, and the faulty line of the listing must be that of the mutant with the same
+name. With REPLAY (the static contct-replay), it must give the same verdicts on the kernels as commands. Exit status 77:
+the language is not installed.
 """
 import json
 import os
@@ -58,7 +59,7 @@ def built(command, root, folder):
 
 
 def judgements(root, language, folder, program, replay):
-    """{who judges: (exit status, what is said, seconds)}"""
+    """Returns {judge: (exit status, output, seconds)}; judges are the vectors, `replay` and `fuzz`."""
     _, _, build, judge, kind = LANGUAGES[language]
     built(build, root, folder)
     found = {"vectors": run(judge.replace("VECTORS", f"{root}/reference/vectors/contct-vectors-1.{kind}"), folder)}
@@ -75,7 +76,7 @@ def judgements(root, language, folder, program, replay):
 
 
 def lines_at_fault(name):
-    """Of the mutant of the listing."""
+    """Returns the faulty lines of the listing's mutant with this name."""
     table = tomllib.loads((HERE.parent / "mutants/mutants.toml").read_text())
     source = table["source"][0]
     edit, = ([(old, new)] for mutant, old, new in source["mutants"] if mutant == name)

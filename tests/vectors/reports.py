@@ -1,5 +1,5 @@
-"""reports.py ROOT PROGRAM: the reports of reference/vectors/reports are as their schema says, those of kernels that are built in are verified
-by replaying them, and a report of `fuzz` is both; a report in which a number, the kernel or a trace is another is refused.
+"""reports.py ROOT PROGRAM: tests that the reports in reference/vectors/reports and a report of `fuzz` follow their
+schema, and that verify_report.py verifies those of built-in kernels and refuses a changed number, kernel or trace.
 """
 import hashlib
 import json

@@ -1,6 +1,8 @@
-"""vectors.py ROOT: contct-vectors-1.json is as its schema says, has every call of the golden set, with the reason why it is there unless its
-path was recorded, and each number twice: the hex float and the shortest decimal are the same double; the text form has the same numbers. Every
-erratum that changes numbers or text when it is undone is the flag of a call.
+"""vectors.py ROOT: tests that contct-vectors-1.json follows its schema and has every call of the golden set.
+
+Every call has a reason, unless it is from a recorded path. The hex float and the shortest decimal of a number are the
+same double, and the text form has the same numbers. Every erratum that changes numbers or text if undone is the flag of
+a call.
 """
 import json
 import math
@@ -28,7 +30,7 @@ def numbers(call):
 
 
 def shortest(call):
-    """Is each decimal the double of the hex float, and written as short as can be?"""
+    """Returns True if each decimal is the shortest decimal of its hex float."""
     return all(bits(of_hex(h)) == bits(float(d)) and (isinstance(d, str) or repr(float(repr(d))) == repr(d)) for h, d in numbers(call))
 
 

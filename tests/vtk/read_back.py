@@ -1,6 +1,6 @@
 """Reads the grids of a run with VTK's own reader and compares every number with the run's result.
 usage: python3 read_back.py RESULT.json FINAL.vtu [LABELS NODES]
-LABELS has the dofs' labels of a structure from elsewhere, NODES its coordinates or CalculiX's input with its mesh."""
+LABELS has the labels of the dofs of an external structure; NODES has its coordinates, or is CalculiX's input file."""
 import json
 import os
 import sys
@@ -40,7 +40,8 @@ directions = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2, "r": 5}
 
 
 def read_structure(labels_file, nodes_file):
-    """Labels, places of nodes by name, and pairs of nodes with an edge; of bricks, and else of Hermite beams."""
+    """Returns the labels of dofs, {node: place}, and the edges of bricks, or None instead if the file has only
+    coordinates."""
     labels = open(labels_file, encoding="utf-8").read().split()
     lines = [line.strip() for line in open(nodes_file, encoding="utf-8")]
     if not nodes_file.endswith(".inp"):
@@ -61,7 +62,7 @@ def read_structure(labels_file, nodes_file):
 
 
 def compare_structure(grid, step, where):
-    """A structure from elsewhere: its nodes where its files have them, their displacements by label, and its pairs."""
+    """Compares the grid of an external structure: places of nodes, displacements by labels, and pairs."""
     labels, places, edges = structure
     names = list(places)
     points = [grid.GetPoint(i) for i in range(grid.GetNumberOfPoints())]
@@ -95,7 +96,7 @@ def compare_structure(grid, step, where):
 
 
 def compare_pairs(cells, count, pairs, w, where):
-    """What cells behind the first `count` say of pairs, whose dofs are at w."""
+    """Compares the pairs, which are the cells after the first `count`. `w`: displacements of the pairs."""
     for name in ("pair", "gap", "force"):
         same(array(cells, name, 1)[count:], [p[name] for p in pairs], f"{where}, {name}")
     same(array(cells, "surface", 1)[count:], [1 if p["surface"] == "above" else -1 for p in pairs], where + ", surface")
@@ -105,7 +106,7 @@ def compare_pairs(cells, count, pairs, w, where):
 
 
 def compare_own(grid, step, where):
-    """All of a grid with a step of the result, to the bit."""
+    """Compares all numbers of a beam's or plate's grid with a step of the result, to the bit."""
     names = {1: [], 2: ["w", "theta"], 3: ["w", "wx", "wy"]}[len(step["displacement"]) // len(step["w"])]
     same(array(grid.GetPointData(), "w", 1), step["w"], where + ", w")
     same([row[2] for row in array(grid.GetPointData(), "displacement", 3)], step["w"], where + ", displacement")

@@ -10,13 +10,14 @@ FENCED = re.compile(r"^( *)(```+|~~~+).*?^ *\2[`~]*[ \t]*$", re.DOTALL | re.MULT
 
 
 def without_code(text):
-    """Lines stay where they are."""
+    """Returns the text without code, and with its line breaks."""
     text = FENCED.sub(lambda m: re.sub(r"[^\n]", "", m[0]), text)
     return re.sub(r"(`+)(?!`)[^\n]*?(?<!`)\1(?!`)", "", text)
 
 
 def anchors_of(text):
-    """As GitHub makes them from headings: letters, digits, _ and -, blanks as -; the second of a name has -1."""
+    """Returns the anchors that GitHub makes from headings: letters, digits, _ and -, with - for blanks; a repeated
+    anchor gets -1."""
     names = []
     for heading in re.findall(r"^#{1,6} +(.*?)[ \t]*$", FENCED.sub("", text), re.MULTILINE):
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
@@ -30,7 +31,7 @@ def read(path):
 
 
 def links_of(text):
-    """Each with its line: [words](target "title") and [name]: target."""
+    """Yields (line, target) of [words](target "title") and [name]: target."""
     plain = without_code(text)
     for m in re.finditer(r"\]\(\s*<?([^\s)>]+)>?(?:\s+\"[^\"]*\")?\s*\)|^\[[^\]]+\]:\s+(\S+)", plain, re.MULTILINE):
         yield plain.count("\n", 0, m.start()) + 1, m[1] or m[2]

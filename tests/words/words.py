@@ -1,5 +1,6 @@
-"""Fails when a sentence has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/, the comments of
-cpp/ and tests/, and the names of tests; and when a name has a semicolon, at which CMake cuts it, so that ctest would run no test.
+"""Fails when a sentence has a phrase of phrases.txt: the program's messages, help and page, README.md and reference/,
+the comments of cpp/ and tests/, and the names of tests; and when a name has a semicolon, at which CMake cuts it, so
+that ctest would run no test.
 Usage: words.py ROOT PHRASES LEAST"""
 import re
 import sys
@@ -9,8 +10,8 @@ LITERAL = re.compile(r'"""(.*?)"""|"((?:\\.|[^"\\\n])*)"|`((?:\\.|[^`\\])*)`', r
 
 
 def texts_of(file):
-    """What a file has for users: the paragraphs of a page, and the string literals of a source that have a blank, since words
-    without one are keys and values."""
+    """Returns the texts of a file for users: the paragraphs of a page, or the string literals of a source that
+    contain a blank; others are keys and values."""
     source = file.read_text(encoding="utf-8")
     if file.suffix in (".md", ".html", ".ipynb"):
         plain = re.sub(r"^\s*(```+|~~~+).*?^\s*\1|^    .*?$|<(style|script|svg)\b.*?</\2>|<[^<>]*>", "\n\n", source, flags=re.DOTALL | re.MULTILINE)
@@ -21,7 +22,7 @@ def texts_of(file):
 
 
 def comments_of(file):
-    """The comments of a source, each run of lines as one, and the names of its tests."""
+    """Returns the comments of a source, with consecutive lines joined, and the names of its tests."""
     source = re.sub(r'R"(\w*)\(.*?\)\1"', '""', file.read_text(encoding="utf-8"), flags=re.DOTALL)
     names = [m[1] for m in re.finditer(r'\b(?:TEST_CASE|SECTION)\(\s*"((?:\\.|[^"\\\n])*)"', source)]
     if file.suffix == ".py":
