@@ -131,7 +131,7 @@ class Problem:
         return f, settled, own
 
     def loads(self, step):
-        """Moves the faces; returns the loads [dofs], the settlements of fixed dofs, and `work` of each element's loads."""
+        """Moves the faces; returns loads [dofs], settlements of fixed dofs, and `work` of each element's loads."""
         if isinstance(step, list):
             return self.combined(step)
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
@@ -188,7 +188,7 @@ class Problem:
         return e, (x - line[e]) / (line[e + 1] - line[e])
 
     def parts(self, part):
-        """Returns the elements between "from" and "to", with the shares of their sides at which the part begins and ends."""
+        """Returns the elements between "from" and "to", with the shares of their sides where the part begins and ends."""
         sides = []
         for i, line in enumerate(self.lines):
             ends = [real(part[key] if len(self.lines) == 1 else part[key][i]) if key in part else line[k] for key, k in (("from", 0), ("to", -1))]

@@ -98,7 +98,7 @@ def sizes_of(p, f, settled, told, largest):
 
 
 def check_pairs(p, s, deep, rho2, reach, told):
-    """Raises ValueError if the bound on gap is false for a pair. Returns the pairs, from 1, whose state is proved wrong."""
+    """Raises ValueError if the bound on gap is false for a pair. Returns the pairs, from 1, with proved wrong states."""
     error, wrong = F(s["error"]["gap"]), []
     for i, ((_, n, _, _), face, d, state) in enumerate(zip(p.pairs, p.told_faces, deep, s["state"])):
         square = reach_of_pair(p, s, reach, i) * rho2

@@ -1,6 +1,7 @@
 """Writes PB16 with N intervals on each side: python3 reference/benchmarks/membrane.py FOLDER N. PB16 has 20.
 
-The obstacle problem of PETSc's examples (snes/tutorials/ex9.c): a membrane on the square from -2 to 2 hangs over the unit ball,
+The obstacle problem of PETSc's examples (snes/tutorials/ex9.c): a membrane hangs over the unit ball
+on the square from -2 to 2:
     u >= sqrt(1 - r^2),   -laplace u = 0 where it does not touch,   u = exact on the boundary,
     exact: the ball up to r = R, beyond it u = -A log r + B,   A = R^2 / sqrt(1 - R^2),   B = A log 2,   R^2 log(2 / R) = 1 - R^2.
 The matrix is that of the five-point formula, times h^2. It has no boundary nodes; their values are loads on their

@@ -1,4 +1,5 @@
-"""Writes a picture of each benchmark, NAME.svg, in this folder: PYTHONPATH=build/release python3 reference/benchmarks/pictures.py
+"""Writes a picture of each benchmark, NAME.svg, in this folder:
+    PYTHONPATH=build/release python3 reference/benchmarks/pictures.py
 
 As in the cookbook, a picture shows the state at the end of a step by the corrected rule. PB15 is a matrix without
 coordinates, and has no picture.

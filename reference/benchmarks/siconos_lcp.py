@@ -4,8 +4,8 @@
     contct verify --results theirs.json
 
 Needs python3-siconos and numpy. reference/check_problem.py reads K from the problem file, without contct. Every pair is
-a spring k that can pull, and z >= 0 is the force that cancels its tension. With the compliance A of the structure on all
-springs, the displacements u0 at z = 0, the faces c, and n = +1 for a face above and -1 for a face below:
+a spring k that can pull, and z >= 0 is the force that cancels its tension. With the compliance A of the structure on
+all springs, the displacements u0 at z = 0, the faces c, and n = +1 for a face above and -1 for a face below:
     force(z) = k n (u0 - c) + (1 - k n A n) z >= 0,   z >= 0,   force(z) z = 0.
 """
 import json

@@ -1,4 +1,5 @@
-"""Writes a picture of each job of the cookbook, NAME.svg, from its result: PYTHONPATH=build/release python3 pictures.py, in this folder.
+"""Writes a picture of each job of the cookbook, NAME.svg, from its result. In this folder:
+    PYTHONPATH=../../build/release python3 pictures.py
 
 A picture shows the state at the end of the step that cookbook.md discusses, by the corrected rule: deflections
 magnified, the unloaded structure in grey, pairs filled if in contact and hollow if separated, the largest force in kN.

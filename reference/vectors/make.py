@@ -2,8 +2,8 @@
 """make.py [--check]: writes contct-vectors-1.json and contct-vectors-1.txt from ../traces and caught.json. With
 --check, compares the existing files instead (exit status 1: a file differs). README.md describes the format.
 
-caught.json has the first call of each trace that detects each mutant of tests/mutants, and each erratum of ../errata.toml
-if its correction is undone; `mutants.py BUILD.json --caught FILE` writes caught.json.
+caught.json has the first call of each trace that detects each mutant of tests/mutants, and each erratum of
+../errata.toml if its correction is undone; `mutants.py BUILD.json --caught FILE` writes caught.json.
 """
 import hashlib
 import json

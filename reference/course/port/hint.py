@@ -2,8 +2,8 @@
 Exit status 0: all answers are right to the bit; 1: otherwise.
 
 hints.toml has a sentence for each fault that was put into the kernels on purpose, with the number of right answers, the
-first wrong value, and a digest of all answers; stages.toml has the digests of unfinished kernels. A kernel with the same
-answers has the same fault, or a fault that no golden call distinguishes from it.
+first wrong value, and a digest of all answers; stages.toml has the digests of unfinished kernels. A kernel with the
+same answers has the same fault, or a fault that no golden call distinguishes from it.
 """
 import ctypes
 import shlex
