@@ -16,7 +16,7 @@ int contct_kernel_abi(void) {
   return CONTCT_KERNEL_ABI;
 }
 
-/* Returns s of one pair: if 0 < s < 1, the pair has its event at this share of the remaining load.
+/* Returns s of one pair. If s is between 0 and 1, the pair has its event at this share of the remaining load.
  * Do not negate a comparison: all comparisons with NaN are false, as in FORTRAN. */
 static double scale_factor(double d, double d_star, double face, int isep, int isurf) {
   const double gap = face - d;

@@ -45,7 +45,7 @@ contains
     end do
   end subroutine contct_kernel
 
-  !> Returns s of one pair: if 0 < s < 1, the pair has its event at this share of the remaining load.
+  !> Returns s of one pair. If s is between 0 and 1, the pair has its event at this share of the remaining load.
   !> Do not negate a comparison: all comparisons with NaN are false, as in 1989.
   pure function scale_factor(d, d_star, face, side) result(s)
     real(c_double), intent(in) :: d, d_star, face

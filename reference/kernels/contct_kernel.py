@@ -13,7 +13,7 @@ DELTA, EPSGAP, EPSMUL = 1e-20, 1e-10, 0.390625e-02  # the listing's DATA stateme
 
 
 def scale_factor(d, d_star, face, isep, isurf):
-    """Returns s of one pair: if 0 < s < 1, the pair has its event at this share of the remaining load.
+    """Returns s of one pair. If s is between 0 and 1, the pair has its event at this share of the remaining load.
     Do not negate a comparison: all comparisons with NaN are false, as in FORTRAN."""
     gap = face - d
     if d_star == 0:  # the pair does not move

@@ -1,5 +1,5 @@
-# Loads every register from the state behind this page, does one instruction, and stores them. The state: 16 general registers
-# in the order of their numbers, flags, 16 vector registers, and room for the caller's stack pointer.
+# Loads every register from the state on the next page, executes one instruction, and stores every register. The state
+# has 16 general registers in the order of their numbers, flags, 16 vector registers, and the caller's stack pointer.
 .set general, stub + 4096
 .set flags, general + 128
 .set vectors, flags + 16

@@ -1,4 +1,4 @@
-C     The texts of n values of SMIN, as FORMAT 60 of the listing writes them.
+C     Writes N values of SMIN to LINES as FORMAT 60 of the listing does.
       SUBROUTINE TEXTS (SMIN, N, LINES)
       REAL SMIN(N)
       CHARACTER*11 LINES(N)
