@@ -76,6 +76,6 @@ TEST_CASE("the reaction of a fixed dof that settles also balances the force of i
   const load l{{{1, 0, -3.0}}, {}, {{1, 0, 0.5}}};
   const std::vector<double> all_up = {0.5, 0, 0.5, 0, 0.5, 0};  // no element is bent
   const std::vector<double> r = reactions(two_spans, l, supports, all_up);
-  // The reactions balance the load, 5 - 2 = 3, and the second fixed support has none of it.
+  // The reactions balance the load: 5 - 2 = 3. The third support, which fixes the same dof again, gets 0.
   CHECK(r == std::vector<double>{5.0, -2.0, 0.0});
 }

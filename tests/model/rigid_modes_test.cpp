@@ -13,7 +13,7 @@ using namespace contct;
 
 namespace {
 
-/// Returns the rank after all dofs with these rows are held, one after the other.
+/// Returns the number of rigid-body motions that are removed if all dofs, given by their rows, are held.
 int rank_of(const std::vector<rigid_row>& rows) {
   rigid_rank rank(rows, 1e-12);
   for (std::size_t dof = 0; dof < rows.size(); ++dof) rank.hold(static_cast<int>(dof));

@@ -43,9 +43,9 @@ if grep -rlF -e "$PWD" "$installed" >&2; then fail "installed files name the fol
 echo "$count files, none of which names $PWD"
 
 echo "-- lintian"
-# No Debian bug requests these packages; their pages are Markdown, which doc-base does not accept; gfortran is only
-# recommended, because C and C++ programs do not need it. Text is stored in constants of 16 bytes, whose ends lintian
-# takes for misspelt words.
+# Reasons for the suppressed tags: no Debian bug requests these packages; their pages are Markdown, which doc-base does
+# not accept; gfortran is only recommended, because C and C++ programs do not need it; text is stored in constants of 16
+# bytes, whose ends lintian takes for misspelt words.
 lintian --no-cfg --pedantic --display-info --display-experimental --tag-display-limit 0 \
   --fail-on error,warning,info,pedantic,experimental --suppress-tags \
   initial-upload-closes-no-bugs,possible-documentation-but-no-doc-base-registration,missing-prerequisite-for-gfortran-module,spelling-error-in-binary \

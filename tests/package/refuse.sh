@@ -1,5 +1,5 @@
 #!/bin/sh
-# refuse.sh WORK PREFIX: requests a component and a version that do not exist.
+# refuse.sh WORK PREFIX: tests that find_package refuses unknown components and versions.
 set -eu
 work=$1
 prefix=$2

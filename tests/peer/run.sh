@@ -1,8 +1,8 @@
 #!/bin/sh
-# Tests that CalculiX (ccx) finds the same states as contct, on solids whose matrix it wrote, on combinations of a base
-# plate, and on problems of reference/benchmarks; and that Siconos finds them on all problems of reference/benchmarks.
+# Tests that CalculiX (ccx) finds the same states as contct on solids whose matrix CalculiX wrote, on combinations of a
+# base plate, and on problems of reference/benchmarks; and that Siconos does on all problems of reference/benchmarks.
 # usage: sh tests/peer/run.sh [BUILD]      (default: build/release; its targets are built)
-# Exit 0: all agree; 1: a difference; 2: usage; 77: skipped, one of them is missing.
+# Exit 0: all agree; 1: a difference; 2: usage; 77: skipped, a program is missing.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 . cpp/install.sh

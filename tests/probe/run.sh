@@ -4,7 +4,7 @@
 # strict build.
 # usage: run.sh KIND SOURCE WORK STRICT_REPLAY OBJECT..., with CMAKE, GENERATOR, CXX and FC set; OBJECT: objects and
 # libraries for the linker.
-# KIND: fused     products and sums are contracted; the listing has none, so no result differs
+# KIND: fused     a product in a sum is contracted; the listing has no such sum, so no result differs
 #       fast      -ffast-math for compiler and linker: subnormals are flushed to zero, and the golden set differs
 #       compiled  -ffast-math only for the compiler: no result differs, and only its macros show it
 # Exit 77: this processor has no fused multiply-add.

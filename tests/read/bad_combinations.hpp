@@ -17,8 +17,8 @@ inline std::string cases_with(const std::string& tables) {
 
 inline const char* const case_g = "[[case]]\nname = \"G\"\nuniform = -1\n";  // lines 12 to 14
 
-/// Returns `good_problem` with the case G and, from line 15 on, a train of two axles whose last three lines
-/// are these.
+/// Returns `good_problem` with the case G and, from line 15 on, a train of two axles that ends with these
+/// lines.
 inline std::string train_with(const std::string& lines) {
   return cases_with(std::string(case_g) +
                     "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 }, { at = 1, w = -2 } ]\n" + lines);

@@ -17,7 +17,8 @@ std::string of_coordinates(const std::string& text) {
   return verdict([&] { (void)parse_coordinates(text, "K.xyz"); });
 }
 
-/// Returns the edges by the names of their nodes, with the number of their elements if it is not 1.
+/// Returns the edges by the names of their nodes, each followed by the number of its elements if this is
+/// not 1.
 std::string edges_of(const placed_nodes& m) {
   std::string text;
   for (const mesh_edge& e : m.edges)

@@ -27,7 +27,7 @@ TEST_CASE("a named file is relative to the folder of the problem file") {
   CHECK(path_of("a/b/p.toml", "../K.mtx", reach::anywhere) == "a/b/../K.mtx");
   CHECK(path_of("a/b/p.toml", "/c/K.mtx", reach::anywhere) == "/c/K.mtx");
   CHECK(path_of("p.toml", "K.mtx", reach::own_folder) == "K.mtx");
-  CHECK(path_of("p.toml", "-", reach::own_folder) == "./-");  // a file with the name -
+  CHECK(path_of("p.toml", "-", reach::own_folder) == "./-");  // the name of a file, and not standard input
   CHECK(path_of("standard input", "-", reach::own_folder) == "./-");
 }
 

@@ -15,7 +15,7 @@ namespace contct::referee {
 /// `--final-only`, and `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits
 /// are judged, because it follows the 1989 rule.
 enum class way { default_engine, refactor, final_only, listing };
-inline constexpr int ways = 3;  ///< the first three follow the corrected rule
+inline constexpr int ways = 3;  ///< number of ways with the corrected rule, which come first
 [[nodiscard]] std::string_view name_of(way w);
 
 /// The errors of a run. `outside`: the error of a number exceeds the proved bound. `beyond`: the error of a
@@ -63,8 +63,8 @@ struct finding {
 
 /// The errors of a run, and the number of compared values.
 struct judgement {
-  int steps = 0;      ///< steps that reach their load on both paths
-  int certified = 0;  ///< certified steps among these
+  int steps = 0;      ///< steps whose full load both the run and the exact path reach
+  int certified = 0;  ///< certified steps among `steps`
   long values = 0;    ///< numbers compared with exact ones
   std::vector<finding> findings;
 };

@@ -65,7 +65,7 @@ drawn_problem draw(std::uint64_t seed, std::uint64_t number) {
   return d;
 }
 
-/// The judgements of one problem in all ways.
+/// The judgements of one problem, which is run in each way with the corrected rule.
 struct judged_problem {
   std::string kind;
   std::array<judgement, ways> judgements;
@@ -81,7 +81,7 @@ judged_problem judge_all_ways(const drawn_problem& p) {
 /// Counts of one kind of problem, or of all.
 struct counts {
   long problems = 0;
-  long steps = 0, certified = 0, values = 0;  // over all ways
+  long steps = 0, certified = 0, values = 0;  // sums over all ways to run
   std::array<long, faults> wrong{};           // likewise
 
   void add(const judged_problem& p) {

@@ -13,7 +13,7 @@ using contct::short_words;
 
 namespace {
 
-/// A number of the exact path: a pair's force or a node's deflection, counted from 1.
+/// A number of the exact path: the force of pair `at` or the deflection of node `at`, from 1.
 struct stated_number {
   enum class kind { force, deflection } what;
   std::size_t step, at;

@@ -15,7 +15,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// A run of both rules.
+/// A problem, and its run by both rules.
 struct both_rules {
   const problem what;
   const linear_structure structure = structure_of(what);

@@ -27,7 +27,7 @@ TEST_CASE("a cantilever with a spring k under its tip deflects by F / (3 EI / L^
   factored_stiffness k(s);
   std::vector<double> u(s.dofs());
   u[8] = 5.0;
-  u[0] = 7.0;  // on the support
+  u[0] = 7.0;  // a load on a fixed dof
   k.factor(std::vector<char>{0, 0, 0, 1});
   k.solve(u);
   CHECK(u[8] == Approx(5.0 / (3e4 / 8 + 100)).epsilon(1e-12));
@@ -82,7 +82,8 @@ TEST_CASE("a structure with supports whose matrix has no factor is refused") {
 
 namespace {
 
-/// Returns three dofs with rows in reverse order, of which the first dof is fixed, and a pair at each.
+/// Returns a structure of three dofs with a pair at each dof, and rows in the reverse order of dofs. The
+/// first dof is fixed.
 linear_structure three_dofs() {
   linear_structure s;
   s.dofs_per_node = 1;

@@ -75,7 +75,7 @@ TEST_CASE("the first factor includes the springs of pairs in contact at the star
   e.switch_spring(3, true);
   respond(e);
   CHECK_FALSE(e.accepted);
-  CHECK(e.order == std::vector<int>{1});  // no spring after the refused one
+  CHECK(e.order == std::vector<int>{1});  // no spring is applied after the refused spring
   CHECK(e.applied() == std::vector<char>{1, 1, 1, 1});
 }
 

@@ -24,7 +24,7 @@ struct pair_at {
   int isurf;
 };
 
-/// A call with pair i at node i + 1 and one dof a node, which owns its arrays.
+/// A call that owns its arrays, with pair i at node i + 1 and one dof per node.
 template <class Real>
 struct small_call {
   std::vector<Real> dd, dtest, cc, ss;

@@ -14,8 +14,8 @@
 namespace contct {
 
 /// Compares FORTRAN and C++ in one precision. SMIN, SS and ISEP are compared after each call. Unit 26 is
-/// compared in blocks, because reading it after every call would take ten times as long. Unit 26 belongs to
-/// this object while it lives.
+/// compared in blocks, because reading it after every call would take ten times as long. No other object may
+/// use unit 26 during the lifetime of this object.
 template <class Real>
 class side_by_side {
  public:

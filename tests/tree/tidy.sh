@@ -22,7 +22,7 @@ else
   xargs sed -n 's/^#include "\(.*\.cpp\)"$/\1/p' <"$work/files" | sort -u >"$work/together"
   comm -23 "$work/sources" "$work/together" >>"$work/files"
 fi
-# The commands are for g++, and clang does not know all its warnings. clang-tidy prints the number of suppressed
+# The compile commands are for g++, and clang does not know all its warnings. clang-tidy prints the number of suppressed
 # warnings to standard error, which is shown only if it fails.
 if ! xargs -P "$(nproc 2>/dev/null || echo 2)" -n 1 clang-tidy --quiet -p build/tidy --checks=-bugprone-suspicious-include \
   --extra-arg=-Wno-unknown-warning-option <"$work/files" 2>"$work/said"; then

@@ -144,7 +144,7 @@ TEST_CASE("the table of pairs has a row for each pair in each increment, with th
     CHECK(r[2] == std::to_string(pair + 1));
     CHECK(r[5] == (f.closed(pair) ? "contact" : "separated"));
     const double w = f.displacement[pair == 0 ? 4 : 2];
-    // Within a step the table has the path's own D, which equals the separately solved state.
+    // Within a step the table has D of the path, which equals the separately solved state.
     CHECK(number(r[7]) == Approx(w).margin(1e-14));
     pressed = pressed || number(r[9]) > 10;
   }
