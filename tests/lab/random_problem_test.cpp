@@ -59,7 +59,7 @@ TEST_CASE("a random problem depends only on its seed and its number, and no two 
 }
 
 TEST_CASE("random problems of fixed seeds do not change between versions") {
-  // Faces come from a solve and units from pow(), so their last digits are not compared.
+  // Faces are computed by a solve and units by pow(), so the last digits of faces and units are not compared.
   struct pinned {
     std::uint64_t seed, number;
     bool held;

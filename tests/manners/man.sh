@@ -1,4 +1,4 @@
-# man.sh SCRIPT ROOT CHECKER...: makes the manual pages of the packages. CHECKER must accept them, and they must have
+# man.sh SCRIPT ROOT CHECKER...: makes the manual pages of the packages. CHECKER must accept the pages, which must have
 # every heading and key of the pages from which they are made.
 set -eu
 script=$1

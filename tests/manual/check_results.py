@@ -30,7 +30,7 @@ stiffness = 1.0e4
 [[step]]
 uniform = -1.0
 """
-# Nothing holds this beam, so its exact path begins with a rigid-body motion and ends in a mechanism.
+# A beam without supports, whose exact path begins with a rigid-body motion and ends in a mechanism.
 FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
 
 # The keys that contct_bench writes for CHOLMOD; a build without CHOLMOD writes none of them.

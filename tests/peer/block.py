@@ -1,8 +1,8 @@
 """Writes blocks of bricks over springs with gaps, as decks for CalculiX and as problem files with CalculiX's matrix."""
 
-# The range of a spring's table in the problem's lengths. It is wide because Newton's first steps may go far, and
-# outside it the force is constant. A second point is near the answer, since the rounding of the far point would move a
-# stiff spring's face.
+# The range of a spring's table in the problem's lengths. The range is wide, because the force is constant outside the
+# range and Newton's first steps may go far. A second point is near the solution, since the rounding of the far point
+# would move the face of a stiff spring.
 FAR_AWAY, NEAR = 1e6, 4
 
 

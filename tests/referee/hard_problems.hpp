@@ -17,7 +17,7 @@ enum class hard_kind {
   cancelling_loads,   ///< large loads have a small resultant
   graded_meshes,      ///< elements are 1e5 times as long as others, or far from x = 0
   pairs_alone,        ///< no supports, mixed gaps, and loads that move the beam
-  near_tipping,       ///< a load over the last pair, with a moment of 1e-8 to 1e-16 of it
+  near_tipping,       ///< a load over the first or last pair, with a tiny moment or none
   soft_matrices,      ///< [[1, -1], [-1, 1 + eps]]
   spring_decades,     ///< elastic supports and pairs over 16 decades
 };

@@ -12,7 +12,7 @@
 namespace contct::referee {
 
 /// The ways to run a problem: `contct run --kernels corrected`, the same with `--engine refactor`,
-/// `--final-only`, and `--kernels cpp --engine refactor`. Of the last one only certified numbers and digits
+/// `--final-only`, and `--kernels cpp --engine refactor`. Of the last way only certified numbers and digits
 /// are judged, because it follows the 1989 rule.
 enum class way { default_engine, refactor, final_only, listing };
 inline constexpr int ways = 3;  ///< number of ways with the corrected rule, which come first

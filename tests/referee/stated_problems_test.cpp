@@ -17,7 +17,7 @@ namespace {
 struct stated_number {
   enum class kind { force, deflection } what;
   std::size_t step, at;
-  const char* value;  ///< exact, or its first 6 digits
+  const char* value;  ///< the exact number, or its first 6 digits
 };
 stated_number force(std::size_t step, std::size_t pair, const char* value) {
   return {stated_number::kind::force, step, pair, value};

@@ -1,5 +1,5 @@
 # Fails unless the project's top folder has exactly these files and folders, apart from names that begin with a dot. In
-# a repository it asks git, so that untracked files do not count.
+# a repository, git lists the files, so that untracked files do not count.
 # Usage: cmake -DROOT=<project> -P top_level.cmake
 set(allowed CMakeLists.txt CMakePresets.json LICENSE README.md cpp fortran reference tests)
 find_program(git git)

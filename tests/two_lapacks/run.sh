@@ -48,7 +48,7 @@ recorded() {
   under "$1" "$build/contct" run "reference/problems/$2.toml" --kernels $kernels --quiet \
     --trace "$file.trace" --json "$file.json" >"$file.said" 2>&1
   status=$?
-  # Exit statuses 3 to 5 mean no certificate, a mechanism or a cycle, which the 1989 rule may give; its kernels must
+  # Exit statuses 3 to 5 mean no certificate, a mechanism or a cycle, which the 1989 rule may give; the kernels must
   # still be equal.
   [ $status = 0 ] || [ $status -ge 3 ] || { fail "$2 under $1: exit $status"; cat "$file.said"; }
   grep -q '"lockstep": {"calls":[1-9][0-9]*,"values_compared":[1-9][0-9]*,"mismatches":0}' "$file.json" ||

@@ -1,5 +1,5 @@
-// Tests grids for ParaView. tests/app/break_out.py and tests/vtk test that they are XML and that VTK reads
-// them.
+// Tests grids for ParaView. tests/app/break_out.py tests that the grids are XML, and tests/vtk that VTK reads
+// the grids.
 #include <fmt/format.h>
 
 #include <algorithm>
