@@ -116,8 +116,8 @@ exit_status run_command(const new_options& options) {
     places.push_back((fs::path(file).parent_path() / f.name).string());
   for (const std::string& place : places) refuse_taken(place);
   for (std::size_t i = 0; i < places.size(); ++i) write_file(places[i], wanted.files[i].text);
-  print_text(fmt::format("{} {} written; next: contct run {} --strict --html report.html\n", joined(places, ", "),
-                         places.size() == 1 ? "is" : "are", file));
+  print_text(fmt::format("{} {} written; next: contct run {} --strict --html report.html\n",
+                         joined(places, ", "), places.size() == 1 ? "is" : "are", file));
   return exit_status::solved;
 }
 

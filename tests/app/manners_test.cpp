@@ -99,7 +99,8 @@ TEST_CASE(
     const finished made = contct_program(dir.path(), {"new", shape});
     const std::string name = std::string(shape) + ".toml";
     CHECK(made.exit == 0);
-    CHECK_THAT(made.out, Contains(name + " is written; next: contct run " + name + " --strict --html report.html"));
+    CHECK_THAT(made.out,
+               Contains(name + " is written; next: contct run " + name + " --strict --html report.html"));
     CHECK(dir.files() == words{name});
     const std::string text = dir.read(name);
     for (const char* piece : {"[[support]]", "[[contact]]", "[[bed]]", "[[step]]", "positive up"})
