@@ -122,6 +122,7 @@ TEST_CASE("The bearing pressure of a half-lifted footing is that of a rigid body
   CHECK(beds[0].pressure.most.x == 0.0);
   CHECK(beds[0].pressure.least.value == 0.0);
   CHECK(beds[0].contact == Approx(0.625).epsilon(1e-12));
+  CHECK(beds[0].force == Approx(1.0).epsilon(1e-12));  // the load
 }
 
 TEST_CASE("A beam that sags through a face between two pairs is reported, but a flatter beam is not") {

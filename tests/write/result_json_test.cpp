@@ -346,11 +346,28 @@ TEST_CASE("the page's structure of a matrix has labels, and coordinates and edge
   CHECK(placed["dofs"][16] == nlohmann::json({{"dof", "6.y"}, {"at", 6}, {"direction", 2}}));
   CHECK(placed["edges"][0] == nlohmann::json({1, 2, 1}));
   CHECK(placed["pairs"][0]["dof"] == "6.y");
-  CHECK(placed["notes"] == nlohmann::json({"Rotations (11 of 33 dofs) are not drawn."}));
+  CHECK(placed["notes"] == nlohmann::json({"Rotations, 11 of 33 dofs, are not drawn."}));
+  CHECK(placed["labels_from"].get<std::string>().ends_with("frame.dof"));
+  CHECK(placed["places_from"].get<std::string>().ends_with("frame.xyz"));
   const nlohmann::json bare =
       structure_json(parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere));
   CHECK(bare["nodes"].empty());
   CHECK(bare["dofs"][16] == nlohmann::json({{"dof", "6.y"}}));
+  CHECK_FALSE(bare.contains("places_from"));
+}
+
+TEST_CASE("a result says which distributed load is self-weight, and the resultant force of each bed") {
+  const nlohmann::json s = result_of(
+      "[beam]\nlength = 2\nelements = 4\nsection = { E = 1e6, I = 1, A = 0.5, weight = 6 }\n"
+      "[[bed]]\nmodulus = 100\nface = 0\n[[case]]\nname = \"G\"\nself_weight = true\nuniform = -2\n"
+      "[[combination]]\nname = \"G\"\nterms = { G = 2 }\n")["steps"][0];
+  const nlohmann::json& loads = s["increments"][0]["load"]["uniform"];
+  REQUIRE(loads.size() == 2);
+  for (const nlohmann::json& part : loads) {
+    CHECK(part["value"] == (part.contains("self_weight") ? -6.0 : -4.0));  // 2 * 6 * 0.5; 2 * 2
+  }
+  CHECK(loads[0].contains("self_weight") != loads[1].contains("self_weight"));
+  CHECK(s["beds"][0]["force"].get<double>() == Approx(20.0).epsilon(1e-12));  // all of the load
 }
 
 TEST_CASE(

@@ -137,6 +137,7 @@ struct placed_nodes {
   std::vector<mesh_edge> edges;    ///< from < to, each edge once
   std::vector<placed_dof> dofs;    ///< [dofs]; empty if `nodes` is empty
   std::vector<std::string> notes;  ///< the parts of the files that are not drawn, a sentence each
+  std::string from = {};           ///< the file with the places
 
   [[nodiscard]] bool known() const { return !nodes.empty(); }
 };

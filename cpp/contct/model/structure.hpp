@@ -40,6 +40,7 @@ struct distributed_load {
   std::vector<int> elements;       ///< from 0; empty means all
   /// The file's polynomials whose sum is `polynomial`, for exact arithmetic; empty: `polynomial` itself.
   std::vector<scaled_polynomial> parts = {};
+  bool is_self_weight = false;
 };
 
 /// The kind of a placed load: a force per length or area, a force at a point, a moment at a point, or an

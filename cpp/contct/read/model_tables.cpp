@@ -300,6 +300,7 @@ void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
   const std::string path = t.has("mesh") ? files.path_of(t["mesh"]) : files.path_of(t["job"], ".inp");
   if (!t.has("mesh") && !std::filesystem::exists(path)) return;
   a.places = places_by_mesh(read_input(path, "input file of CalculiX", largest_mesh_file), path, a);
+  a.places.from = shown_name(path);
   if (t.has("mesh")) refuse_unknown_nodes(t["mesh"], path, a);
 }
 
@@ -320,6 +321,7 @@ assembled read_matrix(const toml_value& t, const named_files& files, std::vector
     const std::string of_places = files.path_of(t["coordinates"]);
     a.places =
         places_by_coordinates(read_input(of_places, "file of coordinates", largest_mesh_file), of_places, a);
+    a.places.from = shown_name(of_places);
     refuse_unknown_nodes(t["coordinates"], of_places, a);
   }
   return a;

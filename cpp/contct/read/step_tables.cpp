@@ -128,7 +128,7 @@ class step_reader {
     if (!*acts) return;
     const auto add = [&l](double weight, double times, std::vector<int> elements) {
       l.distributed.push_back(
-          {{product_of<double>(-weight, times)}, std::move(elements), {{{-weight}, 1.0, times}}});
+          {{product_of<double>(-weight, times)}, std::move(elements), {{{-weight}, 1.0, times}}, true});
     };
     if (const auto* p = std::get_if<plate>(&nodes_.structure().kind)) {
       if (p->weight == 0.0)

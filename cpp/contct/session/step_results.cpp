@@ -132,6 +132,7 @@ std::vector<bed_reading> beds_in(const problem& p, const step_results& r, const 
       if (i == 0) of_bed.pressure = {"pressure", here, here};
       if (here.value < of_bed.pressure.least.value) of_bed.pressure.least = here;
       if (here.value > of_bed.pressure.most.value) of_bed.pressure.most = here;
+      of_bed.force += r.pairs[pair].force;
       if (s.closed(pair)) of_bed.contact += b.share[i];
     }
     all.push_back(of_bed);

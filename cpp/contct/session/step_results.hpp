@@ -78,6 +78,7 @@ struct force_balance {
 /// The contact of a bed with the structure.
 struct bed_reading {
   value_range pressure;  ///< force divided by tributary length or area, at the bed's nodes
+  double force = 0.0;    ///< the sum of the contact forces of its pairs
   double contact = 0.0;  ///< the tributary lengths or areas of the pairs in contact, added up
 };
 /// The readings of all beds in state `s`, whose results are `r`.

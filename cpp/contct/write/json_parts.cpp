@@ -50,7 +50,9 @@ void put_kind(json& out, const plate& p) {
 void put_kind(json& out, const assembled& a) {
   out["kind"] = "matrix";
   out["matrix"] = a.name;
+  if (!a.labels_from.empty()) out["labels_from"] = a.labels_from;
   const placed_nodes& places = a.places;
+  if (places.known()) out["places_from"] = places.from;
   json& all = out["dofs"] = json::array();
   for (int dof = 0; dof < a.dofs(); ++dof) {
     json& entry = all.emplace_back(json{{"dof", a.label_of(dof)}});
@@ -179,6 +181,7 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
     json& entry = out["uniform"].emplace_back();
     put_values(entry, d.polynomial);
     entry["elements"] = elements_json(d.elements);
+    if (d.is_self_weight) entry["self_weight"] = true;
   }
   for (const placed_load& p : l.placed) put_placed(out, m, p);
   const auto put_all = [&](const char* key, const auto& all) {

@@ -283,7 +283,10 @@ class result_writer {
         {{"extremes", extremes_json(m, at_end.ranges)},
          {"extremes_at", ranges_are_at(m)},
          {"beds", list_of(beds_in(r_.what, at_end, s.end), [&m, i = 0](const bed_reading& b) mutable -> json {
-            return {{"bed", ++i}, {"pressure", range_json(m, b.pressure)}, {"contact", b.contact}};
+            return {{"bed", ++i},
+                    {"force", b.force},
+                    {"pressure", range_json(m, b.pressure)},
+                    {"contact", b.contact}};
           })}});
     if (const auto sums = balance_of(r_.what, acting, at_end))
       members["balance"] = {
