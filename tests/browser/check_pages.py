@@ -123,6 +123,11 @@ def numbers_match(name):
     quiet(name)
 
 
+def is_moment(dof):
+    """Whether the dof of a support turns: "theta", "wx", "6.r" or "185.4"."""
+    return re.search(r"theta|^w[xy]|[.]r|[.][456]$", dof) is not None
+
+
 def tables_match(name, result):
     """The tables of the steps' ends have the numbers of the result, digit for digit."""
     tables = browser.value("""[...document.querySelectorAll('#ends table')].map(t => [t.getAttribute('aria-label'),
@@ -130,14 +135,18 @@ def tables_match(name, result):
           .concat(c.dataset.value || [], c.textContent)))])""")
     sums = [rows for caption, rows in tables if caption.startswith("Sums of forces")]
     ends = next(rows for caption, rows in tables if caption.startswith("Largest values"))
+    heads = browser.value("[...[...document.querySelectorAll('#ends table')].find(t => t.ariaLabel.startsWith('Largest values')).tHead.rows[0].cells].map(c => c.textContent)")
+    kinds = {is_moment(r["dof"]) for s in result["steps"] for r in s["reactions"]}
+    check(sum("eaction" in head for head in heads) == (1 if name == "bare" else len(kinds)), f"{name}: forces and moments of supports have columns of their own: {heads}")
     for row, step in zip(*sums, result["steps"]) if sums else ():
         check([float(cell[0]) for cell in row[1:]] == [step["balance"][key] for key in ("loads", "reactions", "contact")], f"{name}: sums of step {step['step']}: {row}")
     check(len(ends) == len(result["steps"]), f"{name}: every step's end has its row")
     for row, step in zip(ends, result["steps"]):
         check(float(row[1][0]) == step["fraction"], f"{name}: share of step {step['step']}: {row[1]}")
-        if step["reactions"]:
-            reaction = max((r["value"] for r in step["reactions"]), key=abs)
-            check(float(row[-2][0]) == reaction, f"{name}: largest reaction of step {step['step']}: {row[-2]}, {reaction}")
+        for head, kind in zip(heads, row):
+            if "eaction" in head:
+                reaction = max((r["value"] for r in step["reactions"] if is_moment(r["dof"]) == ("moment" in head) or name == "bare"), key=abs)
+                check(float(kind[0]) == reaction, f"{name}: largest value of {head} of step {step['step']}: {kind}, {reaction}")
         for i, quantity in enumerate(("w", "moment", "shear") if name.startswith("pb") else ("w",)):
             allowed = [step["extremes"][quantity][end]["value"] for end in ("min", "max")]
             check(all(float(v) in allowed for v in row[2 + i][:-1]), f"{name}: {quantity} of step {step['step']}: {row[2 + i]}, {allowed}")
@@ -341,10 +350,90 @@ def leaves_nothing_out(name):
     forces = table("ends", "Contact forces [kN]; for a separated pair the gap [m]")
     check([len(rows) for rows in forces] == [3] * 5, f"{name}: both bolts are in every table of forces: {forces}")
     check(all("gap" in rows[2] for rows in forces), f"{name}: the gap of a separated bolt is told: {forces}")
-    check(len(table("ends", "Contact forces of beds [kN], 24 of 27 steps")) == 4, f"{name}: the selection of the bed is told where it stands")
+    check(len(table("ends", "Contact forces of beds [kN], 6 of 27 steps")) == 1, f"{name}: the selection of the bed is told where it stands")
     terms = table("input", "Combinations")[0]
-    check(terms[1].split("\t")[-1] == "1 G" and terms[4].split("\t")[-1] == "1.35 G + 1.5 fork at 0.8", f"{name}: terms of combinations: {terms[:5]}")
-    check("gap" in "".join(sheets_of(name)), f"{name}: gaps are on paper")
+    check(terms[1:] == ["1, G alone\t1 G", "2 to 27, fork\t1.35 G + 1.5 fork at 0 to 10 by 0.4, 26 places"], f"{name}: terms of combinations: {terms}")
+    loads = [row.split("\t") for row in table("input", "Loads")[0]][1:]
+    check([row[2:] for row in loads] == [["all elements", "\u22125"], ["all elements", "\u22126.75"], ["x = 0 to 10 by 0.4, 26 places", "\u2212120"]], f"{name}: each load of the train has a row: {loads}")
+    beds = [row.split("\t") for row in table("ends", "Beds")[0]][1:]
+    bolts = [sum(p["force"] for p in s["pairs"] if p["surface"] == "above") for s in steps]
+    off = [abs(float(row[2].replace("\u2212", "-")) + s["balance"]["loads"] - bolt) for row, s, bolt in zip(beds, steps, bolts)]
+    check(len(off) == 27 and max(off) < 1e-4, f"{name}: the bed bears the loads and the bolts: {max(off)}")
+    paper = "".join(sheets_of(name))
+    check("gap" in paper, f"{name}: gaps are on paper")
+    check(not re.search(r"[Cc]lick|[Pp]oint at", paper), f"{name}: nothing on paper is to be clicked")
+    quiet(name)
+
+
+def tells_every_force(name, pairs):
+    """Also where there is no room beside the arrow: then with the number of the pair."""
+    open_page(name)
+    for i, frame in enumerate(frames()):
+        go_to(i)
+        told = browser.value("[...document.querySelectorAll('#picture text.value')].map(t => t.textContent.split(': ').pop())")
+        forces = browser.value("numberedOf(pairsOf(frames[current])).filter(p => Math.abs(p.force) > 1e-3).map(p => rough(p.force))")
+        check(all(told.count(force) >= forces.count(force) for force in forces), f"{name}, state {i}: forces {forces}, in the picture {told}")
+        pairs -= frame["end"] and len(forces)
+    check(pairs <= 0, f"{name}: {pairs} forces less than expected were looked for")
+    found = browser.value(overlaps)
+    check(found == [], f"{name}: labels lie on each other: {found[:4]}")
+
+
+def tells_loads_of_beams(name):
+    open_page(name)
+    text = browser.value("document.getElementById('input').innerText")
+    for piece in ("self-weight per length [kN/m]", "Section from x = 0 to 8", "E 210000000 [kN/m²], I 0.0003 [m⁴], A 0.01 [m²], weight 78.5 [kN/m³]"):
+        check(piece in text, f"{name}: the input has \"{piece}\": {text[:600]}")
+    steps = browser.value("[...document.querySelectorAll('#chart text')].map(t => t.textContent).filter(t => t.startsWith('step'))")
+    check(steps == ["step 1, G", "step 2, 2 G"], f"{name}: the paths have the names of their steps: {steps}")
+    check(browser.value("document.getElementById('cuts').innerText").startswith("Nothing"), f"{name}: the page leaves nothing out")
+    paper = "".join(sheets_of(name))
+    check("Nothing:" not in paper and "Not on paper" in paper, f"{name}: paper has one statement about what is left out")
+    order = [paper.find(f"Step {step}, increment") for step in ("1, G", "2, 2 G")]
+    check(-1 < order[0] < order[1] and paper.count("Deflection [m], drawn") == 2, f"{name}: pictures of steps on paper in ascending order, each once: {order}")
+
+
+def outlines_loads_of_plates(name):
+    """Distributed loads are outlined where they act, and bolts differ from the bed."""
+    open_page(name)
+    go_to(len(frames()) - 1)
+    text = browser.value("document.getElementById('input').innerText")
+    check("(0.05, 0.15) to (0.15, 0.3)" in text, f"{name}: places have no digits of rounding: {text[-400:]}")
+    off = browser.value("""(() => {
+      const [numbers, stands] = [(e) => e.getAttribute('d').match(/[\\d.]+/g).map(Number), frames[current].u];
+      const loads = [...document.querySelectorAll('#picture path.load-line')].map(numbers);
+      const at = (x, y) => structure.nodes.findIndex(n => Math.abs(n.x - x) < 1e-9 && Math.abs(n.y - y) < 1e-9);
+      return [[[0, 0], [0.4, 0], [0.4, 0.4], [0, 0.4]], [[0.05, 0.15], [0.15, 0.15], [0.15, 0.3], [0.05, 0.3]]].map((corners, k) =>
+        Math.max(...corners.map(([x, y], c) => { const [X, Y] = page.spot(projected(movedTo(frames[current], at(x, y), scene.times)));
+          return Math.hypot(loads[k][48 * c] - X, loads[k][48 * c + 1] - Y); }))); })()""")
+    check(max(off) < 0.1, f"{name}: corners of loads are {off} pixels from their nodes")
+    values = browser.value("[...document.querySelectorAll('#picture text.value')].map(t => t.textContent)")
+    check("\u221250 [kN/m²]" in values and "2000 [kN/m²]" in values, f"{name}: each load has its value: {values}")
+    sizes = browser.value("[...document.querySelectorAll('#picture .pair-open, #picture .pair-closed, #picture .pair-face')].map(m => m.getBBox().width)")
+    sizes.sort()
+    check(len(sizes) == 83 and sizes[-2] > 1.1 * sizes[-3], f"{name}: the marks of the bolts are larger than those of the bed: {sizes[-4:]}")
+    heads = browser.value("document.getElementById('ends').innerText")
+    for piece in ("S1, lower side (upper: \u2212S2)", "S2, lower side (upper: \u2212S1)", "Von Mises, both sides"):
+        check(piece in heads, f"{name}: stresses tell their side: {piece}")
+    quiet(name)
+
+
+def adds_up_by_direction(name, directions):
+    """The sums of a structure with all its supports in the file are in equilibrium."""
+    open_page(name)
+    rows = browser.value("[...[...document.querySelectorAll('#ends table')].find(t => t.ariaLabel.startsWith('Sums by direction')).tBodies[0].rows].map(r => [...r.cells].map(c => c.dataset.value ?? c.textContent))")
+    check([row[1] for row in rows] == directions, f"{name}: sums of each direction: {rows}")
+    for row in rows:
+        loads, reactions, contact = map(float, row[2:])
+        check(abs(loads + reactions + contact) <= 1e-9 * (abs(loads) + abs(reactions) + 1), f"{name}: the sums add up to 0: {row}")
+    check(sum(float(row[2]) != 0 for row in rows) >= 3, f"{name}: loads are among the sums: {rows}")
+    files = browser.value("document.getElementById('input').innerText")
+    for piece in (f"{name}.mtx", f"{name}.dof", f"{name}.xyz", "force\tdof 6.y"):
+        check(piece in files, f"{name}: the input has \"{piece}\"")
+    moved = browser.value("[...[...document.querySelectorAll('#ends table')].find(t => t.ariaLabel.startsWith('Displacements u')).tBodies[0].rows].map(r => [r.cells[0].textContent, ...[...r.cells].slice(1).map(c => Number(c.dataset.value))])")
+    labels = browser.value("structure.dofs.map(d => d.dof)")
+    known = [[s["displacement"][labels.index(row[0])] for s in result_of(name)["steps"]] for row in moved]
+    check(len(moved) == 22 and [row[1:] for row in moved] == known, f"{name}: the displacements of all dofs along an axis: {moved[:2]}")
     quiet(name)
 
 
@@ -600,6 +689,12 @@ try:
     has_envelope_curves("strip")
     leaves_nothing_out("yard")
     tells_warnings("yard")
+    tells_every_force("pb07", 3)
+    tells_every_force("close", 14)
+    tells_every_force("bolts", 2)
+    tells_loads_of_beams("close")
+    outlines_loads_of_plates("bolts")
+    adds_up_by_direction("frame", ["x", "y"] * 3)
     for problem in ("pb07", "pp05a"):
         saves_its_picture(problem)
     pressed_faces_are_where_the_beam_is("pb07", 6)

@@ -47,6 +47,17 @@ write("yard", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 10.0\neleme
       '[[combination]]\nname = "G alone"\nterms = { G = 1.0 }\n[[train]]\nname = "fork"\naxles = [ { at = 0.0, w = -80.0 } ]\n'
       "from = 0.0\nto = 10.0\nby = 0.4\nterms = { G = 1.35 }\nfactor = 1.5\n")
 
+# Stops so close together that the numbers of their forces cannot all be beside their arrows.
+write("close", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 8.0\nelement_size = 0.5\nsection = { E = 2.1e8, I = 3.0e-4, A = 0.01, weight = 78.5 }\n'
+      '[[contact]]\nx = [0.5, 3.8, 3.9, 4.0, 4.1, 4.2, 7.5]\nsurface = "below"\nface = 0.0\nstiffness = 1.0e3\n'
+      '[[case]]\nname = "G"\nself_weight = true\nuniform = -10\n[[combination]]\nname = "G"\nterms = { G = 1.0 }\n'
+      '[[combination]]\nname = "2 G"\nterms = { G = 2.0 }\n')
+
+# A plate on a bed, held down by two bolts. The load's corner (0.15, 0.3) is a multiple of the mesh's spacing.
+write("bolts", '[units]\nlength = "m"\nforce = "kN"\n[plate]\nsize = [0.4, 0.4]\nelements = [8, 8]\nE = 2.1e8\nnu = 0.3\nthickness = 0.03\n'
+      '[[bed]]\nmodulus = 6.0e6\nface = 0.0\n[[contact]]\nat = [[0.05, 0.2], [0.35, 0.2]]\nsurface = "above"\nface = 0.0\nstiffness = 2.0e5\n'
+      '[[step]]\nname = "weight"\nuniform = -50\n[[step]]\nname = "lifted"\nuniform = [ { value = -50 }, { value = 2000, from = [0.05, 0.15], to = [0.15, 0.3] } ]\n')
+
 # A beam of 5001 nodes on soft springs over 1000 stops at increasing depths, with about 2000 increments.
 long = '[beam]\nlength = 500.0\nelements = 5000\nEI = 1.0\n[[support]]\nnodes = [1, 5001]\nfix = ["w", "theta"]\n'
 long += '[[support]]\nnodes = "2..5000"\nspring = { w = 0.02 }\n'

@@ -36,6 +36,8 @@ page alone "$work/alone.toml" 0 --kernels cpp
 page settling "$work/settling.toml" 0 --envelope
 page strip "$work/strip.toml" 0 --envelope
 page yard "$work/yard.toml" 0 --envelope --refine
+page close "$work/close.toml" 0
+page bolts "$work/bolts.toml" 0
 page two-faces "$work/two-faces.toml" 0
 page own-ways "$work/own-ways.toml" 0 --free-run --kernels fortran,corrected
 (cd "$work" && "$build/contct" run no-pairs.toml --quiet --html no-pairs.html) || wrong=1

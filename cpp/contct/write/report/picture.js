@@ -19,14 +19,14 @@ const placed = (name) => `${unitOf()} ${name}`;
 // The unit of a quantity, from its powers of force and length; empty if the problem names no units. Moments of a plate
 // are per length. Loads and beds of a beam are per length, not per area.
 const powers = { w: [0, 1], force: [1, 0], moment: [1, 1], shear: [1, 0], load: [1, -2], pressure: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2],
-  area: [0, 2], stress: [1, -2], von_mises: [1, -2], s1: [1, -2], s2: [1, -2] };
+  E: [1, -2], I: [0, 4], W: [0, 3], A: [0, 2], weight: [1, -3], area: [0, 2], stress: [1, -2], von_mises: [1, -2], s1: [1, -2], s2: [1, -2] };
 function unit(quantity) {
   if (!result.units || !(quantity in powers || /^m[xy]/.test(quantity))) return "";
   const { length, force } = result.units;
   if (!(quantity in powers)) return `${force} ${length}/${length}`;
   const [f, per] = powers[quantity];
   const l = per + (isBeam() && ["load", "pressure", "modulus"].includes(quantity) ? 1 : 0);
-  const of = l === 0 ? "" : length + ["", "", "²", "³"][Math.abs(l)];
+  const of = l === 0 ? "" : length + ["", "", "²", "³", "⁴"][Math.abs(l)];
   return f === 0 ? of : force + (l === 0 ? "" : l > 0 ? " " : "/") + of;
 }
 const inUnit = (name, quantity) => name + (unit(quantity) ? ` [${unit(quantity)}]` : "");
@@ -177,19 +177,27 @@ function pairMark(look, x, y, r, closed = false) {
   return shape(`M${x} ${y - d}L${x + d} ${y}L${x} ${y + d}L${x - d} ${y}Z`, closed ? "pair-face in-contact" : "pair-face");
 }
 
-// Returns a function that writes words at a point of the picture, unless other words are there already. The function
-// moves words that would begin left of `left` to the right, and omits words at the upper and lower edges.
+// Places around a word's own place, nearest first.
+const placesNear = [[0, 0], ...Array.from({ length: 12 }, (_, r) => [[0, 1], [0, -1], [1, 0], [-1, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]].map(([x, y]) => [18 * x * (r + 1), 9 * y * (r + 1)])).flat()];
+
+// Returns a function that writes a word if its place in the picture, to the right of `left`, is free. If it is not, the
+// words `elsewhere` are written at the nearest free place, with a line to their own place.
 function wordsInFreePlaces(root, width, height, left = 2) {
   const boxes = [];
-  return (at, y, words, kind) => {
+  const isFree = (box) => box[1] >= 24 && box[3] <= height - 4 && boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1]);
+  const put = (at, y, words, kind) => {
     const half = 4.4 * words.length + 2;
     const x = Math.min(Math.max(at, left + half), width - 2 - half);
     const box = [x - half, y - 13, x + half, y + 5];
-    const free = box[1] >= 24 && box[3] <= height - 4 &&
-      boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1]);
-    if (!free) return;
+    if (!isFree(box)) return false;
     boxes.push(box);
     root.append(label(x, y, words, { "text-anchor": "middle", class: `${kind} halo` }));
+    return true;
+  };
+  return (at, y, words, kind, elsewhere = null) => {
+    if (put(at, y, words, kind) || elsewhere === null) return;
+    const [dx, dy] = placesNear.find(([x, up]) => put(at + x, y + up, elsewhere, kind)) ?? [0, 0];
+    if (Math.hypot(dx, dy) > 20) root.lastChild.before(line(at, y - 4, at + dx, y + dy - 4, "was"));
   };
 }
 
@@ -208,14 +216,24 @@ const pairsOf = (f) => drawnPairs.map((i) => f.pairs[i]).filter((p) => p.at >= 0
 const drawingOrder = { o: 0, f: 1, c: 2 };
 const leastLoadedFirst = (pairs) => [...pairs].sort((a, b) => drawingOrder[a.look] - drawingOrder[b.look] || Math.abs(a.force) - Math.abs(b.force));
 
+// The pairs whose numbers are written: all, or those that are not of a bed.
+const numberedOf = (pairs) => [pairs, pairs.filter((p) => !p.bed)].find((some) => some.length <= 60) ?? [];
+
 function drawPairs(root, pairs, on) {
   const marks = [];
+  const numbered = new Set(numberedOf(pairs));
+  const isDense = numbered.size < pairs.length;
+  const hasForce = (p) => p.look === "c" || Math.abs(p.force) > 1e-6 * scene.force;
+  const few = [...numbered].filter(hasForce).length <= 12;
   for (const p of leastLoadedFirst(pairs)) {
     const [[x, y], t] = [on.spot(p), on.along(p)];
     if (p.otherAt >= 0 && p.otherAt !== p.at) root.append(line(...on.spot({ ...p, at: p.otherAt, u: p.otherU }), x, y, "thin"));
-    if (t !== null) drawFace(root, p, [x, y], t, on, pairs.length <= 60);
-    else if (pairs.length <= 60) on.say(x + 13, y - 8, String(p.pair), "axis-word");
-    const mark = pairMark(p.look, x, y, on.r, p.closed);
+    const isSmall = on.isSketch && p.bed && !numbered.has(p);
+    const [ofNumber, ofForce] = t === null || isSmall ? [[x + 13, y - 12], [x + 13, y + 6]] : drawFace(root, p, [x, y], t, on);
+    const words = rough(p.force);
+    if (numbered.has(p)) on.say(ofNumber[0], ofNumber[1] + 4, String(p.pair), isDense ? "value" : "axis-word", isDense ? String(p.pair) : null);
+    if (numbered.has(p) && hasForce(p)) on.say(ofForce[0], ofForce[1] + 4, words, "value", few ? `${p.pair}: ${words}` : null);
+    const mark = pairMark(p.look, x, y, isSmall ? 1.6 : !p.bed && hasBed() ? Math.max(6, on.r + 2) : on.r, p.closed);
     mark.append(svg("title", {}, pairWords(p)));
     marks.push(mark);
   }
@@ -225,7 +243,7 @@ function drawPairs(root, pairs, on) {
 // Draws the face of a pair across the direction of its dof, at its distance from the undeformed node, hatched on the
 // far side; nearer and dashed if this distance is above on.limit. A face in contact is drawn at the moved node, with a
 // line for its spring from the undeformed face, and an arrow for the contact force.
-function drawFace(root, p, [x, y], t, on, numbered) {
+function drawFace(root, p, [x, y], t, on) {
   const node = on.pixels(p) * p.w;
   const along = on.pixels(p) * p.face;
   const face = p.closed ? node : Math.max(-on.limit, Math.min(on.limit, along));
@@ -239,10 +257,7 @@ function drawFace(root, p, [x, y], t, on, numbered) {
   const length = scene.force > 0 ? (36 * Math.abs(p.force)) / scene.force : 0;
   const start = tip + p.side * length;
   if (p.force > 0) root.append(arrow(...at(start), -p.side * length * t[0], -p.side * length * t[1], "force"));
-  if (!numbered) return;
-  const word = ([a, b], words, kind) => on.say(a, b + 4, words, kind);
-  word(at(start + p.side * 11), String(p.pair), "axis-word");
-  if (p.look === "c") word(at(start + p.side * 30), rough(p.force), "value");
+  return [at(start + p.side * 11), at(start + p.side * 30)];
 }
 
 function supportMark([x, y], t, spring) {
@@ -433,7 +448,48 @@ function bandColour(i) {
   return `rgb(${stops[k].map((c, j) => Math.round(c + (stops[k + 1][j] - c) * (at - k))).join(",")})`;
 }
 
-// Colours each cell of the drawn grid in small parts, each in the colour of the bilinearly interpolated value.
+// A place of a plate on the page, by bilinear interpolation between `spots` of the nodes.
+function onPlate(spots, x, y) {
+  const { nodes, columns } = structure;
+  const within = (all, v) => { const i = Math.max(0, Math.min(all.length - 2, all.findLastIndex((from) => from <= v))); return [i, (v - all[i]) / (all[i + 1] - all[i])]; };
+  const [i, a] = within(nodes.slice(0, columns).map((n) => n.x), x);
+  const [j, b] = within(nodes.filter((_, k) => k % columns === 0).map((n) => n.y), y);
+  const [p, q] = [j, j + 1].map((row) => spots.slice(row * columns + i, row * columns + i + 2));
+  return [0, 1].map((k) => (p[0][k] * (1 - a) + p[1][k] * a) * (1 - b) + (q[0][k] * (1 - a) + q[1][k] * a) * b);
+}
+
+// The rectangles of a distributed load on a plate, as two corners.
+function rectanglesOf({ elements, from, to }) {
+  if (!elements) return [[from, to]];
+  const { nodes, columns } = structure;
+  const [across, has, found] = [columns - 1, numbersIn(elements), []];
+  for (let j = 0; (j + 1) * columns < nodes.length; ++j) {
+    for (const [first, last] of runsOf(Array.from({ length: across }, (_, i) => has(j * across + i + 1))).filter(([i]) => has(j * across + i + 1))) {
+      const [a, b] = [nodes[j * columns + first], nodes[(j + 1) * columns + last + 1]].map(({ x, y }) => [x, y]);
+      const below = found.find(([p, q]) => p[0] === a[0] && q[0] === b[0] && q[1] === a[1]);
+      if (below) below[1] = b;
+      else found.push([a, b]);
+    }
+  }
+  return found;
+}
+
+// Outlines distributed loads on a plate, with their sum on each rectangle: inside it, or at the edge of the plate.
+function drawAreaLoads(root, f, spots, say) {
+  const sums = new Map();
+  for (const part of f.load.uniform || []) for (const at of rectanglesOf(part)) sums.set(String(at), { at, value: (sums.get(String(at))?.value ?? 0) + part.value });
+  const last = structure.nodes[structure.nodes.length - 1];
+  for (const { at: [[x0, y0], [x1, y1]], value } of sums.values()) {
+    const corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    const outline = corners.flatMap(([x, y], k) => Array.from({ length: 24 }, (_, n) => onPlate(spots, ...[x, y].map((v, axis) => v + (corners[(k + 1) % 4][axis] - v) * (n / 24)))));
+    const whole = x0 === structure.nodes[0].x && x1 === last.x && y0 === structure.nodes[0].y && y1 === last.y;
+    const [[x, y], words] = [onPlate(spots, (x0 + x1) / 2, whole ? y0 : (y0 + y1) / 2), inUnit(rough(value), "load")];
+    root.append(titled(`Load ${words}`, shape(lineTo(outline) + "Z", "load-line", { style: "stroke-width: 2.4" })));
+    say(x, y + (whole ? 26 : 4), words, "value", sums.size <= 12 ? words : null);
+  }
+}
+
+// Colours each cell of the drawn grid in small parts of one colour, by bilinear interpolation.
 function drawColours(root, f, spots) {
   const [columns, rows] = scene.lines;
   const values = atNodes(f, field.name);
@@ -556,7 +612,7 @@ function pageOf(width) {
   const begin = left + (width - left - right - (x1 - x0) * scale) / 2;
   const X = (x) => begin + (x - x0) * scale;
   const height = (y) => top + (y1 - y) * scale;
-  return { width, scale, X, Y: (w) => height(times * w), height, ends: [x0, x1], heights: [y0, y1], bottom: height(y0) + 96, spot: ([x, y]) => [X(x), height(y)] };
+  return { width, scale, X, Y: (w) => height(times * w), height, ends: [x0, x1], heights: [y0, y1], bottom: height(y0) + (isBeam() ? 96 : 124), spot: ([x, y]) => [X(x), height(y)] };
 }
 
 // The projection of an axis, as a vector of length 1, and its length; null for rotations and normals of the page.
@@ -592,14 +648,14 @@ function drawAxes(root, { width, bottom, scale }) {
 }
 
 // The object `on` of drawPairs, described above. Marks are smaller if there are many.
-function marksOn(root, page, spots, f) {
+function marksOn(words, page, spots, f, isSketch) {
   const count = places.pairs.length;
   const apart = (scene.size * page.scale) / (isBeam() ? count : Math.sqrt(count));
   return {
-    spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(deflectionAt(f, x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
+    isSketch, spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(deflectionAt(f, x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
     pixels: ({ direction }) => scene.times * page.scale * (onPage(direction)?.length ?? 0),
     limit: scene.times * scene.most * page.scale + 40, r: Math.max(1.6, Math.min(5, apart * 0.3)), half: Math.max(1, Math.min(14, apart * 0.36)),
-    say: wordsInFreePlaces(root, page.width, page.bottom - (isBeam() ? 0 : 30), isBeam() ? 62 : 2),
+    say: wordsInFreePlaces(words, page.width, page.bottom - (isBeam() ? 0 : 30), isBeam() ? 62 : 2),
   };
 }
 
@@ -623,13 +679,16 @@ function drawPicture(f, holder, isSketch = false) {
   if (isBeam()) drawBeam(root, f, page, isSketch);
   else drawEdges(root, spots, "member");
   root.append(marksAt(scene.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
-  page.on = marksOn(root, page, spots, f);
+  const words = svg("g");  // on top of all marks
+  page.on = marksOn(words, page, spots, f, isSketch);
   drawPoints(root, f, page.on);
   drawPairs(root, pairsOf(f), page.on);
   drawSupports(root, f, page.on);
+  if (structure.kind === "plate") drawAreaLoads(root, f, spots, page.on.say);
   if (isSketch && isBeam()) sayLineLoads(f, page, page.on.say);
+  root.append(words);
   if (!isBeam()) drawAxes(root, page);
-  if (colours) drawScaleOfColours(root, 62, bottom + 40, width - 86);
+  if (colours) drawScaleOfColours(root, 62, bottom + 40, width - 98);
 }
 
 // A picture as the text of an SVG file, with the style rules of pictures and the light colours. CSS variables are
@@ -653,7 +712,7 @@ function preparePicture() {
   cuts.clear();
   drawnPairs = some("pairs", places.pairs.length, isBeam() ? 300 : 1000);
   drawnSupports = some("supports", places.supports.length, 300).map((i) => places.supports[i]);
-  if (places.pairs.length > 60) cuts.add("The numbers of the pairs are not written; each is shown when the pointer is over the pair's mark.");
+  if (places.pairs.length > 60) cuts.add(`The marks of ${numberedOf(places.pairs).length > 0 ? "beds" : "pairs"} have no numbers.`);
   fields = structure.kind === "plate" ? fieldsOf() : [];
   field = fields.find((f) => field && f.name === field.name) || fields[0];
   scene = structure.nodes.length > 0 ? sceneOf() : null;

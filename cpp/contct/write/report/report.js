@@ -51,6 +51,9 @@ function drawChart(f) {
   const [x, y] = spot(f);
   root.append(line(x, y, x, bottom, "cross"), line(room.left, y, x, y, "cross"), ...tracks().map((track) => path(track.map(spot), "track")));
   for (const g of frames) root.append(chartMark(g, ...spot(g)));
+  const say = wordsInFreePlaces(root, width, bottom, room.left);
+  const ends = frames.filter((g) => g.end);
+  if (ends.length > 1 && ends.length < 8) for (const g of ends) say(spot(g)[0], spot(g)[1] - 14, `step ${nameOfStep(g.step)}`, "axis-word", `step ${nameOfStep(g.step)}`);
   root.append(svg("circle", { cx: x, cy: y, r: 9, class: "here" }));
 }
 
@@ -158,11 +161,12 @@ function showCalls() {
 // ---- the ends of steps, the envelope and the input ----
 
 const markOf = (c) => (!c ? "no certificate" : c.exact ? "certified" : "NOT certified");
-const fibre = (name) => (name === "stress" ? "Stress, lower fibre (upper: opposite sign)" : null);
-const quantityHead = (name) => inUnit(fibre(name) ?? (/^m[xy]/.test(name) || name === "w" ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
+const sides = { stress: "Stress, lower fibre (upper: other sign)", s1: "S1, lower side (upper: \u2212S2)", s2: "S2, lower side (upper: \u2212S1)", von_mises: "Von Mises, both sides" };
+const quantityHead = (name) => inUnit(sides[name] ?? (name === "w" && ofMatrix ? "u" : /^m[xy]|^w$/.test(name) ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
-const whatHolds = (s) => (ofMatrix ? "" : inUnit(s.dof, s.dof === "w" ? "force" : "moment"));
-const mostReactions = 1000;  // a problem with a spring at every node may have more
+const kindOf = ({ direction }) => (direction > 3 ? "moment" : direction > 0 ? "force" : "");  // empty: not known
+const whatHolds = (s) => inUnit(ofMatrix ? kindOf(s) || "along the dof" : s.dof, kindOf(s));
+const mostReactions = 1000;  // there are more if every node has a spring
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
 // At most `most` of `steps`, in order: those with the largest values, relative to the largest value of a quantity.
@@ -181,23 +185,42 @@ function endTables() {
   const someOf = (of) => (of.length < steps.length ? `, ${of.length} of ${steps.length} steps` : "");
   const quantities = Object.keys(steps[0]?.extremes || {});
   const most = (list = [], key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
+  const kinds = ["force", "moment", ""].filter((kind) => places.supports.some((s) => kindOf(s) === kind));
+  const ofKind = (all = [], kind) => all.filter((_, i) => kindOf(places.supports[i]) === kind);
   const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v) => ({ number: v.value, at: placeOf(v) }))),
-    most(s.pairs, "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), most(s.reactions, "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`),
+    most(s.pairs, "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`)),
     markOf(s.certificate)];
   const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
   const [ownPairs, bedPairs] = [places.pairs.filter((p) => !p.bed), places.pairs.filter((p) => p.bed)];
-  const onBeds = bedPairs.length > 0 ? endsOf("Tables of contact forces of beds", 24, whole) : [];
-  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), ...[b.pressure.min, b.pressure.max].map((v) => [{ number: v.value, at: placeOf(v) }]), b.contact]));
+  const moved = deflections();
+  const onBeds = bedPairs.length > 0 ? endsOf("Tables of contact forces of beds", 6, whole) : [];
+  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), b.force, ...[b.pressure.min, b.pressure.max].map((v) => [{ number: v.value, at: placeOf(v) }]), b.contact]));
   return [
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
-    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), "Reaction", "Certificate"], steps.map(row)),
-    ...tableOf("Pressure and contact of beds", ["Step", "Bed", ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
-    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
+    ...tableOf(inUnit("Sums by direction; supports inside the matrix are not among the reactions", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
+    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "moment" ? "Reaction moment" : "Reaction", kind)), "Certificate"], steps.map(row)),
+    ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
+    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; of a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
       ownPairs.map(pairCells), (s, i) => forceOrGap(s.pairs[ownPairs[i].pair - 1])),
     ...besideEachOther(onBeds, `${inUnit("Contact forces of beds", "force")}${someOf(onBeds)}`, ["Pair", ...placeHead(), "Surface"],
       bedPairs.map(pairCells), (s, i) => s.pairs[bedPairs[i].pair - 1].force, 40),
+    ...besideEachOther(ofMatrix ? whole : [], inUnit("Displacements u", "w") + someOf(whole), ["Dof"], moved.map((d) => [d.name]), (s, i) => s.displacement[moved[i].u], 40),
     ...besideEachOther(whole, reactionsTitle + someOf(whole), [...placeHead(), "What"], places.supports.map((s) => [...placeCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value, mostReactions),
   ];
+}
+
+// The sums of loads, reactions and contact forces of a matrix along each axis.
+function sumsByDirection(s) {
+  const sums = [1, 2, 3].map((direction) => [direction, 0, 0, 0, 0]);
+  const add = (k, { direction }, value) => { if (kindOf({ direction }) === "force") { sums[direction - 1][k] += value; ++sums[direction - 1][4]; } };
+  pointsOf(s).forEach((p) => add(1, p, p.value));
+  (s.reactions || []).forEach((r, i) => add(2, places.supports[i], r.value));
+  (s.pairs || []).forEach((p, i) => {
+    const of = places.pairs[i];
+    add(3, of, -of.side * p.force);
+    if (of.otherU >= 0) add(3, places.dofs[of.otherU], of.side * p.force);
+  });
+  return sums.filter((of) => of[4] > 0).map(([direction, loads, reactions, contact]) => [stepName(s), "xyz"[direction - 1], loads, places.supports.length > 0 ? reactions : null, contact]);
 }
 
 const pairCells = (p) => [String(p.pair), ...placeCells(p), p.surface];
@@ -221,8 +244,8 @@ function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
   const forces = (title, of, most, sizeOf) => tableOf(inUnit(title, "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
     pairs.flatMap((p, i) => (of(places.pairs[i]) ? [[...pairCells(places.pairs[i]), bound(p)]] : [])), most, sizeOf);
   return states === 0 ? [] : [
-    ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. " +
-      "Point at a curve to see which step it comes from; click it to show the end of that step."))] : []),
+    ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. ",
+      element("span", { class: "screen-only" }, "Point at a curve to see which step it comes from; click it to show the end of that step.")))] : []),
     ...tableOf(startsFromZero() ? "Least and largest of all combinations" : "Least and largest of all increments", ["Quantity", "Least", "Largest"],
       Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
     ...forces("Largest contact force of each pair", (p) => !p.bed),
@@ -264,9 +287,10 @@ function drawEnvelope() {
 const rangeWords = ([low, high]) => (low === high ? short(low) : `${short(low)} to ${short(high)}`);
 
 function structureRows() {
-  if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["Dofs", structure.dofs.length]];
+  if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["Labels of the dofs", structure.labels_from ?? "their numbers"], ["Places of the nodes", structure.places_from ?? "not known"], ["Dofs", structure.dofs.length]];
   const { columns, nodes, D, nu, E, thickness, EI, sections = [] } = structure;
-  const sectionWords = ({ element, ...of }) => [`Section from x = ${short(nodes[element - 1].x)}`, Object.entries(of).map(([name, value]) => `${name} ${short(value)}`).join(", ")];
+  const sectionWords = ({ element, ...of }, i) => [`Section from x = ${short(nodes[element - 1].x)} to ${short(nodes[(sections[i + 1]?.element ?? nodes.length) - 1].x)}`,
+    Object.entries(of).map(([name, value]) => inUnit(`${name} ${short(value)}`, name)).join(", ")];
   const along = ["Nodes along x", columns ?? nodes.length];
   const x = [inLength("x"), rangeWords(spread(nodes.map((n) => n.x)))];
   if (EI) return [along, x, ...runsOf(EI).map(([first, last]) => [inUnit(`EI from x = ${short(nodes[first].x)} to ${short(nodes[last + 1].x)}`, "EI"), EI[first]]), ...sections.map(sectionWords)];
@@ -274,8 +298,13 @@ function structureRows() {
     ...(E ? [[inUnit("Young's modulus E", "stress"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "moment"), D], ["Poisson's ratio", nu]];
 }
 
-// Returns the terms of a combination: "1.35 G + 1.5 Q". The term of a train also has the position of the train.
-const termWords = ({ terms = {}, train }) => [...Object.entries(terms), ...(train ? [[`${train.name} at ${short(train.at)}`, train.factor]] : [])]
+// The steps; those of a train at its places are one list.
+const runsOfTrains = () => runsOf(result.steps.map((s) => (s.train ? JSON.stringify([s.train.name, s.train.factor, s.terms]) : s.step))).map(([first, last]) => result.steps.slice(first, last + 1));
+const stepsName = (of) => (of.length === 1 ? stepName(of[0]) : `${of[0].step} to ${of[of.length - 1].step}, ${of[0].train.name}`);
+const placesWords = (all) => rangeWords([all[0], all[all.length - 1]]) + (all.length > 1 ? ` by ${short((all[all.length - 1] - all[0]) / (all.length - 1))}, ${all.length} places` : "");
+
+// Returns "1.35 G + 1.5 Q"; a train also has its places.
+const termWords = (of) => [...Object.entries(of[0].terms ?? {}), ...(of[0].train ? [[`${of[0].train.name} at ${placesWords(of.map((s) => s.train.at))}`, of[0].train.factor]] : [])]
   .map(([name, factor]) => `${short(factor)} ${name}`).join(" + ");
 
 const inputTables = () => [
@@ -287,8 +316,8 @@ const inputTables = () => [
   ...tableOf("Beds: a pair at each node, with the modulus times the node's tributary length or area as its stiffness", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
     gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
       .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
-  ...tableOf("Combinations: cases with their factors", ["Step", "Terms"], result.steps.filter(termWords).map((s) => [stepName(s), termWords(s)])),
-  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], result.steps.flatMap((s) => loadRows(s))),
+  ...tableOf("Combinations: cases with their factors", ["Step", "Terms"], runsOfTrains().filter(termWords).map((of) => [stepsName(of), termWords(of)])),
+  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], runsOfTrains().flatMap(loadRows)),
 ];
 
 const modulus = (p) => p.stiffness / p.bed;
@@ -305,16 +334,32 @@ function gathered(list, keyOf, fewest = 13) {
     : [[of[0], [numbersWords(of.map((one) => one.name)), ...["x", "y"].slice(0, placeHead().length - 1).map((axis) => rangeWords(spread(of.map((one) => one[axis]))))], of]]));
 }
 
-function loadRows(s) {
+// The loads of steps. Those that all have are listed once; of the others, which move, each is listed with its places.
+function loadRows(of) {
+  const [all, count, moving] = [of.map(partsOfLoad), new Map(), new Map()];
+  for (const rows of all) for (const row of new Set(rows.map(String))) count.set(row, (count.get(row) ?? 0) + 1);
+  const stays = (row) => count.get(String(row)) === of.length;
+  all.forEach((rows, i) => rows.filter((row) => !stays(row)).forEach(([what, , value, x]) => {
+    const axle = [what, value, (x - of[i].train.at).toFixed(9)].join();
+    moving.set(axle, [...(moving.get(axle) || []), { what, value, x }]);
+  }));
+  const rows = [...all[0].filter(stays), ...[...moving.values()].map((list) => [list[0].what, `x = ${placesWords(list.map(({ x }) => x))}`, list[0].value])];
+  return rows.map((row) => [stepsName(of), ...row.slice(0, 3)]);
+}
+
+// The parts of a load: what, where, value, and x of a point.
+function partsOfLoad(s) {
   const { uniform = [], settlement = [], curvature = [], move = [] } = s.load;
-  const part = ({ from, to }) => (isBeam() ? `x = ${from} to ${to}` : `(${from.join(", ")}) to (${to.join(", ")})`);
+  const exactly = (x) => digits(x, 12);
+  const part = ({ from, to }) => (isBeam() ? `x = ${exactly(from)} to ${exactly(to)}` : `(${from.map(exactly).join(", ")}) to (${to.map(exactly).join(", ")})`);
   const polynomial = (a) => a.map((c, i) => `${short(c)}${i === 0 ? "" : i === 1 ? " x" : ` x^${i}`}`).join(" + ");
   const at = (p) => (p.between ? `x = ${short(p.x)}` : placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`));
-  const pointRows = (load, words, what) => pointsOf({ load }).map((p) => [stepName(s), ofMatrix ? words : words + what(p), at(p), p.value]);
-  const rows = [...uniform.map((d) => [stepName(s), inUnit(isBeam() ? "per length" : "pressure", "load"), d.elements ? elementsWords(d.elements) : part(d), d.polynomial ? polynomial(d.polynomial) : d.value]),
-    ...pointRows(s.load, "", whatHolds), ...curvature.map((c) => [stepName(s), "imposed curvature", part(c), c.value]), ...pointRows({ point: settlement }, "settlement ", (p) => inUnit(p.dof, p.dof)),
-    ...pointRows({ point: move }, "face moved ", (p) => inUnit(p.dof, p.dof))];
-  return rows.length > 0 ? rows : [[stepName(s), "resultant of all loads", "", sumOf(s)]];
+  const points = (load, words, what) => pointsOf({ load }).map((p) => [words + what(p), at(p), p.value, p.x]);
+  const motion = (p) => (ofMatrix ? inUnit("along the dof", kindOf(p) === "force" ? "w" : "") : inUnit(p.dof, p.dof));
+  const distributed = (d) => (d.self_weight ? "self-weight " : "") + inUnit(isBeam() ? "per length" : "pressure", "load");
+  const rows = [...uniform.map((d) => [distributed(d), d.elements ? elementsWords(d.elements) : part(d), d.polynomial ? polynomial(d.polynomial) : d.value]),
+    ...points(s.load, "", whatHolds), ...curvature.map((c) => ["imposed curvature", part(c), c.value]), ...points({ point: settlement }, "settlement ", motion), ...points({ point: move }, "face moved ", motion)];
+  return rows.length > 0 ? rows : [["resultant of all loads", "", sumOf(s)]];
 }
 
 // The elements of a load in words; in a beam with the x at both ends.
@@ -400,22 +445,21 @@ function showCuts() {
       "increments, evenly chosen, and the ends of steps.");
   }
   const isSum = ({ words, uniform, point, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature && !move;
-  if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn; only their sum is given.");
-  if (result.log.length < result.log_bytes) cuts.add(`The first ${result.log.length} of ${result.log_bytes} bytes of unit 26 are shown.`);
-  const list = cuts.size > 0 ? [...cuts] : [`Nothing: every increment, ${unitOf()}, pair and call is on this page.`];
-  byId("cuts").replaceChildren(...list.map((text) => element("li", {}, text)));
+  if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn: their sum is told.");
+  if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
+  const none = element("li", { class: "screen-only" }, `Nothing: every increment, ${unitOf()}, pair and call is on this page.`);
+  byId("cuts").replaceChildren(...(cuts.size > 0 ? [...cuts].map((text) => element("li", {}, text)) : [none]), element("li", { class: "print-only" },
+    "Not on paper, but in the page's file: states within steps, the pairs of each state, increments after the first 60, the kernels' calls and sources, and unit 26."));
 }
 
 const pictureWords = {
-  beam: "Up is positive. Between two increments every point moves along a straight line. Numbers under supports are reactions. " +
-    "Moments M = EI w\u2033 (positive where the beam sags) and shears V = dM/dx (the upward force of the part left of a cut on the part right of it) " +
-    "follow EI w\u2033\u2033 = q between the nodes, too. Dots mark the largest values.",
-  plate: "The colours have the same scale in all states: dark is low. Up is positive. Moments are positive where the plate sags, and are means of the elements " +
-    "at each node. Between nodes, colours are interpolated. Numbers at supports are reactions.",
-  matrix: "Edges are drawn straight between their nodes. Between two increments every point moves along a straight line. " +
-    "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, " +
-    "magnified as displacements are. Numbers at supports are reactions.",
-  none: "No coordinates of this structure are known, so it is not drawn. To have it drawn, name a file by coordinates in [matrix] or by mesh in [calculix].",
+  beam: "Up is positive. Numbers under supports are reactions. Moments M = EI w\u2033 are positive where the beam sags; the shear V = dM/dx is the upward " +
+    "force of the part left of a cut on the part right of it. Dots are at the largest values.",
+  plate: "Colours are the same in all states: dark is low. Up is positive; moments are positive where the plate sags, and means of the elements at each " +
+    "node. Numbers at supports are reactions.",
+  matrix: "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, magnified as displacements " +
+    "are. Numbers at supports are reactions.",
+  none: "No coordinates of this structure are known, so it is not drawn. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.",
 };
 
 function showLegend() {
@@ -428,7 +472,8 @@ function showLegend() {
     [there((p) => p.look === "f" && p.closed), "at its face, in contact, no force", () => pairMark("f", 11, 9, 5, true)],
     [places.pairs.length > 0, "face, hatched behind", () => shape("M2 8h18M4 8l-4 6M10 8l-4 6M16 8l-4 6", "face-line")],
     [there((p) => p.force > 0), "contact force", () => arrow(11, 17, 0, -15, "force")],
-    [there((p) => p.look === "c"), "place of a face before it was pressed", () => line(0, 9, 22, 9, "spring")],
+    [there((p) => p.look === "c"), "where a pressed face stood", () => line(0, 9, 22, 9, "spring")],
+    [hasBed() && places.pairs.some((p) => !p.bed), "large: a pair apart from beds", () => pairMark("o", 11, 9, 7)],
     [loaded, "load", () => arrow(11, 1, 0, 15, "load")],
     [true, "undeformed", () => line(0, 9, 22, 9, "was")],
     [places.supports.some((s) => s.direction <= 3), "support", () => shape("M11 3l7 12h-14Z", "support")],
@@ -505,10 +550,10 @@ function drawSheets() {
   byId("system").replaceChildren(...(loaded ? [drawn({ ...frames[0], load: loaded.load }, `The undeformed structure with supports, pairs and the loads of step ${stepName(loaded)}: ${minus(loaded.load.words)}.`, true)] : []));
   const chosen = field;
   const quantities = fields.length > 0 ? fields : [undefined];
-  const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor(12 / quantities.length))).map((s) => s.step));
-  const wanted = frames.filter((f) => f.end && (steps.has(f.step) || f === final)).flatMap((f) => quantities.map((of) => ({ f, of })));
+  const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor((result.steps.length > 12 ? 6 : 12) / quantities.length))).map((s) => s.step));
+  const wanted = frames.filter((f) => (f.end && steps.has(f.step)) || f === final).flatMap((f) => quantities.map((of) => ({ f, of })));
   const all = result.steps.length;
-  byId("ends-drawn").replaceChildren(...(steps.size < all ? [element("p", { class: "print-only" }, `The ends of ${steps.size} of ${all} steps are drawn: the steps with the largest values, and the last step.`)] : []), ...wanted.filter(({ f, of }) => f !== final || of !== chosen).map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
+  byId("ends-drawn").replaceChildren(...(steps.size < all ? [element("p", { class: "print-only" }, `Drawn are the ends of ${steps.size} of ${all} steps, those with the largest values, and of the last one.`)] : []), ...wanted.map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
   field = chosen;
   showCuts();
 }
