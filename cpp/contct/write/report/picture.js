@@ -54,11 +54,7 @@ const supportWords = (f, s) => `Support at ${placed(s.name)}: ${ofMatrix ? "" : 
   `${s.spring === null ? "fixed" : `on a spring of ${short(s.spring)}`}; reaction ${short(f.reactions[s.number])}`;
 const eventWords = (e) => `pair ${e.pair} ${e.change === "make" ? "makes" : "breaks"} contact (${placed(nameOf(e))}, ${e.surface})`;
 
-function allEventWords(events, most = 8) {
-  const named = events.slice(0, most).map(eventWords);
-  if (events.length > most) named.push(`and ${events.length - most} more`);
-  return named.join("; ");
-}
+const allEventWords = (events, most = 8) => [...events.slice(0, most).map(eventWords), ...(events.length > most ? [`and ${events.length - most} more`] : [])].join("; ");
 
 // A state in words. Screen readers read the words aloud when the state changes.
 function stateWords(f) {
@@ -91,9 +87,7 @@ function some(what, all, most) {
 
 function svg(name, attributes = {}, ...children) {
   const e = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) {
-    e.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
-  }
+  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
   e.append(...children);
   return e;
 }
@@ -124,10 +118,7 @@ function roundDown(x, leading = [1, 2, 5]) {
   return Number((Math.max(...leading.filter((d) => d * power <= x * (1 + 1e-12)), 1) * power).toPrecision(3));
 }
 // The least number not below x that is 1, 2 or 5 times a power of ten.
-function roundUp(x) {
-  const power = 10 ** Math.floor(Math.log10(x));
-  return Number(([1, 2, 5, 10].find((d) => d * power >= x * (1 - 1e-12)) * power).toPrecision(3));
-}
+const roundUp = (x, low = roundDown(x)) => (low >= x * (1 - 1e-12) ? low : roundDown(2.5 * low));
 // A round magnification at which displacements up to `most` fit into `room`.
 const magnificationFor = (most, room) => (most > 0 && room > 0 ? roundDown(room / most, [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8]) : 1);
 const timesWords = (factor) => `× ${factor.toLocaleString("en", { maximumSignificantDigits: 3 })}`;
@@ -147,16 +138,10 @@ function ticks(from, to, most) {
 
 // Draws grid lines with their numbers on the left (scaleUp) or at the bottom (scaleAlong).
 function scaleUp(root, values, Y, left, right, away = 16) {
-  for (const v of values) {
-    root.append(line(left, Y(v), right, Y(v), v === 0 ? "zero" : "grid"),
-      axisWord(left - away, Y(v) + 4, rough(v), "end"));
-  }
+  for (const v of values) root.append(line(left, Y(v), right, Y(v), v === 0 ? "zero" : "grid"), axisWord(left - away, Y(v) + 4, rough(v), "end"));
 }
 function scaleAlong(root, values, X, bottom, top = bottom + 5) {
-  for (const v of values) {
-    root.append(line(X(v), top, X(v), bottom, v === 0 || top > bottom ? "zero" : "grid"),
-      axisWord(X(v), bottom + 19, rough(v)));
-  }
+  for (const v of values) root.append(line(X(v), top, X(v), bottom, v === 0 || top > bottom ? "zero" : "grid"), axisWord(X(v), bottom + 19, rough(v)));
 }
 
 function arrow(x, y, dx, dy, kind) {
@@ -180,16 +165,15 @@ function pairMark(look, x, y, r, closed = false) {
 // Places around a word's own place, nearest first.
 const placesNear = [[0, 0], ...Array.from({ length: 12 }, (_, r) => [[0, 1], [0, -1], [1, 0], [-1, 0], [1, 1], [-1, 1], [1, -1], [-1, -1]].map(([x, y]) => [18 * x * (r + 1), 9 * y * (r + 1)])).flat()];
 
-// Returns a function that writes a word if its place in the picture, to the right of `left`, is free. If it is not, the
-// words `elsewhere` are written at the nearest free place, with a line to their own place.
+// Returns a function that writes a word if its place in the picture, to the right of `left`, is free. Otherwise it writes
+// the words `elsewhere`, if they are given, at the nearest free place, with a line to their own.
 function wordsInFreePlaces(root, width, height, left = 2) {
   const boxes = [];
-  const isFree = (box) => box[1] >= 24 && box[3] <= height - 4 && boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1]);
   const put = (at, y, words, kind) => {
     const half = 4.4 * words.length + 2;
     const x = Math.min(Math.max(at, left + half), width - 2 - half);
     const box = [x - half, y - 13, x + half, y + 5];
-    if (!isFree(box)) return false;
+    if (box[1] < 24 || box[3] > height - 4 || !boxes.every((b) => b[0] >= box[2] || b[2] <= box[0] || b[1] >= box[3] || b[3] <= box[1])) return false;
     boxes.push(box);
     root.append(label(x, y, words, { "text-anchor": "middle", class: `${kind} halo` }));
     return true;
@@ -271,8 +255,7 @@ function supportMark([x, y], t, spring) {
 function drawSupports(root, f, on) {
   for (const s of drawnSupports.filter(({ at }) => at >= 0)) {
     const [[x, y], t] = [on.spot(s), on.along(s)];
-    const box = () => svg("rect", { x: x - 6, y: y - 6, width: 12, height: 12, class: "thin" });
-    root.append(titled(supportWords(f, s), t === null ? box() : supportMark([x, y], t, s.spring)));
+    root.append(titled(supportWords(f, s), t === null ? svg("rect", { x: x - 6, y: y - 6, width: 12, height: 12, class: "thin" }) : supportMark([x, y], t, s.spring)));
     const reaction = f.reactions[s.number];
     if (t === null || reaction === 0 || drawnSupports.length > 40) continue;
     on.say(x - 36 * t[0], y - 36 * t[1] + 4, rough(reaction), "value reaction-value");
@@ -311,10 +294,7 @@ function placesAlong() {
   return [...stations.slice(0, -1).flatMap((e) => Array.from({ length: pieces }, (_, k) => [e, k / pieces])), [structure.nodes.length - 2, 1]];
 }
 
-function xAt([e, share]) {
-  const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
-  return share === 1 ? to : from + share * (to - from);
-}
+const xAt = ([e, share], [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x]) => (share === 1 ? to : from + share * (to - from));
 
 // Draws the distributed load above or below the beam, to scale.
 function drawLineLoad(root, f, { X, Y, ends }) {
@@ -448,26 +428,27 @@ function bandColour(i) {
   return `rgb(${stops[k].map((c, j) => Math.round(c + (stops[k + 1][j] - c) * (at - k))).join(",")})`;
 }
 
-// A place of a plate on the page, by bilinear interpolation between `spots` of the nodes.
+// The value at a share x and y of a cell whose corners are counter-clockwise, by bilinear interpolation.
+const withinCell = ([a, b, c, d], read, x, y) => (read(a) * (1 - x) + read(b) * x) * (1 - y) + (read(d) * (1 - x) + read(c) * x) * y;
+
+// A place of a plate on the page, between `spots` of the nodes.
 function onPlate(spots, x, y) {
   const { nodes, columns } = structure;
-  const within = (all, v) => { const i = Math.max(0, Math.min(all.length - 2, all.findLastIndex((from) => from <= v))); return [i, (v - all[i]) / (all[i + 1] - all[i])]; };
-  const [i, a] = within(nodes.slice(0, columns).map((n) => n.x), x);
-  const [j, b] = within(nodes.filter((_, k) => k % columns === 0).map((n) => n.y), y);
-  const [p, q] = [j, j + 1].map((row) => spots.slice(row * columns + i, row * columns + i + 2));
-  return [0, 1].map((k) => (p[0][k] * (1 - a) + p[1][k] * a) * (1 - b) + (q[0][k] * (1 - a) + q[1][k] * a) * b);
+  const cellAt = (all, v) => { const i = Math.max(0, Math.min(all.length - 2, all.findLastIndex((from) => from <= v))); return [i, (v - all[i]) / (all[i + 1] - all[i])]; };
+  const [[i, a], [j, b]] = [cellAt(nodes.slice(0, columns).map((n) => n.x), x), cellAt(nodes.filter((_, k) => k % columns === 0).map((n) => n.y), y)];
+  const first = j * columns + i;
+  return [0, 1].map((k) => withinCell([first, first + 1, first + columns + 1, first + columns], (node) => spots[node][k], a, b));
 }
 
 // The rectangles of a distributed load on a plate, as two corners.
 function rectanglesOf({ elements, from, to }) {
   if (!elements) return [[from, to]];
-  const { nodes, columns } = structure;
-  const [across, has, found] = [columns - 1, numbersIn(elements), []];
-  for (let j = 0; (j + 1) * columns < nodes.length; ++j) {
-    for (const [first, last] of runsOf(Array.from({ length: across }, (_, i) => has(j * across + i + 1))).filter(([i]) => has(j * across + i + 1))) {
-      const [a, b] = [nodes[j * columns + first], nodes[(j + 1) * columns + last + 1]].map(({ x, y }) => [x, y]);
-      const below = found.find(([p, q]) => p[0] === a[0] && q[0] === b[0] && q[1] === a[1]);
-      if (below) below[1] = b;
+  const [{ nodes, columns }, has, found] = [structure, numbersIn(elements), []];
+  for (let row = 0, below; (row + 1) * columns < nodes.length; ++row) {
+    const loaded = nodes.slice(1, columns).map((_, i) => has(row * (columns - 1) + i + 1));
+    for (const [first, last] of runsOf(loaded).filter(([i]) => loaded[i])) {
+      const [a, b] = [nodes[row * columns + first], nodes[(row + 1) * columns + last + 1]].map(({ x, y }) => [x, y]);
+      if ((below = found.find(([p, q]) => p[0] === a[0] && q[0] === b[0] && q[1] === a[1]))) below[1] = b;
       else found.push([a, b]);
     }
   }
@@ -476,16 +457,16 @@ function rectanglesOf({ elements, from, to }) {
 
 // Outlines distributed loads on a plate, with their sum on each rectangle: inside it, or at the edge of the plate.
 function drawAreaLoads(root, f, spots, say) {
-  const sums = new Map();
-  for (const part of f.load.uniform || []) for (const at of rectanglesOf(part)) sums.set(String(at), { at, value: (sums.get(String(at))?.value ?? 0) + part.value });
-  const last = structure.nodes[structure.nodes.length - 1];
-  for (const { at: [[x0, y0], [x1, y1]], value } of sums.values()) {
+  const groups = groupsOf((f.load.uniform || []).flatMap((part) => rectanglesOf(part).map((at) => ({ at, value: part.value }))), ({ at }) => String(at));
+  const plate = String(rectanglesOf({ elements: "all" })[0]);
+  for (const [at, sum] of groups.map((parts) => [parts[0].at, parts.reduce((total, { value }) => total + value, 0)])) {
+    const [[x0, y0], [x1, y1]] = at;
     const corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
     const outline = corners.flatMap(([x, y], k) => Array.from({ length: 24 }, (_, n) => onPlate(spots, ...[x, y].map((v, axis) => v + (corners[(k + 1) % 4][axis] - v) * (n / 24)))));
-    const whole = x0 === structure.nodes[0].x && x1 === last.x && y0 === structure.nodes[0].y && y1 === last.y;
-    const [[x, y], words] = [onPlate(spots, (x0 + x1) / 2, whole ? y0 : (y0 + y1) / 2), inUnit(rough(value), "load")];
+    const [isWhole, words] = [String(at) === plate, inUnit(rough(sum), "load")];
+    const [x, y] = onPlate(spots, (x0 + x1) / 2, isWhole ? y0 : (y0 + y1) / 2);
     root.append(titled(`Load ${words}`, shape(lineTo(outline) + "Z", "load-line", { style: "stroke-width: 2.4" })));
-    say(x, y + (whole ? 26 : 4), words, "value", sums.size <= 12 ? words : null);
+    say(x, y + (isWhole ? 26 : 4), words, "value", groups.length <= 12 ? words : null);
   }
 }
 
@@ -496,13 +477,12 @@ function drawColours(root, f, spots) {
   const parts = Math.ceil(48 / Math.max(columns.length, rows.length));
   const bands = Array.from({ length: field.bands }, () => []);
   for (const [j, i] of rows.slice(1).flatMap((_, j) => columns.slice(1).map((_, i) => [j, i]))) {
-    const [a, b, c, d] = [[j, i], [j, i + 1], [j + 1, i], [j + 1, i + 1]].map(([y, x]) => rows[y] * structure.columns + columns[x]);
-    const within = (read, x, y) => (read(a) * (1 - x) + read(b) * x) * (1 - y) + (read(c) * (1 - x) + read(d) * x) * y;
+    const cell = [[j, i], [j, i + 1], [j + 1, i + 1], [j + 1, i]].map(([y, x]) => rows[y] * structure.columns + columns[x]);
     for (let part = 0; part < parts * parts; ++part) {
       const [x, y] = [part % parts, Math.floor(part / parts)];
-      const value = within((node) => values[node], (x + 0.5) / parts, (y + 0.5) / parts);
+      const value = withinCell(cell, (node) => values[node], (x + 0.5) / parts, (y + 0.5) / parts);
       const band = Math.max(0, Math.min(field.bands - 1, Math.floor((value - field.level(0)) / field.step)));
-      const corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]].map(([p, q]) => [0, 1].map((k) => within((node) => spots[node][k], p / parts, q / parts)));
+      const corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]].map(([p, q]) => [0, 1].map((k) => withinCell(cell, (node) => spots[node][k], p / parts, q / parts)));
       bands[band].push(lineTo(corners) + "Z");
     }
   }
@@ -573,16 +553,12 @@ function drawnEdges(most = 20_000) {
 
 // The view along an axis on which all nodes have the same coordinate and no dof; otherwise the oblique view.
 function fittingView() {
-  const flat = (axis) => scene.at.every((at, i) => scene.along[i][axis] < 0 && at[axis] === scene.at[0][axis]);
-  const found = [2, 1, 0].findIndex(flat);
-  return found < 0 ? 3 : found;
+  const flat = [2, 1, 0].findIndex((axis) => scene.at.every((at, i) => scene.along[i][axis] < 0 && at[axis] === scene.at[0][axis]));
+  return flat < 0 ? 3 : flat;
 }
 
 // Projects a point in space onto the page. Returns its coordinates to the right and up, in units of length.
-function projected(at) {
-  const { right, up } = views[view];
-  return [right, up].map((to) => to[0] * at[0] + to[1] * at[1] + to[2] * at[2]);
-}
+const projected = (at) => [views[view].right, views[view].up].map((to) => to[0] * at[0] + to[1] * at[1] + to[2] * at[2]);
 
 const movedTo = (f, i, times) => scene.at[i].map((x, axis) => x + (scene.along[i][axis] < 0 ? 0 : times * f.u[scene.along[i][axis]]));
 const faceAt = (p, times) => scene.at[p.at].map((x, axis) => x + (axis === p.direction - 1 ? times * p.face : 0));

@@ -61,17 +61,13 @@ function drawChart(f) {
 const tracks = () => (!startsFromZero() ? [frames]
   : [...new Set(frames.slice(1).map((f) => f.step))].map((step) => [frames[0], ...frames.filter((f) => f.step === step)]));
 
-function padded([low, high]) {
-  const reach = high - low || Math.abs(high) || 1;
-  return [low - 0.06 * reach, high + 0.06 * reach];
-}
+const padded = ([low, high], reach = high - low || Math.abs(high) || 1) => [low - 0.06 * reach, high + 0.06 * reach];
 
 function chartMark(f, x, y) {
   const r = frames.length > 60 ? 2.6 : 4.4;
-  const makes = f.events.some((e) => e.change === "make");
-  return titled(`${where(f)}: ${f.events.length > 0 ? allEventWords(f.events) : f.end ? "end of step" : "no event"}`, f.events.length === 0
-    ? svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "step-end" })
-    : svg("circle", { cx: x, cy: y, r, class: makes ? "make" : "break" }));
+  const mark = f.events.length === 0 ? svg("rect", { x: x - r, y: y - r, width: 2 * r, height: 2 * r, class: "step-end" })
+    : svg("circle", { cx: x, cy: y, r, class: f.events.some((e) => e.change === "make") ? "make" : "break" });
+  return titled(`${where(f)}: ${allEventWords(f.events) || (f.end ? "end of step" : "no event")}`, mark);
 }
 
 // ---- sections and tables ----
@@ -135,9 +131,7 @@ function showEvents() {
   for (const r of byId("events").querySelectorAll("tbody tr")) r.dataset.increment = r.firstChild.textContent;
 }
 
-function markCurrentRow(f) {
-  for (const r of byId("events").querySelectorAll("tbody tr")) r.classList.toggle("current", r.dataset.increment === where(f));
-}
+const markCurrentRow = (f) => byId("events").querySelectorAll("tbody tr").forEach((r) => r.classList.toggle("current", r.dataset.increment === where(f)));
 
 function showCalls() {
   const [leader, ...others] = calledNames();
@@ -211,16 +205,11 @@ function endTables() {
 
 // The sums of loads, reactions and contact forces of a matrix along each axis.
 function sumsByDirection(s) {
-  const sums = [1, 2, 3].map((direction) => [direction, 0, 0, 0, 0]);
-  const add = (k, { direction }, value) => { if (kindOf({ direction }) === "force") { sums[direction - 1][k] += value; ++sums[direction - 1][4]; } };
-  pointsOf(s).forEach((p) => add(1, p, p.value));
-  (s.reactions || []).forEach((r, i) => add(2, places.supports[i], r.value));
-  (s.pairs || []).forEach((p, i) => {
-    const of = places.pairs[i];
-    add(3, of, -of.side * p.force);
-    if (of.otherU >= 0) add(3, places.dofs[of.otherU], of.side * p.force);
-  });
-  return sums.filter((of) => of[4] > 0).map(([direction, loads, reactions, contact]) => [stepName(s), "xyz"[direction - 1], loads, places.supports.length > 0 ? reactions : null, contact]);
+  const ofPair = (p, { direction, side, otherU }) => [[2, direction, -side * p.force], [2, places.dofs[otherU]?.direction, side * p.force]];
+  const forces = [...pointsOf(s).map((p) => [0, p.direction, p.value]), ...(s.reactions || []).map((r, i) => [1, places.supports[i].direction, r.value]), ...(s.pairs || []).flatMap((p, i) => ofPair(p, places.pairs[i]))];
+  const sum = (kind, axis) => forces.reduce((total, [k, direction, value]) => (k === kind && direction === axis ? total + value : total), 0);
+  return [1, 2, 3].filter((axis) => forces.some(([, direction]) => direction === axis))
+    .map((axis) => [stepName(s), "xyz"[axis - 1], sum(0, axis), places.supports.length > 0 ? sum(1, axis) : null, sum(2, axis)]);
 }
 
 const pairCells = (p) => [String(p.pair), ...placeCells(p), p.surface];
@@ -228,14 +217,11 @@ const forceOrGap = (p) => (p.state === "separated" ? [{ number: p.gap, at: "gap"
 
 // Tables with a column for the end of each step, six steps in each table.
 function besideEachOther(steps, title, names, begins, read, most = Infinity) {
-  const tables = [];
-  for (let from = 0; from < steps.length; from += 6) {
-    const beside = steps.slice(from, from + 6);
-    const rows = begins.map((begin, i) => [...begin, ...beside.map((s) => read(s, i))]);
-    const sizeOf = (r) => Math.max(...r.slice(names.length).map(Math.abs));
-    tables.push(...tableOf(title, [...names, ...beside.map((s) => `Step ${stepName(s)}`)], rows, most, most < Infinity ? sizeOf : null));
-  }
-  return tables;
+  if (steps.length === 0) return [];
+  const beside = steps.slice(0, 6);
+  const sizeOf = most < Infinity ? (r) => Math.max(...r.slice(names.length).map(Math.abs)) : null;
+  const rows = begins.map((begin, i) => [...begin, ...beside.map((s) => read(s, i))]);
+  return [...tableOf(title, [...names, ...beside.map((s) => `Step ${stepName(s)}`)], rows, most, sizeOf), ...besideEachOther(steps.slice(6), title, names, begins, read, most)];
 }
 
 function envelopeTables({ pairs, reactions, states, curves, ...ranges }) {
@@ -327,31 +313,23 @@ const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
 
 // Merges `fewest` or more entries that differ only by place. A row is [first entry, cells of places, all entries].
-function gathered(list, keyOf, fewest = 13) {
-  const groups = new Map();
-  for (const one of list) groups.set(keyOf(one), [...(groups.get(keyOf(one)) || []), one]);
-  return [...groups.values()].flatMap((of) => (ofMatrix || of.length < fewest ? of.map((one) => [one, placeCells(one), [one]])
-    : [[of[0], [numbersWords(of.map((one) => one.name)), ...["x", "y"].slice(0, placeHead().length - 1).map((axis) => rangeWords(spread(of.map((one) => one[axis]))))], of]]));
-}
+const gathered = (list, keyOf, fewest = 13) => groupsOf(list, keyOf).flatMap((of) => (ofMatrix || of.length < fewest ? of.map((one) => [one, placeCells(one), [one]])
+  : [[of[0], [numbersWords(of.map((one) => one.name)), ...["x", "y"].slice(0, placeHead().length - 1).map((axis) => rangeWords(spread(of.map((one) => one[axis]))))], of]]));
 
 // The loads of steps. Those that all have are listed once; of the others, which move, each is listed with its places.
 function loadRows(of) {
-  const [all, count, moving] = [of.map(partsOfLoad), new Map(), new Map()];
+  const [all, count] = [of.map(partsOfLoad), new Map()];
   for (const rows of all) for (const row of new Set(rows.map(String))) count.set(row, (count.get(row) ?? 0) + 1);
   const stays = (row) => count.get(String(row)) === of.length;
-  all.forEach((rows, i) => rows.filter((row) => !stays(row)).forEach(([what, , value, x]) => {
-    const axle = [what, value, (x - of[i].train.at).toFixed(9)].join();
-    moving.set(axle, [...(moving.get(axle) || []), { what, value, x }]);
-  }));
-  const rows = [...all[0].filter(stays), ...[...moving.values()].map((list) => [list[0].what, `x = ${placesWords(list.map(({ x }) => x))}`, list[0].value])];
-  return rows.map((row) => [stepsName(of), ...row.slice(0, 3)]);
+  const moving = all.flatMap((rows, i) => rows.filter((row) => !stays(row)).map(([what, , value, x]) => ({ what, value, x, offset: (x - of[i].train.at).toFixed(9) })));
+  const axles = groupsOf(moving, ({ what, value, offset }) => [what, value, offset].join());
+  return [...all[0].filter(stays), ...axles.map((list) => [list[0].what, `x = ${placesWords(list.map(({ x }) => x))}`, list[0].value])].map((row) => [stepsName(of), ...row.slice(0, 3)]);
 }
 
 // The parts of a load: what, where, value, and x of a point.
 function partsOfLoad(s) {
   const { uniform = [], settlement = [], curvature = [], move = [] } = s.load;
-  const exactly = (x) => digits(x, 12);
-  const part = ({ from, to }) => (isBeam() ? `x = ${exactly(from)} to ${exactly(to)}` : `(${from.map(exactly).join(", ")}) to (${to.map(exactly).join(", ")})`);
+  const part = ({ from, to }) => [from, to].map((at) => (isBeam() ? digits(at, 12) : `(${at.map((x) => digits(x, 12)).join(", ")})`)).join(" to ").replace(/^(?!\()/, "x = ");
   const polynomial = (a) => a.map((c, i) => `${short(c)}${i === 0 ? "" : i === 1 ? " x" : ` x^${i}`}`).join(" + ");
   const at = (p) => (p.between ? `x = ${short(p.x)}` : placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`));
   const points = (load, words, what) => pointsOf({ load }).map((p) => [words + what(p), at(p), p.value, p.x]);
@@ -365,10 +343,9 @@ function partsOfLoad(s) {
 // The elements of a load in words; in a beam with the x at both ends.
 function elementsWords(elements) {
   if (elements === "all") return "all elements";
-  const numbers = Array.isArray(elements) ? numbersWords(elements) : elements.replace("..", " to ");
-  if (!isBeam() || Array.isArray(elements)) return `elements ${numbers}`;
+  if (Array.isArray(elements)) return `elements ${numbersWords(elements)}`;
   const [first, last] = elements.split("..").map(Number);
-  return `elements ${numbers}, x = ${short(structure.nodes[first - 1].x)} to ${short(structure.nodes[last].x)}`;
+  return `elements ${first} to ${last}` + (isBeam() ? `, x = ${short(structure.nodes[first - 1].x)} to ${short(structure.nodes[last].x)}` : "");
 }
 
 // ---- head, certificate, unit 26, legend ----
@@ -440,10 +417,8 @@ function showCuts() {
     cuts.add(`${drawn.length} of ${result.steps.length} combinations are drawn: those with the least and largest values, those that did not reach ` +
       "their load, and others evenly chosen. Increments, contact forces and reactions of combinations that are not drawn are not listed.");
   const within = increments.length + 1 + drawn.filter((s) => !endsAt(s, s.increments.length - 1)).length;
-  if (frames.length < within) {
-    cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
+  if (frames.length < within) cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
-  }
   const isSum = ({ words, uniform, point, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature && !move;
   if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
@@ -500,10 +475,7 @@ let current = 0;
 // Called after a state is drawn. The playground replaces this function by one that adds handles to the picture.
 let afterDrawing = () => {};
 
-function draw() {
-  drawPicture(frames[current], byId("picture"));
-  afterDrawing(frames[current]);
-}
+const draw = () => { drawPicture(frames[current], byId("picture")); afterDrawing(frames[current]); };
 
 function show(n) {
   current = Math.max(0, Math.min(frames.length - 1, n));
@@ -526,11 +498,7 @@ function listen() {
   go("next", "click", () => current + 1);
   byId("field").addEventListener("change", (e) => { field = fields.find((f) => f.name === e.target.value); draw(); });
   let width = innerWidth;
-  addEventListener("resize", () => {
-    if (innerWidth === width || !result) return;
-    width = innerWidth;
-    show(current);
-  });
+  addEventListener("resize", () => { if (innerWidth !== width && result) show(current); width = innerWidth; });
   byId("save").addEventListener("click", savePicture);
   addEventListener("beforeprint", () => { printing = true; drawSheets(); show(frames.length - 1); });
   addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
@@ -552,8 +520,7 @@ function drawSheets() {
   const quantities = fields.length > 0 ? fields : [undefined];
   const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor((result.steps.length > 12 ? 6 : 12) / quantities.length))).map((s) => s.step));
   const wanted = frames.filter((f) => (f.end && steps.has(f.step)) || f === final).flatMap((f) => quantities.map((of) => ({ f, of })));
-  const all = result.steps.length;
-  byId("ends-drawn").replaceChildren(...(steps.size < all ? [element("p", { class: "print-only" }, `Drawn are the ends of ${steps.size} of ${all} steps, those with the largest values, and of the last one.`)] : []), ...wanted.map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
+  byId("ends-drawn").replaceChildren(...(steps.size < result.steps.length ? [element("p", { class: "print-only" }, `Drawn are the ends of ${steps.size} of ${result.steps.length} steps, those with the largest values, and of the last one.`)] : []), ...wanted.map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
   field = chosen;
   showCuts();
 }

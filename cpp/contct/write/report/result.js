@@ -167,13 +167,15 @@ function runsOf(values) {
 
 // The least and the largest finite number of a list; [0, 0] if the list has no finite number.
 function spread(values) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const v of values) {
-    if (v === null || !isFinite(v)) continue;
-    if (v < low) low = v;
-    if (v > high) high = v;
-  }
-  return low > high ? [0, 0] : [low, high];
+  const numbers = values.filter((v) => v !== null && isFinite(v));
+  return numbers.length === 0 ? [0, 0] : [Math.min, Math.max].map((end) => numbers.reduce((a, b) => end(a, b)));
+}
+
+// The entries of a list that have the same key, as lists.
+function groupsOf(list, keyOf) {
+  const groups = new Map();
+  for (const one of list) groups.get(keyOf(one))?.push(one) ?? groups.set(keyOf(one), [one]);
+  return [...groups.values()];
 }
 
 // The largest magnitude of the numbers `values(f)` over all states f.
