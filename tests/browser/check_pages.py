@@ -692,6 +692,7 @@ try:
     tells_every_force("pb07", 3)
     tells_every_force("close", 14)
     tells_every_force("bolts", 2)
+    tells_every_force("row", 3)
     tells_loads_of_beams("close")
     outlines_loads_of_plates("bolts")
     adds_up_by_direction("frame", ["x", "y"] * 3)

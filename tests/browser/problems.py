@@ -53,6 +53,10 @@ write("close", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 8.0\neleme
       '[[case]]\nname = "G"\nself_weight = true\nuniform = -10\n[[combination]]\nname = "G"\nterms = { G = 1.0 }\n'
       '[[combination]]\nname = "2 G"\nterms = { G = 2.0 }\n')
 
+# A beam over 71 stops, which comes to three of them.
+write("row", '[beam]\nlength = 72\nelements = 72\nEI = 1e6\n[[support]]\nx = [0, 72]\nfix = "w"\n' + "".join(
+    f'[[contact]]\nx = {x}\nsurface = "below"\nface = {0 if x in (18, 36, 54) else -1}\nstiffness = 1e5\n' for x in range(1, 72)) + "[[step]]\nuniform = -1\n")
+
 # A plate on a bed, held down by two bolts. The load's corner (0.15, 0.3) is a multiple of the mesh's spacing.
 write("bolts", '[units]\nlength = "m"\nforce = "kN"\n[plate]\nsize = [0.4, 0.4]\nelements = [8, 8]\nE = 2.1e8\nnu = 0.3\nthickness = 0.03\n'
       '[[bed]]\nmodulus = 6.0e6\nface = 0.0\n[[contact]]\nat = [[0.05, 0.2], [0.35, 0.2]]\nsurface = "above"\nface = 0.0\nstiffness = 2.0e5\n'

@@ -37,6 +37,7 @@ page settling "$work/settling.toml" 0 --envelope
 page strip "$work/strip.toml" 0 --envelope
 page yard "$work/yard.toml" 0 --envelope --refine
 page close "$work/close.toml" 0
+page row "$work/row.toml" 0
 page bolts "$work/bolts.toml" 0
 page two-faces "$work/two-faces.toml" 0
 page own-ways "$work/own-ways.toml" 0 --free-run --kernels fortran,corrected

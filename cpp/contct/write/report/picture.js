@@ -200,14 +200,14 @@ const pairsOf = (f) => drawnPairs.map((i) => f.pairs[i]).filter((p) => p.at >= 0
 const drawingOrder = { o: 0, f: 1, c: 2 };
 const leastLoadedFirst = (pairs) => [...pairs].sort((a, b) => drawingOrder[a.look] - drawingOrder[b.look] || Math.abs(a.force) - Math.abs(b.force));
 
-// The pairs whose numbers are written: all, or those that are not of a bed.
-const numberedOf = (pairs) => [pairs, pairs.filter((p) => !p.bed)].find((some) => some.length <= 60) ?? [];
+const hasForce = (p) => p.look === "c" || Math.abs(p.force) > 1e-6 * scene.force;
+// The pairs whose numbers are written: all, those that are not of a bed, or those of them that have a force.
+const numberedOf = (pairs, own = pairs.filter((p) => !p.bed)) => [pairs, own, own.filter(hasForce)].find((some) => some.length <= 60) ?? [];
 
 function drawPairs(root, pairs, on) {
   const marks = [];
   const numbered = new Set(numberedOf(pairs));
   const isDense = numbered.size < pairs.length;
-  const hasForce = (p) => p.look === "c" || Math.abs(p.force) > 1e-6 * scene.force;
   const few = [...numbered].filter(hasForce).length <= 12;
   for (const p of leastLoadedFirst(pairs)) {
     const [[x, y], t] = [on.spot(p), on.along(p)];
@@ -215,7 +215,7 @@ function drawPairs(root, pairs, on) {
     const isSmall = on.isSketch && p.bed && !numbered.has(p);
     const [ofNumber, ofForce] = t === null || isSmall ? [[x + 13, y - 12], [x + 13, y + 6]] : drawFace(root, p, [x, y], t, on);
     const words = rough(p.force);
-    if (numbered.has(p)) on.say(ofNumber[0], ofNumber[1] + 4, String(p.pair), isDense ? "value" : "axis-word", isDense ? String(p.pair) : null);
+    if (numbered.has(p)) on.say(ofNumber[0], ofNumber[1] + 4, String(p.pair), isDense ? "value" : "axis-word", isDense && numbered.size <= 12 ? String(p.pair) : null);
     if (numbered.has(p) && hasForce(p)) on.say(ofForce[0], ofForce[1] + 4, words, "value", few ? `${p.pair}: ${words}` : null);
     const mark = pairMark(p.look, x, y, isSmall ? 1.6 : !p.bed && hasBed() ? Math.max(6, on.r + 2) : on.r, p.closed);
     mark.append(svg("title", {}, pairWords(p)));
@@ -379,8 +379,7 @@ function drawBeam(root, f, page, isSketch) {
 }
 
 // Writes the value of each constant distributed load at its middle.
-function sayLineLoads(f, { X, Y }, say) {
-  const { nodes } = structure;
+function sayLineLoads(f, { X, Y }, say, { nodes } = structure) {
   for (const { value, elements, from, to } of (f.load.uniform || []).filter((part) => part.value)) {
     const has = elements && numbersIn(elements);
     const spans = !elements ? [[from, to]] : runsOf(nodes.slice(1).map((_, e) => has(e + 1))).filter(([e]) => has(e + 1)).map(([first, last]) => [nodes[first].x, nodes[last + 1].x]);
@@ -688,7 +687,7 @@ function preparePicture() {
   cuts.clear();
   drawnPairs = some("pairs", places.pairs.length, isBeam() ? 300 : 1000);
   drawnSupports = some("supports", places.supports.length, 300).map((i) => places.supports[i]);
-  if (places.pairs.length > 60) cuts.add(`The marks of ${numberedOf(places.pairs).length > 0 ? "beds" : "pairs"} have no numbers.`);
+  if (places.pairs.length > 60) cuts.add(`The numbers of ${hasBed() ? "beds' pairs" : "many pairs"} are not written beside their marks.`);
   fields = structure.kind === "plate" ? fieldsOf() : [];
   field = fields.find((f) => field && f.name === field.name) || fields[0];
   scene = structure.nodes.length > 0 ? sceneOf() : null;
