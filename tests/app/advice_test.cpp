@@ -5,7 +5,9 @@
 using namespace contct;
 using Catch::Matchers::Contains;
 
-TEST_CASE("a spring that is too stiff is named as the cause, and the suggested stiffness is certified") {
+TEST_CASE(
+    "if a spring is too stiff, contct run names the spring as the cause and suggests a stiffness that is "
+    "certified") {
   const scratch_folder dir;
   const std::string file = "reference/problems/pb01-cantilever-tip-stop.toml";
   std::filesystem::copy(root / file, dir.path() / "pb1.toml");

@@ -35,19 +35,20 @@ TEST_CASE("a bad problem file gives exit status 2, one message with line and col
   CHECK_THAT(refusal(dir, "program.toml"), StartsWith("contct: program.toml:1:") && Contains("not TOML"));
 }
 
-TEST_CASE("a missing file, a directory and an empty name are refused") {
+TEST_CASE("contct run refuses a missing problem file, a directory and an empty file name") {
   const scratch_folder dir;
   CHECK_THAT(refusal(dir, "missing.toml"), Contains("missing.toml: cannot be read: No such file"));
   CHECK_THAT(refusal(dir, "."), Contains("found a directory"));
   CHECK_THAT(refusal(dir, ""), Contains("cannot be read"));
 }
 
-TEST_CASE("the message about a bad problem from standard input names standard input as its file") {
+TEST_CASE(
+    "if a bad problem is read from standard input, the message names standard input in place of a file") {
   const scratch_folder dir;
   CHECK_THAT(refusal(dir, "-", {"[beam]\nEI = 0\n", {}, false}), StartsWith("contct: standard input:"));
 }
 
-TEST_CASE("an output file that cannot be written is refused before anything is solved") {
+TEST_CASE("contct run refuses an output file that cannot be written before it solves anything") {
   const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "good.toml", "--json", "no/such/place.json"});
@@ -57,7 +58,7 @@ TEST_CASE("an output file that cannot be written is refused before anything is s
   CHECK(dir.files() == std::vector<std::string>{"good.toml"});
 }
 
-TEST_CASE("wrong usage gives exit status 2, and a message with the allowed names") {
+TEST_CASE("wrong usage of contct gives exit status 2 and a message with the allowed names") {
   const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const auto refused = [&](const std::vector<std::string>& arguments, const char* words) {

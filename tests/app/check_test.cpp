@@ -23,7 +23,7 @@ const std::string by_coordinates =
 
 }  // namespace
 
-TEST_CASE("contct check describes structure, mesh, supports, pairs, beds, steps and units of a problem") {
+TEST_CASE("contct check describes the structure, mesh, supports, pairs, beds, steps and units of a problem") {
   const scratch_folder dir;
   dir.write("p.toml", by_coordinates);
   const finished f = contct_program(dir.path(), {"check", "p.toml"});
@@ -45,7 +45,7 @@ TEST_CASE("contct check describes structure, mesh, supports, pairs, beds, steps 
   CHECK(dir.files() == std::vector<std::string>{"p.toml"});
 }
 
-TEST_CASE("contct check describes a plate, a matrix and a step without load completely") {
+TEST_CASE("contct check describes a plate, and also a matrix with a step that has no load") {
   const scratch_folder dir;
   dir.write("plate.toml", good_plate);
   const finished plate = contct_program(dir.path(), {"check", "plate.toml"});
@@ -63,7 +63,7 @@ TEST_CASE("contct check describes a plate, a matrix and a step without load comp
              StartsWith("structure  matrix K.mtx\nmesh       2 dofs\n") && Contains("step 1     no load\n"));
 }
 
-TEST_CASE("contct check writes warnings to standard error, and their number to standard output") {
+TEST_CASE("contct check writes warnings to standard error, and the number of warnings to standard output") {
   const scratch_folder dir;
   dir.write("p.toml", with("node = 3\nsurface", "node = 1\nsurface"));
   const finished f = contct_program(dir.path(), {"check", "p.toml"});

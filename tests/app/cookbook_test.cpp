@@ -41,7 +41,7 @@ double decay(double modulus, double EI) {
 
 }  // namespace
 
-TEST_CASE("contct new without a kind lists all kinds of the cookbook and has exit status 2") {
+TEST_CASE("contct new without a kind of problem lists the kinds of the cookbook, and has exit status 2") {
   const finished f = contct_program(".", {"new"});
   CHECK(f.exit == 2);
   int kinds = 0;
@@ -54,7 +54,7 @@ TEST_CASE("contct new without a kind lists all kinds of the cookbook and has exi
   CHECK(kinds == 9);
 }
 
-TEST_CASE("contct new also writes the files that the problem names, and overwrites no file") {
+TEST_CASE("contct new also writes the files that its new problem names, and overwrites no existing file") {
   const scratch_folder dir;
   std::filesystem::create_directory(dir.path() / "own");
   const finished f = contct_program(dir.path(), {"new", "matrix", "own/grillage.toml"});
@@ -68,8 +68,8 @@ TEST_CASE("contct new also writes the files that the problem names, and overwrit
 }
 
 TEST_CASE(
-    "cookbook, crane: the column's reaction follows from moments about the left bearing once the bracket "
-    "separates") {
+    "cookbook, crane: after the bracket separates, moments about the left bearing give the column's "
+    "reaction") {
   const json step = solved("crane")["steps"][0];
   CHECK(step["name"] == "SLS left");
   CHECK(step["pairs"][0]["state"] == "separated");
@@ -79,8 +79,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "cookbook, slab: the settlement under the axle is that of an infinite beam plus the settlement by the "
-    "weight") {
+    "cookbook, slab: the settlement is that of an infinite beam under the axle plus that under the "
+    "self-weight") {
   const json step = solved("slab")["steps"][13];
   CHECK(step["name"] == "axle at 6");
   const double w = 6.25 / 4e4 + 100 * decay(4e4, 4.3e4) / (2 * 4e4);
@@ -103,23 +103,22 @@ TEST_CASE("cookbook, racks: the last rack has the reaction of a propped cantilev
   }
 }
 
-TEST_CASE(
-    "cookbook, rail: the settlement under the wheel is that of an infinite beam, except for separated "
-    "sleepers") {
+TEST_CASE("cookbook, rail: the settlement under the wheel is that of an infinite beam, within 1 %") {
   const json step = solved("rail")["steps"][1];
   const double w = (0.6 + 112.5 * decay(5e4, 6380.0) / 2) / 5e4;
   CHECK(step["w"][24].get<double>() == Approx(-w).epsilon(0.01));
 }
 
-TEST_CASE("cookbook, bed: the pressed edge settles like a rigid footing loaded outside its kern") {
+TEST_CASE(
+    "cookbook, bed: the pressed edge settles like that of a rigid footing with its load outside the kern") {
   const json step = solved("bed")["steps"][1];
   const double e = 240.0 / 300.0;
   CHECK(step["w"][30].get<double>() == Approx(-2 * 300.0 / (3 * (1.5 - e)) / 5e4).epsilon(0.01));
 }
 
 TEST_CASE(
-    "cookbook, matrix: a girder of the grillage bends like a simple beam if both girders are loaded "
-    "equally") {
+    "cookbook, matrix: if both girders have the same load, each girder of the grillage bends like a simple "
+    "beam") {
   const json step = solved("matrix")["steps"][0];
   CHECK(step["w"][6].get<double>() == Approx(-40.0 * 512 / (48 * 2.1e8 * 8.36e-5)).epsilon(1e-9));
 }

@@ -66,7 +66,9 @@ const json& pair_of(const json& result, std::size_t step, std::size_t pair) {
 
 }  // namespace
 
-TEST_CASE("divergence 1: at a near tie a pair is toggled too early, and the error remains after unloading") {
+TEST_CASE(
+    "DIVERGENCES.md, way 1: at a near tie a pair is toggled too early, and the error remains after "
+    "unloading") {
   const std::string text = section("1. ");
   const json wrong = run("near-tie.toml", "fortran", uncertified);
   const json truth = run("near-tie.toml", "corrected", right);
@@ -80,7 +82,8 @@ TEST_CASE("divergence 1: at a near tie a pair is toggled too early, and the erro
 }
 
 TEST_CASE(
-    "divergence 2: in a small unit of length, a separated pair makes contact before anything has moved") {
+    "DIVERGENCES.md, way 2: in a small unit of length, a separated pair makes contact before anything has "
+    "moved") {
   const std::string text = section("2. ");
   const json wrong = run("small-unit.toml", "fortran", uncertified);
   const json truth = run("small-unit.toml", "corrected", right);
@@ -92,8 +95,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "divergence 2: a pair pressed by less than EPSGAP separates when the load decreases, but its force "
-    "remains") {
+    "DIVERGENCES.md, way 2: a pair compressed by less than EPSGAP separates at unloading but keeps its "
+    "force") {
   const std::string text = section("2. ");
   const json wrong = run("stiff-stop.toml", "fortran", uncertified);
   const json truth = run("stiff-stop.toml", "corrected", right);
@@ -104,7 +107,9 @@ TEST_CASE(
   says(text, "4.5e-11", -0.004 - w(truth, 1, 3));
 }
 
-TEST_CASE("divergence 3: in single precision, a pressed pair counts as only touching its face") {
+TEST_CASE(
+    "DIVERGENCES.md, way 3: in single precision, a pressed pair counts as a pair that only touches its "
+    "face") {
   const std::string text = section("3. ");
   const json wrong = run("single-precision.toml", "fortran-r4", uncertified);
   const json in_8_bytes = run("single-precision.toml", "fortran", right);
@@ -118,7 +123,8 @@ TEST_CASE("divergence 3: in single precision, a pressed pair counts as only touc
 }
 
 TEST_CASE(
-    "divergence 4: an event exactly at full load happens in the next step, so only the status is late") {
+    "DIVERGENCES.md, way 4: an event exactly at full load happens in the next step, but displacements are "
+    "right") {
   const std::string text = section("4. ");
   for (const char* kernel : {"fortran", "corrected"}) {
     const json result = run("event-at-full-load.toml", kernel, right);
@@ -130,7 +136,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("divergence 6: an event near full load also toggles another pair") {
+TEST_CASE("DIVERGENCES.md, way 6: an event near full load also toggles a second pair, which has no event") {
   const std::string text = section("6. ");
   const json wrong = run("mark-toggled.toml", "fortran", uncertified);
   const json truth = run("mark-toggled.toml", "corrected", right);
@@ -142,7 +148,7 @@ TEST_CASE("divergence 6: an event near full load also toggles another pair") {
   CHECK(w(wrong, 1, 3) == Approx(w(truth, 1, 3)).epsilon(1e-9));
 }
 
-TEST_CASE("divergence 7: locked-in forces turn a beam that should lie flat into a mechanism") {
+TEST_CASE("DIVERGENCES.md, way 7: wrong contact forces end the path of a beam that has an equilibrium") {
   const std::string text = section("7. ");
   const json wrong = run("locked-in-forces.toml", "fortran", path_ended);
   const json truth = run("locked-in-forces.toml", "corrected", right);
@@ -153,7 +159,7 @@ TEST_CASE("divergence 7: locked-in forces turn a beam that should lie flat into 
   for (std::size_t node = 1; node <= 13; ++node) CHECK(std::abs(w(truth, 3, node)) < 1e-9);
 }
 
-TEST_CASE("divergence 8: the 1989 rule makes no progress, although an equilibrium exists") {
+TEST_CASE("DIVERGENCES.md, way 8: the 1989 rule makes no progress, although an equilibrium exists") {
   const std::string text = section("8. ");
   const json wrong = run("standstill.toml", "fortran", path_ended);
   const json truth = run("standstill.toml", "corrected", right);
@@ -164,7 +170,9 @@ TEST_CASE("divergence 8: the 1989 rule makes no progress, although an equilibriu
   says(text, "1.5", pair_of(truth, 1, 1)["force"]);
 }
 
-TEST_CASE("DIVERGENCES.md names every problem file of reference/problems/divergences, and no missing file") {
+TEST_CASE(
+    "DIVERGENCES.md names every problem file of reference/problems/divergences, and no file that does not "
+    "exist") {
   const std::string page = file_text("DIVERGENCES.md");
   const std::string folder = "problems/divergences/";
   std::set<std::string> named;

@@ -54,7 +54,8 @@ nlohmann::json result_in(const scratch_folder& dir) {
 
 }  // namespace
 
-TEST_CASE("a beam that balances on its one pair makes contact only once, in the result and in the table") {
+TEST_CASE(
+    "a beam that falls on its only pair and balances there has one event, in which the pair makes contact") {
   const scratch_folder dir;
   const finished f = run_of(over_one_pair(2), {"--kernels", "corrected", "--json", "out.json"}, dir);
   CHECK(f.exit == 0);
@@ -66,8 +67,7 @@ TEST_CASE("a beam that balances on its one pair makes contact only once, in the 
 }
 
 TEST_CASE(
-    "a path of the 1989 rule that loses all supports is not called a mechanism if the load has an "
-    "equilibrium") {
+    "if the 1989 rule loses all supports but an equilibrium exists, contct run does not report a mechanism") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--kernels", "fortran,cpp", "--json", "out.json"}, dir);
   CHECK(f.exit == 5);
@@ -82,7 +82,8 @@ TEST_CASE(
   CHECK_THAT(exact.out + exact.err, !Contains("no equilibrium"));
 }
 
-TEST_CASE("if only the path of the 1989 rule is lost, the answer is unchanged and the exit status is 0") {
+TEST_CASE(
+    "if only the path of the 1989 rule is lost, contct run still solves the problem and has exit status 0") {
   const scratch_folder dir;
   const finished f = run_of(lifted, {"--strict", "--json", "out.json"}, dir);
   CHECK(f.exit == 0);
@@ -92,7 +93,7 @@ TEST_CASE("if only the path of the 1989 rule is lost, the answer is unchanged an
   CHECK(result_in(dir)["rule_1989"]["status"] == "path-ended");
 }
 
-TEST_CASE("no command reports a missing equilibrium for a matrix with a spring softer than rounding") {
+TEST_CASE("if a matrix has a spring softer than rounding, no command reports that there is no equilibrium") {
   const scratch_folder dir;
   write_soft_matrix(dir);
   int solved = 0;
@@ -108,7 +109,7 @@ TEST_CASE("no command reports a missing equilibrium for a matrix with a spring s
   CHECK(solved == 2);
 }
 
-TEST_CASE("the result and the table of pairs have the same contact force for a stiff stop") {
+TEST_CASE("the JSON result and the CSV table of pairs have the same contact force of a stiff stop") {
   const scratch_folder dir;
   const finished f =
       run_of(stiff_stop, {"--kernels", "corrected", "--json", "out.json", "--csv", "out.csv"}, dir);
@@ -122,7 +123,8 @@ TEST_CASE("the result and the table of pairs have the same contact force for a s
   CHECK(std::strtod(last.c_str() + at, nullptr) == force);
 }
 
-TEST_CASE("contct exact measures the corrected kernel's digits from the numbers that a run's result has") {
+TEST_CASE(
+    "contct exact counts the corrected kernel's correct digits from the contact forces of the run's result") {
   const scratch_folder dir;
   dir.write(
       "p.toml",
@@ -137,7 +139,7 @@ TEST_CASE("contct exact measures the corrected kernel's digits from the numbers 
 }
 
 TEST_CASE(
-    "combinations without an equilibrium are named, later combinations are solved, and the exit status is "
+    "contct names combinations without an equilibrium, solves the later combinations, and has exit status "
     "4") {
   const scratch_folder dir;
   dir.write("p.toml",

@@ -26,7 +26,8 @@ finished exactly(const std::string& problem, const std::vector<std::string>& mor
 
 }  // namespace
 
-TEST_CASE("contct exact prints the tie of PB7's outer gap supports as the fraction 3/38") {
+TEST_CASE(
+    "contct exact prints the share at which the beam of PB7 reaches both outer stops as the fraction 3/38") {
   const finished f =
       contct_program(root, {"exact", three_gaps, "--kernels", "fortran,cpp,fortran-r4,corrected"});
   CHECK(f.exit == 0);
@@ -37,7 +38,8 @@ TEST_CASE("contct exact prints the tie of PB7's outer gap supports as the fracti
     CHECK_THAT(f.out, Contains(kernel));
 }
 
-TEST_CASE("contct exact proves a mechanism by its motion and work, with exit status 4") {
+TEST_CASE(
+    "contct exact proves a mechanism by a rigid-body motion and the load's work on it, with exit status 4") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[step]]\npoint = [ { node = 2, w = -2 } ]\n"
       "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 1\nstiffness = 1\n");
@@ -58,7 +60,7 @@ TEST_CASE("contct exact follows the 1989 rule if --rule names it") {
                       "makes contact\n"));
 }
 
-TEST_CASE("the option --digits limits the digits of a fraction, beyond which a decimal is printed") {
+TEST_CASE("if a fraction has more digits than contct exact --digits allows, a decimal is printed") {
   const std::string third = cantilever + "[[step]]\npoint = [ { node = 2, w = -1 } ]\n";
   CHECK_THAT(exactly(third).out, Contains("largest w -1/3 at node 2"));
   CHECK_THAT(exactly(third, {"--digits", "1"}).out, Contains("largest w -0.3 at node 2"));
@@ -81,7 +83,8 @@ TEST_CASE("contct exact refuses a structure with more than 50,000 dofs") {
 }
 
 TEST_CASE(
-    "contct run and contct exact use the shortest decimal of each double, and warn about longer literals") {
+    "contct run and contct exact use the shortest decimal of each double, and warn about longer numbers in a "
+    "file") {
   const scratch_folder dir;
   dir.write(
       "p.toml",
@@ -104,7 +107,8 @@ TEST_CASE(
   CHECK(nlohmann::json::parse(run.out)["steps"][0]["pairs"][0]["force"].get<double>() == Approx(8.75e-6));
 }
 
-TEST_CASE("contct exact solves a nearly singular matrix, and refuses a barely indefinite matrix") {
+TEST_CASE(
+    "contct exact solves a problem on a nearly singular matrix, and refuses a barely indefinite matrix") {
   const scratch_folder dir;
   const auto with = [&dir](const std::string& corner) {
     dir.write("k.mtx",
@@ -123,8 +127,8 @@ TEST_CASE("contct exact solves a nearly singular matrix, and refuses a barely in
 }
 
 TEST_CASE(
-    "contct exact measures kernels with settlements, several steps, two-sided pairs and pairs at fixed "
-    "dofs") {
+    "contct exact counts correct digits of kernels under settlements, several steps and pairs on both "
+    "sides") {
   const finished f = exactly(
       "[beam]\nx = [0, 1, 2, 3]\nEI = 0.333333333333333333333\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = 4\nfix = [\"w\"]\n"

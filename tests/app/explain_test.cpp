@@ -53,7 +53,8 @@ Real ulp_of(Real x) {
 }  // namespace
 
 TEST_CASE(
-    "contct explain explains an increment pair by pair, with the listing's lines and the paper's equations") {
+    "contct explain describes an increment pair by pair, with the listing's lines and the paper's "
+    "equations") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"explain", "pb.toml"});
@@ -95,7 +96,7 @@ TEST_CASE("contct explain names both dofs of a pair between two dofs of a matrix
   CHECK(pair["other"] == "right.y");
 }
 
-TEST_CASE("contct explain fits its lines to the terminal, from 40 to 160 columns") {
+TEST_CASE("contct explain wraps lines at the width of the terminal, from 40 to 160 columns") {
   for (const char* columns : {"40", "59", "80", "119", "160"}) {
     const finished f = explained({pb7, "--increment", "2.1"}, columns);
     INFO(columns << " columns\n" << f.out);
@@ -106,8 +107,8 @@ TEST_CASE("contct explain fits its lines to the terminal, from 40 to 160 columns
 }
 
 TEST_CASE(
-    "the options --step, --increment and --pair narrow the explanation, and increments are numbered as in "
-    "the table") {
+    "contct explain --step, --increment and --pair select increments by their numbers in the table, and "
+    "pairs") {
   const auto count = [](const std::string& text, const char* piece) {
     std::size_t n = 0;
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;
@@ -161,7 +162,9 @@ TEST_CASE(
   CHECK(explained({pb7, "--engine", "auto", "--quiet"}).exit == 0);  // explain accepts auto as run does
 }
 
-TEST_CASE("contct explain reports a second kernel that rounds differently in ULPs, with exit status 1") {
+TEST_CASE(
+    "if the second kernel rounds differently, contct explain gives the difference in ULPs and exit status "
+    "1") {
   const scratch_folder dir;
   const std::string plugin = "plugin:" CONTCT_PLUGINS "/libvariant_reassociated.so";
   const finished f =
@@ -175,7 +178,8 @@ TEST_CASE("contct explain reports a second kernel that rounds differently in ULP
   CHECK(all["lockstep"]["mismatches"] > 0);
 }
 
-TEST_CASE("contct explain explains a path up to the mechanism that ends it, with exit status 4") {
+TEST_CASE(
+    "contct explain describes the increments up to the mechanism that ends the path, with exit status 4") {
   const scratch_folder dir;
   dir.write("freed.toml",
             "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
@@ -189,7 +193,7 @@ TEST_CASE("contct explain explains a path up to the mechanism that ends it, with
   CHECK(beyond.exit == 2);
 }
 
-TEST_CASE("contct explain writes a long run while it follows the path, so that memory does not grow") {
+TEST_CASE("contct explain writes each increment when the path reaches it, so that memory does not grow") {
   const std::string plate = "reference/problems/pp05c-free-plate-on-bed-n16.toml";
   const finished narrow = explained({plate, "--pair", "1", "--quiet", "--json", "/dev/null"});
   const finished all = explained({plate, "--quiet", "--json", "/dev/null"});
@@ -201,7 +205,9 @@ TEST_CASE("contct explain writes a long run while it follows the path, so that m
 #endif
 }
 
-TEST_CASE("contct explain reports an event caused only by rounding near full load, which the driver undoes") {
+TEST_CASE(
+    "if the driver undoes an event that is caused only by rounding near full load, contct explain reports "
+    "this") {
   // When the load is removed, the pairs separate at the end of the step, or by rounding just before the end.
   const scratch_folder dir;
   int undone = 0;
@@ -235,7 +241,8 @@ TEST_CASE("contct explain reports an event caused only by rounding near full loa
   CHECK(undone >= 1);
 }
 
-TEST_CASE("every s of PB1 to PB11 has an error of at most 2 ULP in single and double precision") {
+TEST_CASE(
+    "every s of the problems PB1 to PB11 has an error of at most 2 ULP in single and double precision") {
   int compared = 0;
   for (const char* name :
        {"pb01-cantilever-tip-stop", "pb03c-point-load-on-bed-l6-fine", "pb05-cantilever-over-flat-obstacle",
@@ -266,7 +273,7 @@ TEST_CASE("every s of PB1 to PB11 has an error of at most 2 ULP in single and do
   CHECK(compared > 10'000);
 }
 
-TEST_CASE("a call of a trace is explained, and a differing kernel's text and faulty line are shown") {
+TEST_CASE("contct explain TRACE describes a call, and shows a differing kernel's text and faulty line") {
   const std::string plugin = "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so";
   const finished f =
       explained({"reference/traces/ties.trace", "--increment", "4", "--kernels", "fortran," + plugin});
@@ -279,7 +286,8 @@ TEST_CASE("a call of a trace is explained, and a differing kernel's text and fau
   CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
 }
 
-TEST_CASE("contct explain finds no difference in a trace of the listing, and refuses --json for a trace") {
+TEST_CASE(
+    "contct explain TRACE finds no difference in a trace of the listing, and refuses the option --json") {
   const finished f = explained({"reference/traces/ties-r4.trace", "--increment", "1", "--pair", "1"});
   CHECK(f.exit == 0);
   CHECK_THAT(f.out,

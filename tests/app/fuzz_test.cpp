@@ -25,7 +25,9 @@ nlohmann::json json_of(const scratch_folder& dir, const char* name) {
 
 }  // namespace
 
-TEST_CASE("contct fuzz finds fortran and cpp equal to the bit, and counts what it compared") {
+TEST_CASE(
+    "contct fuzz finds the kernels fortran and cpp equal to the bit, and counts the values that it "
+    "compared") {
   const scratch_folder dir;
   for (const char* kernels : {"fortran,cpp", "fortran-r4,cpp-r4"}) {
     const finished f =
@@ -48,7 +50,7 @@ TEST_CASE("contct fuzz finds fortran and cpp equal to the bit, and counts what i
   }
 }
 
-TEST_CASE("the command that contct fuzz prints repeats its run") {
+TEST_CASE("contct fuzz prints a command that repeats the run") {
   const scratch_folder dir;
   const std::string kernels = "fortran," + variant("less_equal");
   const finished a = fuzz(dir, {"--kernels", kernels, "--calls", "8000", "--seed", "77", "--shard", "2/3"});
@@ -59,7 +61,9 @@ TEST_CASE("the command that contct fuzz prints repeats its run") {
   CHECK(a.exit == 1);
 }
 
-TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and reduced to two pairs") {
+TEST_CASE(
+    "contct fuzz finds a kernel with <= EPSMUL instead of <, reports a tie, and shrinks the case to two "
+    "pairs") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("less_equal"), "--calls", "20000", "--out",
                                 "found", "--json", "f.json"});
@@ -78,7 +82,8 @@ TEST_CASE("an EPSMUL compared by less-or-equal is found, reported as a tie, and 
   CHECK(contct_program(dir.path(), {"replay", trace, "--kernel", variant("less_equal")}).exit == 1);
 }
 
-TEST_CASE("a follower plug-in that sometimes aborts fails the fuzz run, but does not end it") {
+TEST_CASE(
+    "if the second kernel is a plug-in that sometimes aborts, contct fuzz fails but makes all its calls") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", "fortran," + variant("crashes"), "--calls", "4000", "--problems",
                                 "0", "--json", "f.json"});
@@ -89,7 +94,7 @@ TEST_CASE("a follower plug-in that sometimes aborts fails the fuzz run, but does
   CHECK(json_of(dir, "f.json").at("calls") == 4000);
 }
 
-TEST_CASE("a leading plug-in that aborts ends the fuzz run with exit status 1") {
+TEST_CASE("if the first kernel is a plug-in that aborts, contct fuzz ends with exit status 1") {
   const scratch_folder dir;
   const finished f = fuzz(dir, {"--kernels", variant("crashes") + ",fortran", "--calls", "4000"});
   CHECK(f.exit == 1);

@@ -31,7 +31,8 @@ finished judged(const scratch_folder& dir, const std::string& force, const std::
 }  // namespace
 
 TEST_CASE(
-    "contct verify --results judges another program's numbers by the given tolerance, and counts them") {
+    "contct verify --results counts another program's numbers, and accepts those within the given "
+    "tolerance") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "5");
   INFO(f.out << f.err);
@@ -45,7 +46,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contct verify --results names a number outside the tolerance with its exact value, with exit status 1") {
+    "contct verify --results names a number outside the tolerance and its exact value, with exit status 1") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8614651", "5");
   CHECK(f.exit == 1);
@@ -53,8 +54,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contct verify --results has exit status 2 for fewer numbers than --least, but still writes its "
-    "reports") {
+    "contct verify --results has exit status 2 below --least numbers, but still writes the requested files") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "6");
   CHECK(f.exit == 2);
@@ -62,7 +62,7 @@ TEST_CASE(
   CHECK(nlohmann::json::parse(dir.read("out.json"))["failed"] == 0);
 }
 
-TEST_CASE("contct verify --results does not replace its input file by an output file") {
+TEST_CASE("contct verify --results refuses to overwrite the file of results that it reads") {
   const scratch_folder dir;
   dir.write("theirs.json", answers("0"));
   const finished f =

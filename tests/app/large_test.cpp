@@ -59,7 +59,9 @@ nlohmann::json result_of(const scratch_folder& dir, const std::string& text, lon
 
 }  // namespace
 
-TEST_CASE("a plate of 3000 by 2 elements takes under 62 MB and has the same answer as a plate of 2 by 3000") {
+TEST_CASE(
+    "a run of a plate of 3000 by 2 elements takes under 62 MB, and gives the answer of a plate of 2 by "
+    "3000") {
   const scratch_folder dir;
   const auto lying = result_of(dir, strip(true), 62'000);
   const auto standing = result_of(dir, strip(false), 62'000);
@@ -94,7 +96,7 @@ TEST_CASE("a run of a plate of 100 by 100 elements takes under 462 MB") {
   CHECK(r["steps"][0]["elements"].size() == 10000);
 }
 
-TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB") {
+TEST_CASE("a run of a beam of 100,000 nodes takes under 200 MB") {
   const scratch_folder dir;
   const auto result = result_of(dir, hundred_thousand_nodes(), 200'000);
   REQUIRE(result["steps"].size() == 2);
@@ -106,7 +108,8 @@ TEST_CASE("a beam of 100,000 nodes is read, solved and written in under 200 MB")
   for (const auto& pair : result["steps"][1]["pairs"]) CHECK(pair["state"] == "separated");
 }
 
-TEST_CASE("200,000 beds of one node each take no longer than one bed of 200,000 nodes") {
+TEST_CASE(
+    "a run with 200,000 beds of one node each takes no longer than a run with one bed of 200,000 nodes") {
   // Work for every node of every bed would take minutes.
   const scratch_folder dir;
   std::string text = "[beam]\nlength = 200000\nelements = 200000\nEI = 1\n";
@@ -119,7 +122,9 @@ TEST_CASE("200,000 beds of one node each take no longer than one bed of 200,000 
   CHECK_THAT(f.out, Contains("200001 of 200001 in contact"));
 }
 
-TEST_CASE("a run warns that about 1 digit of a single span of 5,000 elements can be relied on") {
+TEST_CASE(
+    "for a single span of 5,000 elements, contct run warns that about 1 digit of the answer can be relied "
+    "on") {
   const scratch_folder dir;
   dir.write("span.toml",
             "[beam]\nlength = 1\nelements = 5000\nEI = 1\n[[support]]\nnodes = [1, 5001]\nfix = [\"w\"]\n"

@@ -92,7 +92,8 @@ TEST_CASE("every command has help with examples, and every example runs as it is
 }
 
 TEST_CASE(
-    "a new problem runs, has events and is certified, and its comments name every table of the format") {
+    "a file from contct new runs with events, is certified, and names every table of the format in "
+    "comments") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_folder dir;
     INFO(shape);
@@ -116,7 +117,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a new problem still runs if its commented-out lines are activated") {
+TEST_CASE("a file from contct new still runs if its commented-out lines are activated") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_folder dir;
     std::string text = contct_program(dir.path(), {"new", shape, "-"}).out;

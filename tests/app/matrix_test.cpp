@@ -15,9 +15,7 @@ const std::string spring_problem =
 
 }  // namespace
 
-TEST_CASE(
-    "a message suggests the corrected rule if it may prove more, but not for a matrix that may be "
-    "indefinite") {
+TEST_CASE("contct run does not suggest the corrected rule for a matrix that may be indefinite") {
   const scratch_folder here;
   here.write("p.toml",
              "[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndof = \"1\"\nsurface = \"below\"\nface = 0\n"
@@ -31,7 +29,7 @@ TEST_CASE(
   CHECK(contct_program(here.path(), {"run", "p.toml", "--strict"}).exit == 0);  // now det K = 1e-6 - 2e-11
 }
 
-TEST_CASE("every engine solves and certifies a matrix in sparse storage") {
+TEST_CASE("with every engine, contct run solves and certifies a problem on a matrix in sparse storage") {
   const scratch_folder here;
   std::filesystem::copy(root / "reference/structures", here.path());
   std::string text = here.read("frame.toml");
@@ -50,7 +48,8 @@ TEST_CASE("every engine solves and certifies a matrix in sparse storage") {
 }
 
 TEST_CASE(
-    "a structure without coordinates has a page and tables, and a message explains why it has no grid") {
+    "a matrix without coordinates has a report page and tables, but --vtu is refused and the message says "
+    "why") {
   const scratch_folder dir;
   dir.write("K.mtx", header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
   dir.write("p.toml", spring_problem);
@@ -70,7 +69,7 @@ TEST_CASE(
   CHECK(dir.files() == before);
 }
 
-TEST_CASE("a warning counts the pairs that have no cell in the grid because their coordinates are unknown") {
+TEST_CASE("a warning gives the number of pairs that --vtu omits because their coordinates are unknown") {
   const scratch_folder dir;
   const std::string two = header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
   dir.write("K.mtx", two);

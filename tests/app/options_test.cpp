@@ -46,7 +46,7 @@ std::string refusal(const words& line) {
 
 }  // namespace
 
-TEST_CASE("without options, the parsed command line of contct run has no kernels and no output files") {
+TEST_CASE("without options, contct run has no kernels and no output files in its parsed command line") {
   const auto o = parsed<run_options>({"run", "beam.toml"});
   CHECK(o.file == "beam.toml");
   CHECK(o.kernels.empty());
@@ -77,7 +77,7 @@ TEST_CASE("contct run accepts its options in any order") {
   CHECK(o.max_increments == 7);
 }
 
-TEST_CASE("the option --final-only excludes every option that needs a path") {
+TEST_CASE("contct run refuses --final-only together with any option that needs a path") {
   CHECK(parsed<run_options>({"run", "f", "--final-only", "--json", "j", "--strict"}).final_only);
   const std::vector<words> of_a_path = {{"--free-run"},   {"--kernels", "cpp"}, {"--engine", "auto"},
                                         {"--trace", "t"}, {"--log", "l"},       {"--html", "h"},
@@ -89,7 +89,7 @@ TEST_CASE("the option --final-only excludes every option that needs a path") {
   }
 }
 
-TEST_CASE("an option that is not given differs from the same option with the value 0") {
+TEST_CASE("the parser distinguishes an option that is not given from an option with the value 0") {
   CHECK_FALSE(parsed<explain_options>({"explain", "f"}).step.has_value());
   CHECK(parsed<explain_options>({"explain", "f", "--step", "0"}).step == 0);
   CHECK(parsed<explain_options>({"explain", "f", "--increment", "2.1"}).increment == "2.1");
@@ -107,7 +107,7 @@ TEST_CASE("the options --help and --version print a text instead of running a co
   CHECK_THAT(parsed<printed_text>({"--version"}).text, StartsWith("contct ") && Contains("listing sha256 "));
 }
 
-TEST_CASE("a command line without a meaning is refused, with a suggestion if a name is similar") {
+TEST_CASE("contct refuses an unknown command or option, and suggests a similar name if there is one") {
   CHECK_THAT(refusal({"rnu"}),
              StartsWith("\"rnu\" is not a command of contct (did you mean \"run\"?); the commands "
                         "are: run, check, explain, "));

@@ -40,8 +40,7 @@ const check_report two_of_three{
 }  // namespace
 
 TEST_CASE(
-    "no output of any command replaces a file that the problem names, also under another name or through a "
-    "link") {
+    "no command writes an output over a file that the problem file names, under any path or through a link") {
   const scratch_folder dir;
   fs::copy(root / "reference/structures", dir.path(), fs::copy_options::recursive);
   fs::create_hard_link(dir.path() / "frame.mtx", dir.path() / "hard");
@@ -72,7 +71,7 @@ TEST_CASE(
   CHECK(dir.read("frame.mtx") == before);
 }
 
-TEST_CASE("the table of pairs, which --csv also writes, does not replace a file that the problem names") {
+TEST_CASE("contct run refuses a table of pairs that would replace a file that the problem file names") {
   const scratch_folder dir;
   dir.write("K.pairs.csv", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
   dir.write("p.toml",
@@ -82,7 +81,7 @@ TEST_CASE("the table of pairs, which --csv also writes, does not replace a file 
   CHECK_THAT(dir.read("K.pairs.csv"), Contains("MatrixMarket"));
 }
 
-TEST_CASE("contct verify replaces neither its table verification.toml nor a reference problem") {
+TEST_CASE("contct verify refuses to overwrite verification.toml or a reference problem") {
   const scratch_folder dir;
   fs::copy(root / "reference/verification.toml", dir.path());
   fs::copy(root / "reference/problems", dir.path() / "problems", fs::copy_options::recursive);
@@ -116,7 +115,8 @@ TEST_CASE("every command refuses an output file with an empty name") {
   CHECK(refused == 20);
 }
 
-TEST_CASE("two outputs in one file are refused, whatever names the file has") {
+TEST_CASE(
+    "contct run refuses two outputs in the same file, even if the options name the file by different paths") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("out", dir.path() / "link");
@@ -130,7 +130,7 @@ TEST_CASE("two outputs in one file are refused, whatever names the file has") {
         0);
 }
 
-TEST_CASE("an output in the problem's own file is refused, also through a link") {
+TEST_CASE("contct run refuses to write an output over its problem file, also through a link") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("pb.toml", dir.path() / "link");
@@ -144,8 +144,7 @@ TEST_CASE("an output in the problem's own file is refused, also through a link")
 }
 
 TEST_CASE(
-    "an output in the file to which standard output is redirected is refused, and the message suggests the "
-    "name -") {
+    "an output in the file to which standard output is redirected is refused, and the message suggests -") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   dir.write("out", "");
@@ -154,7 +153,7 @@ TEST_CASE(
       Contains("the same file as standard output"));
 }
 
-TEST_CASE("an output through a symbolic link is written to the link's target") {
+TEST_CASE("contct run writes an output whose name is a symbolic link to the target of the link") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   fs::create_symlink("target", dir.path() / "link");
@@ -165,9 +164,7 @@ TEST_CASE("an output through a symbolic link is written to the link's target") {
   }
 }
 
-TEST_CASE(
-    "a full or closed standard output gives exit status 2 and a message, but output files are still "
-    "written") {
+TEST_CASE("if standard output is full or closed, contct run writes the output files, and has exit status 2") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& arguments : {words{"run", "pb.toml"},
@@ -191,7 +188,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("contct run writes the whole page of --html, even if a pipe to head cuts off the table") {
+TEST_CASE("contct run writes the whole report page of --html, even if a pipe to head cuts off the table") {
   const scratch_folder dir;
   std::string text = good_problem;
   for (int i = 0; i < 2000; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
@@ -207,7 +204,7 @@ TEST_CASE("contct run writes the whole page of --html, even if a pipe to head cu
   CHECK(fs::exists(dir.path() / "table.csv"));
 }
 
-TEST_CASE("a run whose stiffness is too ill-conditioned has exit status 2 and writes no files") {
+TEST_CASE("if the stiffness is too ill-conditioned, contct run has exit status 2 and writes no files") {
   // PB9 with so large an EI that the bed's springs are lost to rounding.
   const scratch_folder dir;
   dir.write("stiff.toml",
@@ -221,7 +218,7 @@ TEST_CASE("a run whose stiffness is too ill-conditioned has exit status 2 and wr
   CHECK(dir.files() == words{"stiff.toml"});
 }
 
-TEST_CASE("kernels that were never called are not reported as equal to the bit") {
+TEST_CASE("contct run does not report kernels that were never called as equal to the bit") {
   const scratch_folder dir;
   dir.write("loose.toml",
             "[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\n"
@@ -244,7 +241,9 @@ TEST_CASE("a JUnit report counts failed and skipped tests, and escapes the chara
              Contains("<testsuite name=\"two&#10;lines\" tests=\"0\""));
 }
 
-TEST_CASE("a Markdown summary begins with the verdict, and no text of a test breaks its table") {
+TEST_CASE(
+    "a Markdown summary begins with the verdict, and a test's text with Markdown characters keeps the table "
+    "valid") {
   const std::string text = markdown(two_of_three);
   CHECK(text.rfind("## contct replay: failed\n", 0) == 0);
   CHECK_THAT(text, Contains("1 passed, 1 failed, 1 skipped"));

@@ -53,7 +53,8 @@ std::size_t states_in(const nlohmann::json& result) {
 
 }  // namespace
 
-TEST_CASE("contct run --html --csv --vtu writes its page, tables and grids, and no other files") {
+TEST_CASE(
+    "contct run --html --csv --vtu writes the report page, the tables and the grids, and no other files") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), run_of(all_of_them));
@@ -66,7 +67,8 @@ TEST_CASE("contct run --html --csv --vtu writes its page, tables and grids, and 
 }
 
 TEST_CASE(
-    "the page has the result that --json writes, the structure, the states within steps and the calls") {
+    "the report page has the result that --json writes, the structure, the states within steps and the "
+    "calls") {
   for (const char* file :
        {"pb01-cantilever-tip-stop", "pb07-three-gap-supports", "pp03d-corners-and-settled-stop-n4"}) {
     INFO(file);
@@ -92,7 +94,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an output is refused if it has the name of any file that --html, --csv or --vtu writes") {
+TEST_CASE("contct run refuses an output with the name of any file that --html, --csv or --vtu writes") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const words& two : {words{"--html", "out", "--csv", "out"},
@@ -114,7 +116,7 @@ TEST_CASE("an output is refused if it has the name of any file that --html, --cs
   }
 }
 
-TEST_CASE("if the name of an output is -, only this output is written to standard output") {
+TEST_CASE("if an output has the name -, standard output contains only this output") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), run_of({"--html", "-"})).out.rfind("<!DOCTYPE html>", 0) == 0);
@@ -123,7 +125,7 @@ TEST_CASE("if the name of an output is -, only this output is written to standar
   CHECK(dir.files() == words{"pb.toml"});  // no table of pairs is written
 }
 
-TEST_CASE("the page has the date of the run, or the date in SOURCE_DATE_EPOCH") {
+TEST_CASE("the report page has the date of the run, or the date in SOURCE_DATE_EPOCH if this is set") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   process_options o;

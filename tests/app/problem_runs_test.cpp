@@ -40,7 +40,9 @@ step_state state_with(double rcond, int step) {
 
 }  // namespace
 
-TEST_CASE("the message about a path that fails names step, share, and pairs by number, node and surface") {
+TEST_CASE(
+    "the message about a path that fails has the step, the share, and the number, node and surface of each "
+    "pair") {
   const problem p = ten_pairs();
   for (const path_status status :
        {path_status::mechanism, path_status::cycle, path_status::iteration_limit, path_status::not_factored})
@@ -53,15 +55,14 @@ TEST_CASE("the message about a path that fails names step, share, and pairs by n
   CHECK_THAT(end_words(p, ended(path_status::not_factored)), Contains("ill-conditioned"));
 }
 
-TEST_CASE("a message names at most eight pairs, and counts the others") {
+TEST_CASE("the message about a path that fails names at most eight pairs, and counts the other pairs") {
   const std::string words = end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
   CHECK_THAT(words, Contains("pair 8 (") && Contains(" and 2 more") && !Contains("pair 9 ("));
   CHECK_THAT(end_words(ten_pairs(), ended(path_status::cycle, {0, 1, 2, 3, 4, 5, 6, 7})), !Contains("more"));
 }
 
 TEST_CASE(
-    "the message about a path that ended early reports whether an equilibrium exists and which command finds "
-    "it") {
+    "the message about a path that ended early says if an equilibrium exists, and which kernel reaches it") {
   path_end early = ended(path_status::path_ended, {0});
   early.by_1989_rule = true;
   CHECK_THAT(end_words(ten_pairs(), early),
@@ -77,12 +78,13 @@ TEST_CASE(
   CHECK_THAT(end_words(ten_pairs(), cycle), EndsWith("There is no equilibrium under the load of this step"));
 }
 
-TEST_CASE("the message about a structure that nothing holds suggests a support, and no other kernel") {
+TEST_CASE("if nothing holds the structure, the message suggests a support and no other kernel") {
   CHECK_THAT(end_words(ten_pairs(), ended(path_status::mechanism)),
              Contains("a rigid-body motion") && Contains("Add a support") && !Contains("--kernels"));
 }
 
-TEST_CASE("the exit status distinguishes a mechanism, a limit and a matrix that cannot be factored") {
+TEST_CASE(
+    "contct run has different exit statuses for a mechanism, a limit and a matrix that cannot be factored") {
   CHECK(status_of(path_status::solved) == exit_status::solved);
   CHECK(status_of(path_status::mechanism) == exit_status::mechanism);
   CHECK(status_of(path_status::path_ended) == exit_status::iteration_limit);
@@ -91,7 +93,7 @@ TEST_CASE("the exit status distinguishes a mechanism, a limit and a matrix that 
   CHECK(status_of(path_status::not_factored) == exit_status::bad_input);
 }
 
-TEST_CASE("a run warns about the step with the fewest digits if they are fewer than five") {
+TEST_CASE("if a step has fewer than five correct digits, contct run warns about the step with the fewest") {
   run_recorder seen;
   seen.step_ended(state_with(1e-3, 1));
   CHECK(digit_warning(seen.steps).empty());

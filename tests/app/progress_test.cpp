@@ -47,7 +47,7 @@ class plate_directory : public scratch_folder {
 
 }  // namespace
 
-TEST_CASE("every long command shows its progress on a terminal, and erases it at the end") {
+TEST_CASE("every long command shows progress on a terminal, and erases it at the end") {
   const plate_directory dir;
   for (const long_work& w : long_works()) {
     INFO(w.name);
@@ -76,7 +76,8 @@ TEST_CASE("no command shows progress with --quiet, or if standard error is not a
   CHECK(contct_program(dir.path(), {"run", "plate.toml"}, at_once).err.empty());
 }
 
-TEST_CASE("if table and progress share a terminal, the progress is erased before every row of the table") {
+TEST_CASE(
+    "if the table and the progress share a terminal, the progress is erased before each row of the table") {
   const plate_directory dir;
   const std::vector<std::string> run = {"run", "plate.toml", "--kernels", "corrected"};
   const finished plain = contct_program(dir.path(), run);
@@ -95,7 +96,7 @@ TEST_CASE("if table and progress share a terminal, the progress is erased before
   CHECK(screen == plain.out);
 }
 
-TEST_CASE("a CONTCT_PROGRESS_AFTER that is not a number of seconds is refused") {
+TEST_CASE("contct run refuses a CONTCT_PROGRESS_AFTER that is not a number of seconds") {
   const plate_directory dir;
   for (const char* const wrong : {"soon", "-1", "nan", "1s", ""}) {
     const finished f = at_terminal(dir, {"run", "plate.toml"}, wrong);

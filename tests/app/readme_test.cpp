@@ -30,7 +30,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 
 }  // namespace
 
-TEST_CASE("the run shown in README.md equals the program's output") {
+TEST_CASE("README.md shows the output that the program prints for the same run") {
   const std::string problem = "reference/problems/pb07-three-gap-supports.toml";
   const std::string shown = between(readme(), "$ build/release/contct run " + problem + "\n", "```");
   const finished f = contct_program(root, {"run", problem});
@@ -38,7 +38,7 @@ TEST_CASE("the run shown in README.md equals the program's output") {
   CHECK(shown == f.out);
 }
 
-TEST_CASE("the beam in README.md can be run, and has an event") {
+TEST_CASE("the beam in README.md runs, and has an event") {
   const std::string text = readme();
   int problems = 0;
   for (std::size_t at = text.find("```toml\n"); at != std::string::npos;
@@ -54,7 +54,7 @@ TEST_CASE("the beam in README.md can be run, and has an event") {
   CHECK(problems == 1);
 }
 
-TEST_CASE("README.md cites the program with the name, version and checksum that --version prints") {
+TEST_CASE("README.md cites the program with the name, version and checksum that contct --version prints") {
   const std::string cited = between(readme(), "@software{contct,", "```");
   const finished f = contct_program(root, {"--version"});
   const std::string version = between(f.out, "contct ", "\n");
@@ -64,7 +64,7 @@ TEST_CASE("README.md cites the program with the name, version and checksum that 
   CHECK_THAT(cited, Catch::Matchers::Contains("Listing SHA-256 " + checksum + "}"));
 }
 
-TEST_CASE("the trace in trace-format.md is valid, and FORTRAN and C++ give its answers") {
+TEST_CASE("the trace in trace-format.md is valid, and the FORTRAN and C++ kernels give its answers") {
   process_options shown;
   shown.input = between(page("reference/trace-format.md"), "```trace\n", "```");
   const finished f = contct_program(root, {"replay", "--kernel", "fortran,cpp", "-"}, shown);

@@ -27,7 +27,7 @@ std::string recorded(const scratch_folder& dir, const char* problem) {
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ replay a recorded path equal to the bit") {
+TEST_CASE("FORTRAN and C++ replay a recorded path, and their answers are equal to the bit") {
   const scratch_folder dir;
   const std::string trace = recorded(dir, "pb07-three-gap-supports.toml");
   CHECK_THAT(trace, Contains("\nlapack LAPACK ") && Contains("\nfloating-point strict\n"));
@@ -41,7 +41,7 @@ TEST_CASE("FORTRAN and C++ replay a recorded path equal to the bit") {
   CHECK_THAT(piped.out, Contains("standard input: fortran: equal"));
 }
 
-TEST_CASE("a kernel of another precision does not replay a trace") {
+TEST_CASE("contct replay refuses a kernel whose precision is not that of the trace") {
   const scratch_folder dir;
   recorded(dir, "pb01-cantilever-tip-stop.toml");
   const finished f = contct_program(dir.path(), {"replay", "t.trace", "--kernel", "cpp-r4"});
@@ -51,7 +51,8 @@ TEST_CASE("a kernel of another precision does not replay a trace") {
 }
 
 TEST_CASE(
-    "a trace with a changed answer gives exit status 1, the branch margin, and a failure in the reports") {
+    "if the trace has a changed answer, contct replay reports the branch margin and a failure, with exit "
+    "status 1") {
   const scratch_folder dir;
   std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");
   const std::size_t at = trace.find("MAKING");
@@ -67,7 +68,7 @@ TEST_CASE(
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
 }
 
-TEST_CASE("a replay of all reference traces names the faulty line of a kernel, and the known fault") {
+TEST_CASE("contct replay of all reference traces names the line at fault in a kernel and the known fault") {
   std::vector<std::string> arguments = {
       "replay", "--quiet", "--kernel", "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so"};
   std::vector<std::string> traces;
@@ -86,7 +87,7 @@ TEST_CASE("a replay of all reference traces names the faulty line of a kernel, a
   CHECK_THAT(f.err, Contains("known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."));
 }
 
-TEST_CASE("contct replay refuses a file that is not a trace, and names the file") {
+TEST_CASE("contct replay refuses a file that is not a trace, and the message names the file") {
   const scratch_folder dir;
   dir.write("empty.trace", "");
   dir.write("header.trace", "contct-trace-1 2026-11-21\nkernel fortran\n");
@@ -99,7 +100,7 @@ TEST_CASE("contct replay refuses a file that is not a trace, and names the file"
   CHECK(contct_program(dir.path(), {"replay"}).exit == 2);
 }
 
-TEST_CASE("contct-replay prints the same as contct replay, and needs neither LAPACK nor BLAS") {
+TEST_CASE("contct-replay prints the same as contct replay, but is not linked with LAPACK or BLAS") {
   const scratch_folder dir;
   recorded(dir, "pb07-three-gap-supports.toml");
   const std::string program = (fs::path(CONTCT_PROGRAM).parent_path() / "contct-replay").string();
@@ -112,7 +113,9 @@ TEST_CASE("contct-replay prints the same as contct replay, and needs neither LAP
   CHECK_THAT(shell("ldd " + std::string(CONTCT_PROGRAM)).out, Contains("lapack"));
 }
 
-TEST_CASE("the JUnit report of a run has one test each for kernels, path and certificate") {
+TEST_CASE(
+    "the JUnit report of contct run has one test for the kernels, one for the path and one for the "
+    "certificate") {
   const scratch_folder dir;
   const finished f =
       contct_program(dir.path(), {"run", reference_problem("pb05-cantilever-over-flat-obstacle.toml"),

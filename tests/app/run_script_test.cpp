@@ -56,7 +56,7 @@ class built_project {
 
 }  // namespace
 
-TEST_CASE("run.sh takes file names relative to the folder in which it is called") {
+TEST_CASE("cpp/run.sh takes file names relative to the folder in which it is called") {
   const built_project project;
   const scratch_folder elsewhere;
   elsewhere.write("my own.toml", good_problem);
@@ -67,7 +67,7 @@ TEST_CASE("run.sh takes file names relative to the folder in which it is called"
   CHECK(elsewhere.files() == std::vector<std::string>{"my own.toml", "out.json"});
 }
 
-TEST_CASE("run.sh without arguments runs the README's problem from any folder") {
+TEST_CASE("cpp/run.sh without arguments runs the reference problem PB7, whatever the current folder is") {
   const built_project project;
   const scratch_folder elsewhere;
   const auto [at_home, shown] = project.run(project.root(), "");
@@ -89,7 +89,8 @@ TEST_CASE("run.sh without arguments runs the README's problem from any folder") 
           "all 4 final states are certified for this mesh\nproved: 10 digits or more of every number\n"));
 }
 
-TEST_CASE("run.sh returns the program's exit status, and prints the last messages of a failed build") {
+TEST_CASE(
+    "cpp/run.sh returns the program's exit status, and prints the last messages of a build that fails") {
   const built_project project;
   const scratch_folder elsewhere;
   CHECK(WEXITSTATUS(project.run(elsewhere.path(), "run missing.toml").first) == 2);

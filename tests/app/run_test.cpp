@@ -28,7 +28,9 @@ std::size_t longest_line(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the table shows share, s, load, and events with node and surface, and whether the kernels agree") {
+TEST_CASE(
+    "the table of contct run has share, s, load, events with node and surface, and the comparison of the "
+    "kernels") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"});
@@ -49,7 +51,8 @@ TEST_CASE("the table shows share, s, load, and events with node and surface, and
 }
 
 TEST_CASE(
-    "without --kernels, the answer is the corrected rule's, and each row shows what the 1989 rule does") {
+    "without --kernels, contct run gives the corrected rule's answer, and compares the 1989 rule in every "
+    "row") {
   const scratch_folder dir;
   const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
   const finished f = contct_program(dir.path(), {"run", near, "--strict", "--json", "o.json"});
@@ -77,7 +80,8 @@ TEST_CASE(
   CHECK(unloaded["right"] == 0.0);
 }
 
-TEST_CASE("the table does not print errors of the 1989 rule in red if the answer is certified") {
+TEST_CASE(
+    "if the answer is certified, the table of contct run does not print errors of the 1989 rule in red") {
   const scratch_folder dir;
   const std::string near = CONTCT_ROOT "/reference/problems/divergences/near-tie.toml";
   const process_options at_terminal{"", {{"TERM", "xterm"}}, true};
@@ -87,7 +91,8 @@ TEST_CASE("the table does not print errors of the 1989 rule in red if the answer
              Contains(red));
 }
 
-TEST_CASE("without --kernels, the trace and the text of unit 26 are those of the 1989 rule") {
+TEST_CASE(
+    "without --kernels, --trace and --log of contct run write the calls and the text of the 1989 rule") {
   const scratch_folder dir;
   const std::string pb7 = CONTCT_ROOT "/reference/problems/pb07-three-gap-supports.toml";
   const auto calls = [&](std::vector<std::string> more) {
@@ -99,7 +104,7 @@ TEST_CASE("without --kernels, the trace and the text of unit 26 are those of the
   CHECK(calls({}) == calls({"--kernels", "fortran"}));
 }
 
-TEST_CASE("--refine reports no change for a beam without a bed, and refuses a matrix") {
+TEST_CASE("contct run --refine reports no change for a beam without a bed, and refuses a matrix") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--refine", "--json", "o.json"});
@@ -121,8 +126,8 @@ TEST_CASE("--refine reports no change for a beam without a bed, and refuses a ma
 }
 
 TEST_CASE(
-    "a step's table has a bed's pressure and contact length, and --refine reports that it doubles the bed's "
-    "pairs") {
+    "contct run prints a bed's pressure and contact length, and --refine warns that the bed has twice as "
+    "many pairs") {
   const finished f = contct_program(
       "/", {"run", std::string(CONTCT_ROOT) + "/reference/problems/pb11a-strip-footing-n20.toml", "--kernels",
             "corrected", "--refine"});
@@ -133,7 +138,7 @@ TEST_CASE(
   CHECK_THAT(f.out, Contains("pressure by 0.0157 (0.47 %)") && Contains("but a bed has twice as many pairs"));
 }
 
-TEST_CASE("the table fits its terminal, from 40 to 160 columns") {
+TEST_CASE("no line of the table of contct run is wider than the terminal, from 40 to 160 columns") {
   const scratch_folder dir;
   std::string busy =
       "title = \"A beam of a long name, with which the narrowest of all terminals has its trouble\"\n"
@@ -157,7 +162,7 @@ TEST_CASE("the table fits its terminal, from 40 to 160 columns") {
   }
 }
 
-TEST_CASE("the option --node selects a node by number or by x, and an unknown node is refused") {
+TEST_CASE("contct run --node selects a node by number or by x, and refuses an unknown node") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   for (const char* node : {"2", "x = 1", "x=1.0"})
@@ -175,7 +180,7 @@ TEST_CASE("the option --node selects a node by number or by x, and an unknown no
   CHECK(dir.files() == std::vector<std::string>{"pb.toml"});
 }
 
-TEST_CASE("on a narrow terminal, an increment's events are on lines below the increment") {
+TEST_CASE("on a terminal of 40 columns, the events of an increment are on lines below the increment") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp"},
@@ -194,7 +199,7 @@ TEST_CASE("on a narrow terminal, an increment's events are on lines below the in
                              "    reaction 18.1395, node 1\n"));
 }
 
-TEST_CASE("colour appears only on a terminal, and neither with NO_COLOR nor with TERM=dumb") {
+TEST_CASE("contct run colours text only on a terminal, and neither with NO_COLOR nor with TERM=dumb") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto escapes = [&](const process_options& o) {
@@ -219,7 +224,7 @@ TEST_CASE("contct run reads a problem from standard input and writes only the re
 }
 
 TEST_CASE(
-    "the option --log writes the leading kernel's unit 26, which is the same file for FORTRAN and C++") {
+    "contct run --log writes unit 26 of the leading kernel, and the file is the same for FORTRAN and C++") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   CHECK(contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran", "--log", "fortran.log"}).exit ==
@@ -232,7 +237,8 @@ TEST_CASE(
   CHECK(dir.read("cpp.log") == dir.read("fortran.log"));
 }
 
-TEST_CASE("a mechanism gives exit status 4, and the message names the pair that separated") {
+TEST_CASE(
+    "if the structure becomes a mechanism, contct run names the pair that separated, with exit status 4") {
   const scratch_folder dir;
   dir.write("freed.toml", freed);
   const finished f = contct_program(dir.path(), {"run", "freed.toml", "--json", "out.json"});
@@ -245,7 +251,7 @@ TEST_CASE("a mechanism gives exit status 4, and the message names the pair that 
   CHECK(result["steps"][0]["fraction"].get<double>() < 1e-9);
 }
 
-TEST_CASE("a run that reaches --max-increments has exit status 5, and its result names this reason") {
+TEST_CASE("contct run that reaches --max-increments has exit status 5, and the JSON result names the limit") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--kernels", "fortran,cpp",
@@ -255,7 +261,7 @@ TEST_CASE("a run that reaches --max-increments has exit status 5, and its result
   CHECK(nlohmann::json::parse(dir.read("out.json"))["status"] == "iteration-limit");
 }
 
-TEST_CASE("a run with a single kernel makes no comparison, and does not claim equality") {
+TEST_CASE("contct run with a single kernel makes no comparison, and does not report equality") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f =
@@ -266,7 +272,7 @@ TEST_CASE("a run with a single kernel makes no comparison, and does not claim eq
 }
 
 TEST_CASE(
-    "in a free run every kernel follows its own path, and precisions differ by less than a stated bound") {
+    "in a free run each kernel follows its own path, and single precision is compared with a larger bound") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--free-run", "--kernels",
@@ -281,7 +287,7 @@ TEST_CASE(
   CHECK(result["free_run"][1]["displacement"] > 0.0);
 }
 
-TEST_CASE("a free run has exit status 1 if the share of an event differs by more than the bound") {
+TEST_CASE("contct run --free-run has exit status 1 if the share of an event differs by more than the bound") {
   // Step 1 ends with the node 1e-5 before its face, and step 2 with the node 1e-5 beyond the face. Single
   // precision cannot resolve the share at which the node reaches the face.
   const scratch_folder dir;
@@ -314,7 +320,9 @@ TEST_CASE("contct kernels prints the listing's checksum and the result of the fl
   CHECK_THAT(kernels.out, Contains(checksum));
 }
 
-TEST_CASE("with --strict an uncertified state gives exit status 3, and the message names the early toggle") {
+TEST_CASE(
+    "contct run --strict has exit status 3 for an uncertified state, and the message names the early "
+    "toggle") {
   const scratch_folder dir;
   const std::string pb5 = CONTCT_ROOT "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";
   CHECK(contct_program(dir.path(), {"run", pb5, "--kernels", "fortran,cpp"}).exit == 0);
@@ -333,7 +341,9 @@ TEST_CASE("with --strict an uncertified state gives exit status 3, and the messa
   CHECK(contct_program(dir.path(), {"run", pb5, "--strict", "--kernels", "corrected"}).exit == 0);
 }
 
-TEST_CASE("the 1989 rule uses the engine refactor by default, and the corrected rule the fastest engine") {
+TEST_CASE(
+    "contct run uses the engine refactor if a 1989 kernel leads, and the fastest engine for the corrected "
+    "rule") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   const auto engine_of = [&dir](std::vector<std::string> more) {
@@ -365,7 +375,7 @@ TEST_CASE("the 1989 rule uses the engine refactor by default, and the corrected 
   CHECK_THAT(unknown.err, Contains("no engine is named \"warp\"") && Contains("condensed"));
 }
 
-TEST_CASE("the option --final-only gives certified final states without following the path") {
+TEST_CASE("contct run --final-only gives certified final states without following the path") {
   const scratch_folder dir;
   const std::string pb5 =
       std::string(CONTCT_ROOT) + "/reference/problems/pb05-cantilever-over-flat-obstacle.toml";

@@ -105,7 +105,7 @@ void write_matrix_problem(const scratch_folder& dir, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("no text of a problem file sends control characters to a terminal, in any command") {
+TEST_CASE("no command sends control characters from a problem file to the terminal") {
   const scratch_folder dir;
   int escaped = 0;
   const std::string name = "p" + hostile_bytes + "'\n.toml";
@@ -116,7 +116,9 @@ TEST_CASE("no text of a problem file sends control characters to a terminal, in 
   CHECK(escaped >= 25);
 }
 
-TEST_CASE("no text of a trace or of a file that a problem names sends control characters to a terminal") {
+TEST_CASE(
+    "no command sends control characters from a trace, or from a file that a problem names, to the "
+    "terminal") {
   const scratch_folder dir;
   int escaped = 0;
   write_matrix_problem(dir, "n");
@@ -142,7 +144,7 @@ TEST_CASE("no text of a trace or of a file that a problem names sends control ch
   CHECK(escaped >= 2);
 }
 
-TEST_CASE("control characters in a kernel's answer are escaped in messages") {
+TEST_CASE("messages escape control characters in a kernel's answer") {
   const scratch_folder dir;
   dir.write("p.toml", filled(beam_problem, ""));
   dir.write("kernel.sh",
@@ -157,7 +159,8 @@ TEST_CASE("control characters in a kernel's answer are escaped in messages") {
   CHECK(escaped >= 2);
 }
 
-TEST_CASE("every command refuses a file outside the problem's folder unless --allow-outside is given") {
+TEST_CASE(
+    "run, check, explain and exact refuse a file outside the problem's folder, except with --allow-outside") {
   const scratch_folder dir;
   fs::create_directory(dir.path() / "own");
   dir.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n");
@@ -176,7 +179,7 @@ TEST_CASE("every command refuses a file outside the problem's folder unless --al
   CHECK(allowed == 4);
 }
 
-TEST_CASE("no message quotes a file outside the problem's folder") {
+TEST_CASE("no message quotes the content of a file outside the problem's folder") {
   const scratch_folder dir;
   const std::string secret = "secretroot:x:0:0:root:/root:/bin/sh";
   dir.write("passwd", secret + "\n" + secret + "2 secretfield\n");

@@ -11,7 +11,8 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE(
-    "contct verify passes every number of reference/, and reports the kind of evidence for each number") {
+    "contct verify passes every number of verification.toml, and reports the kind of evidence for each "
+    "number") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"verify", "--json", "v.json"});
   INFO(f.err);
@@ -64,7 +65,7 @@ finished verify_with(const scratch_folder& dir, const std::string& right, const 
 
 }  // namespace
 
-TEST_CASE("contct verify has exit status 1 if one number is wrong") {
+TEST_CASE("contct verify has exit status 1 if one number of verification.toml is wrong") {
   const scratch_folder dir;
   const finished f = verify_with(dir, "-0.00266666667", "-0.00266666697");
   CHECK(f.exit == 1);
@@ -72,7 +73,7 @@ TEST_CASE("contct verify has exit status 1 if one number is wrong") {
   CHECK_THAT(f.out, Contains("1 failed"));
 }
 
-TEST_CASE("contct verify names a missing verification.toml") {
+TEST_CASE("if verification.toml is missing, contct verify names this file") {
   const scratch_folder dir;
   const finished f = contct_program(dir.path(), {"verify", "--reference", "nowhere"});
   CHECK(f.exit == 2);

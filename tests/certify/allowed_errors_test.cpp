@@ -21,7 +21,9 @@ error_bounds bounds(double w, double w_size, double force, double force_size) {
 
 }  // namespace
 
-TEST_CASE("the allowed error of a quantity is a millionth of its largest number in the same state") {
+TEST_CASE(
+    "the allowed error of a quantity is a millionth of the largest number of this quantity in the same "
+    "state") {
   allowed_errors sizes;
   const by_quantity of_large = sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
   CHECK(of_large[quantity::w] == Approx(2e-6));
@@ -31,7 +33,9 @@ TEST_CASE("the allowed error of a quantity is a millionth of its largest number 
   CHECK(of_small[quantity::w] == Approx(2e-9));  // not relative to the path's 2.0
 }
 
-TEST_CASE("the allowed error of an unloaded state is relative to the largest numbers of its path") {
+TEST_CASE(
+    "the allowed error of an unloaded state is relative to the largest numbers of the path before this "
+    "state") {
   allowed_errors sizes;
   (void)sizes.of(bounds(1e-9, 2.0, 1e-9, 50.0), 10.0);
   error_bounds nothing = bounds(1e-12, 1e-12, 0.0, 0.0);
@@ -43,8 +47,7 @@ TEST_CASE("the allowed error of an unloaded state is relative to the largest num
 }
 
 TEST_CASE(
-    "the allowed error of an unloaded state does not depend on its own errors or on unproved earlier "
-    "states") {
+    "in an unloaded state, neither the state's errors nor earlier unproved states change the allowed error") {
   allowed_errors sizes;
   (void)sizes.of(bounds(3.0, 2.0, 20.0, 50.0), 10.0);
   error_bounds nothing = bounds(1.0, 1.0, 1.0, 1.0);
@@ -55,7 +58,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the worst error is given as a share of what is allowed, and its message is relative to the largest "
+    "worst_share divides an error by the allowed error, and worst_bound gives it in per cent of the largest "
     "number") {
   allowed_errors sizes;
   const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);
@@ -72,7 +75,7 @@ TEST_CASE(
   CHECK(worst_bound(good.error, sizes.of(good, 10.0)).empty());
 }
 
-TEST_CASE("an error of a quantity without an allowed error, or a NaN error, is the worst of all") {
+TEST_CASE("an error that is NaN, or whose quantity has no allowed error, counts as infinite") {
   by_quantity error, allowed;
   error[quantity::force] = 1e-20;
   CHECK(std::isinf(worst_share(error, allowed)));
@@ -87,7 +90,7 @@ TEST_CASE("an error of a quantity without an allowed error, or a NaN error, is t
   CHECK_FALSE(worst_bound(error, allowed).empty());
 }
 
-TEST_CASE("the allowed error does not grow with the error bounds") {
+TEST_CASE("larger error bounds of a state do not increase the allowed error") {
   for (const double bound : {1e-30, 1.0, 1e30}) {
     allowed_errors sizes;
     const by_quantity allowed = sizes.of(bounds(bound, 0.0, bound, 200.0), 2.0);
@@ -97,7 +100,8 @@ TEST_CASE("the allowed error does not grow with the error bounds") {
 }
 
 TEST_CASE(
-    "the allowed error of forces of a beam under couples alone is 2^-60 of its moments divided by the span") {
+    "under couples alone, the allowed error of a beam's forces is 2^-60 times its largest moment over the "
+    "span") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.size[quantity::moment] = 40.0;
   allowed_errors sizes;
@@ -105,8 +109,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "if only supports settle, the allowed error of forces is 2^-70 of the force that settles one support "
-    "alone") {
+    "if only supports settle, the allowed error of forces is 2^-70 times the force that settles one "
+    "support") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.settling[quantity::force] = 2.0;
   allowed_errors of_matrix;
@@ -116,7 +120,9 @@ TEST_CASE(
   CHECK(of_beam.of(b, 10.0)[quantity::force] == Approx(0x1p-70 * 6));
 }
 
-TEST_CASE("the allowed error of a gap is relative to the largest deflection or gap, whichever is larger") {
+TEST_CASE(
+    "the allowed error of a gap is relative to the larger one of the largest deflection and the largest "
+    "gap") {
   error_bounds b = bounds(1e-9, 2.0, 1e-9, 50.0);
   b.error[quantity::gap] = 1e-9;
   b.size[quantity::gap] = 1.0;
@@ -126,7 +132,7 @@ TEST_CASE("the allowed error of a gap is relative to the largest deflection or g
   CHECK(sizes.of(b, 10.0)[quantity::gap] == Approx(30e-6));
 }
 
-TEST_CASE("a NaN error is recorded as infinite, and later errors do not replace it") {
+TEST_CASE("a NaN error is recorded as infinite, and later errors of the same quantity do not replace it") {
   by_quantity error;
   for (const double value : {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})
     error.take(quantity::force, value);

@@ -88,7 +88,7 @@ beam_problem span_with_pairs() {
 
 }  // namespace
 
-TEST_CASE("a correct state is certified, with no error in any measure of the certificate") {
+TEST_CASE("a correct state is certified, and every error in the certificate is below 1e-12") {
   const beam_problem p = span_with_pairs();
   const told_state right = right_state(p, p.steps[0]);
   REQUIRE(right.isep == std::vector<int>{in_contact, in_contact, separated, separated});
@@ -105,7 +105,8 @@ TEST_CASE("a correct state is certified, with no error in any measure of the cer
 }
 
 TEST_CASE(
-    "an error of a state appears in every measure that it affects, and the message names the worst measure") {
+    "each error of a state appears in all measures of the certificate that it affects, and the message names "
+    "one") {
   // A wrong status of a pair with a weak spring does not disturb equilibrium, so only penetration or
   // tension detects the wrong status.
   const beam_problem p = span_with_pairs();
@@ -140,8 +141,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an error in w that hardly disturbs equilibrium is detected only by comparison with the reference "
-    "solution") {
+    "only comparison with the reference solution detects an error in w that hardly disturbs equilibrium") {
   // A nearly rigid beam on soft springs, with a deflection that is 1e-5 too large.
   beam_problem p = free_beam_on_springs(4.0, 4, 1e10, 1.0);
   p.steps = {{{}, {{{-1.0}, {}}}}};
@@ -167,14 +167,15 @@ TEST_CASE("a missing force on a stiff support violates equilibrium, but hardly c
   CHECK(wrong_in(judged(changed, t)) == "DSE");
 }
 
-TEST_CASE("a fixed dof's equilibrium is not checked, because its support carries its load") {
+TEST_CASE(
+    "the certificate does not check the equilibrium of a fixed dof, because the support carries the load") {
   beam_problem p = span_with_pairs();
   const told_state t = right_state(p, p.steps[0]);
   p.steps[0].points = {{0, 0, -1e6}};
   CHECK(judged(p, t).certified);
 }
 
-TEST_CASE("a pair exactly at its face may have either status") {
+TEST_CASE("a pair exactly at its face may be separated or in contact in a certified state") {
   beam_problem p = span_with_pairs();
   p.supports.push_back({0, 1, true});
   told_state t = right_state(p, {});
@@ -186,7 +187,7 @@ TEST_CASE("a pair exactly at its face may have either status") {
   }
 }
 
-TEST_CASE("a step that did not reach its load has no certificate") {
+TEST_CASE("a step that did not reach its full load has no certificate") {
   const beam_problem p = span_with_pairs();
   told_state t = right_state(p, p.steps[0]);
   judge j(p);
@@ -197,7 +198,7 @@ TEST_CASE("a step that did not reach its load has no certificate") {
   CHECK_FALSE(j.c.all_certified());
 }
 
-TEST_CASE("without an equilibrium no state is certified, and the certificate gives this reason") {
+TEST_CASE("if there is no equilibrium, no state is certified, and the certificate gives this reason") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   p.steps = {{{}, {{{1.0}, {}}}}};
   const certificate c = judged(p, {std::vector<double>(10, 0.0), std::vector<int>(5, separated)});
@@ -205,7 +206,9 @@ TEST_CASE("without an equilibrium no state is certified, and the certificate giv
   CHECK(says(c, "there is no equilibrium"));
 }
 
-TEST_CASE("if a rigid-body motion is free, displacements are not compared, but everything else is checked") {
+TEST_CASE(
+    "if a rigid-body motion is free, the certificate does not compare displacements, but checks everything "
+    "else") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   told_state t = right_state(p, p.steps[0]);
@@ -221,9 +224,7 @@ TEST_CASE("if a rigid-body motion is free, displacements are not compared, but e
   CHECK(wrong_in(judged(p, t)) == "E");
 }
 
-TEST_CASE(
-    "a certificate measures an unloaded state's displacement error relative to the path's largest "
-    "deflection") {
+TEST_CASE("the displacement error of an unloaded state is relative to the largest deflection of the path") {
   beam_problem p = span_with_pairs();
   p.steps.emplace_back();
   told_state loaded = right_state(p, p.steps[0]);
@@ -245,8 +246,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "if a structure only rotates, its displacement error is not relative to the rounding of its "
-    "deflections") {
+    "if a structure only rotates, the rounding of its deflections is not the scale of the displacement "
+    "error") {
   // Under equal moments at both ends, the middle of a span deflects only by rounding.
   beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {2, 0, true}}, {{1, face_below, -1.0, 5.0, false}}, {}};
@@ -262,7 +263,7 @@ TEST_CASE(
   CHECK(judged(p, t).displacement_error > 1e-9);
 }
 
-TEST_CASE("measures of a certificate do not change with units of length and force from 1e-12 to 1e12") {
+TEST_CASE("the errors in a certificate are relative, and do not change with units from 1e-12 to 1e12") {
   const auto in_units = [](double length, double force) {
     beam_problem p = span_with_pairs();
     for (double& x : p.geometry.x) x *= length;
@@ -313,8 +314,8 @@ TEST_CASE("a state with a NaN or infinite displacement at any dof is not certifi
 }
 
 TEST_CASE(
-    "an early toggle of the 1989 rule is reported with step, pair and distance, and its state is not "
-    "certified") {
+    "the early toggle behind an uncertified state of the 1989 rule is reported with step, pair and "
+    "distance") {
   // Two equal stops under a symmetric load; the second is 0.3 % farther away, within EPSMUL of the first.
   const beam_problem p{even_beam(8.0, 8, 1e5),
                        {{0, 0, true}, {8, 0, true}},
@@ -339,7 +340,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a load without an equilibrium has no final state") {
+TEST_CASE("find_final_states finds no state for a load without an equilibrium") {
   // Two pairs below a free beam carry its weight, but no load upwards.
   beam_problem p{even_beam(4.0, 4, 1.0), {}, {{0, -1, 0.0, 1.0, true}, {4, -1, 0.0, 1.0, true}}, {}};
   p.steps = {tip_load(2, -1.0), tip_load(2, 1.0), tip_load(2, 1.0)};
@@ -354,7 +355,8 @@ TEST_CASE("a load without an equilibrium has no final state") {
   CHECK(told.steps[0].u[4] < 0.0);
 }
 
-TEST_CASE("a certificate of a state taken from the reference solution is marked as not independent") {
+TEST_CASE(
+    "the certificate of a state that was taken from the reference solution is marked as not independent") {
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
@@ -371,7 +373,7 @@ TEST_CASE("a certificate of a state taken from the reference solution is marked 
   CHECK(judged.all_certified());
 }
 
-TEST_CASE("a final state that cannot be proved is replaced by the reference solution") {
+TEST_CASE("if a final state cannot be proved, the reference solution replaces it") {
   const problem stop = cantilever_over_a_stop().as_problem();
   const linear_structure s = structure_of(stop);
   certifier judged(stop, s);
@@ -385,7 +387,7 @@ TEST_CASE("a final state that cannot be proved is replaced by the reference solu
   CHECK(end.state->numbers.has_value());
 }
 
-TEST_CASE("an unloaded beam without supports is certified above its faces, but not below them") {
+TEST_CASE("without load, a beam without supports is certified above its faces, but not below them") {
   problem p;
   p.geometry.kind = beam{{0.0, 1.0}, {1e4}};
   p.pairs = {{0, face_below, 0.0, 10.0, false}, {1, face_below, 0.0, 10.0, false}};
@@ -401,7 +403,7 @@ TEST_CASE("an unloaded beam without supports is certified above its faces, but n
   }
 }
 
-TEST_CASE("a structure beyond a face is not certified, with or without a reference solution") {
+TEST_CASE("a structure beyond a face is not certified, whether or not there is a reference solution") {
   for (const double shortest : {0.5, 1e-9}) {  // for 1e-9 the reference solution has no factor
     problem p;
     beam b;

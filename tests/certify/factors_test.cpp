@@ -55,8 +55,8 @@ sparse_columns lower_of(const band_matrix& k) {
 }  // namespace
 
 TEST_CASE(
-    "a positive definite matrix 2^-90 from singular has a factor, and a matrix indefinite by 2^-90 has no "
-    "factor") {
+    "a positive definite matrix 2^-90 from singular has a factor in 32 digits, and an indefinite one has "
+    "none") {
   long_band l = springs_in_line(0x1p-90);
   REQUIRE(factor(l));
   std::vector<double_double> x = {1.0, 0.0, 0.0};
@@ -77,7 +77,9 @@ TEST_CASE(
   CHECK(work.hi == Approx(-0x1p-90).epsilon(1e-4));
 }
 
-TEST_CASE("the bound on a factor's error exceeds the error by no more than rounding") {
+TEST_CASE(
+    "the error bound of a correct factor in 32 digits is below 2^-88, and a wrong entry increases the "
+    "bound") {
   const long_band a = springs_in_line(0x1p-60);
   long_band l = a;
   REQUIRE(factor(l));
@@ -92,7 +94,8 @@ TEST_CASE("the bound on a factor's error exceeds the error by no more than round
   CHECK(std::isinf(largest_row_of_error(a, l, 0.0)));
 }
 
-TEST_CASE("rows of a wide band are complete at the first and the last row of the matrix") {
+TEST_CASE(
+    "factor and solution of a band matrix are correct for any bandwidth, also in the first and last rows") {
   const int n = 40;
   for (const int b : {0, 1, 5, 39}) {
     long_band a(n, b);
@@ -120,7 +123,8 @@ TEST_CASE("rows of a wide band are complete at the first and the last row of the
   CHECK_FALSE(can_be_factored_long(10'000, 100));
 }
 
-TEST_CASE("the bound on the largest row sum exceeds it only by rounding") {
+TEST_CASE(
+    "the bound on the largest row sum of the error of a factor exceeds the true row sum only by rounding") {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const sparse_columns a = columns_of(random_band(40, 7, seed));
     const sparse_columns l = lower_of(random_band(40, 11, seed + 10));  // L has entries at zeros of A
@@ -130,7 +134,8 @@ TEST_CASE("the bound on the largest row sum exceeds it only by rounding") {
   }
 }
 
-TEST_CASE("the error bound of an exact factor is only rounding, and a relative error of 1e-9 is detected") {
+TEST_CASE(
+    "the error bound of an exact factor is only rounding, but the bound shows a relative error of 1e-9") {
   // L has ones on and below its diagonal, so A_ij = 1 + min(i, j) exactly.
   constexpr int n = 6;
   sparse_columns l;
@@ -153,7 +158,7 @@ TEST_CASE("the error bound of an exact factor is only rounding, and a relative e
   CHECK(largest_row_of_error(a, l) > 6e-9);
 }
 
-TEST_CASE("a NaN entry of a factor makes its error bound infinite") {
+TEST_CASE("if an entry of a factor is NaN, the error bound of the factor is infinite") {
   const sparse_columns a = columns_of(random_band(9, 3, 7));
   sparse_columns l = a;
   l.values[l.starts[4]] = std::nan("");

@@ -79,7 +79,8 @@ TEST_CASE("A stop raised by m under a cantilever presses with the force (m - gap
 }
 
 TEST_CASE(
-    "A support that moves down separates from the beam at the deflection of the beam without this support") {
+    "A support that moves down separates from the beam at the deflection that the beam has without this "
+    "support") {
   problem p;
   p.geometry.kind = even_beam(6.0, 4, 1e4);
   p.supports = {{0, 0, true}, {4, 0, true}};
@@ -100,7 +101,8 @@ TEST_CASE(
   });
 }
 
-TEST_CASE("A spring K and a pair k with an interference of m press on each other with m / (1 / K + 1 / k)") {
+TEST_CASE(
+    "A spring K and a pair k that overlap by m press on each other with the force m / (1 / K + 1 / k)") {
   assembled a;
   a.stiffness = {1, {{0, 0, 300.0}}};
   problem p;
@@ -113,7 +115,7 @@ TEST_CASE("A spring K and a pair k with an interference of m press on each other
   });
 }
 
-TEST_CASE("The move of a face is its value times its factor") {
+TEST_CASE("A face moves by the product of the value and the factor of its move") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01), moving(4, 0.004)};
   p.steps[1].moves[0].factor = 2.5;
@@ -123,7 +125,7 @@ TEST_CASE("The move of a face is its value times its factor") {
   });
 }
 
-TEST_CASE("A face that moves at a node fixed in w loads only the support of this node") {
+TEST_CASE("If a node is fixed in w, a face that moves at this node loads only the support of the node") {
   problem p = cantilever();
   p.supports.push_back({4, 0, true});
   p.steps = {moving(4, 0.01)};
@@ -135,7 +137,7 @@ TEST_CASE("A face that moves at a node fixed in w loads only the support of this
   });
 }
 
-TEST_CASE("A face that moves up lifts, as a rigid body, a beam that rests only on faces") {
+TEST_CASE("A face that moves up lifts a beam that rests only on faces, and the beam moves as a rigid body") {
   problem p;
   p.geometry.kind = even_beam(4.0, 2, 1e4);
   p.pairs = {{0, face_below, 0.0, 1e4, true}, {2, face_below, 0.0, 1e4, true}};

@@ -73,7 +73,9 @@ double rounded_residuals(int elements, double compliance) {
 
 }  // namespace
 
-TEST_CASE("the reference solution equals PB1's hand calculation at each of its four steps") {
+TEST_CASE(
+    "the reference solution equals the hand calculation of a cantilever over a stop (PB1) at each of four "
+    "steps") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -91,7 +93,7 @@ TEST_CASE("the reference solution equals PB1's hand calculation at each of its f
 }
 
 TEST_CASE(
-    "the reference solution equals the exact equilibria of thousands of beams with and without supports") {
+    "the reference solution finds the exact equilibria of thousands of beams with and without supports") {
   std::map<std::string_view, int> of_layout;
   int two_sided_pressed = 0;
   int several_pressed = 0;
@@ -128,7 +130,7 @@ TEST_CASE(
   CHECK(of_layout.size() == face_layouts);
 }
 
-TEST_CASE("the reference solution finds the correct state even if an active-set iteration cycles") {
+TEST_CASE("the reference solution finds the correct state even if the active-set iteration cycles") {
   // A cantilever between stops. The active set goes from no pair to pairs 2 and 3, to 3 and 4 and back to no
   // pair; the correct active set is pair 3 alone. No pair is near a tie: every pair is at least 0.08 from its
   // face.
@@ -151,7 +153,8 @@ TEST_CASE("the reference solution finds the correct state even if an active-set 
     CHECK(a.displacement[dof] == Approx(rounded(truth.displacement[dof])).epsilon(1e-14));
 }
 
-TEST_CASE("a free beam that its load lifts or tips off its faces has no equilibrium") {
+TEST_CASE(
+    "the reference solution finds no equilibrium of a free beam that its load lifts or tips off the faces") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   for (const load& l : {even_load(1.0), load{{{0, 0, -1.0}, {2, 0, 2.0}}, {}}, load{{{2, 1, 1.0}}, {}}}) {
@@ -163,7 +166,8 @@ TEST_CASE("a free beam that its load lifts or tips off its faces has no equilibr
   }
 }
 
-TEST_CASE("the reference solution finds the equilibrium of a load after a load without equilibrium") {
+TEST_CASE(
+    "the reference solution finds the equilibrium of a load even if the load before it had no equilibrium") {
   const beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -176,7 +180,9 @@ TEST_CASE("the reference solution finds the equilibrium of a load after a load w
     CHECK(after.displacement[dof] == Approx(alone.displacement[dof]).epsilon(1e-14).margin(1e-16));
 }
 
-TEST_CASE("the reference solution reports the equilibrium of a beam balanced on one pair as not unique") {
+TEST_CASE(
+    "the reference solution finds the equilibrium of a beam balanced on one pair, and marks it as not "
+    "unique") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   const linear_structure s = p.structure();
   const reference_answer a = reference_solver(s).solve(forces_of(p.geometry, even_load(-2.0)));
@@ -190,7 +196,7 @@ TEST_CASE("the reference solution reports the equilibrium of a beam balanced on 
 }
 
 TEST_CASE(
-    "the reference solution of an unloaded structure is unique if supports hold it, and otherwise not") {
+    "the reference solution of an unloaded structure is unique exactly if supports hold the structure") {
   beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const std::vector<double> nothing(10, 0.0);
   const linear_structure free = p.structure();
@@ -213,7 +219,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the reference solution of a long simply supported span has no error except the rounding of residuals") {
+    "the reference solution of a long simply supported span is exact except for the rounding of residuals") {
   // With elements of length 1 and loads of 6 and 1, matrix and load are exact in doubles.
   for (const int elements : {100, 400, 1000}) {
     const beam_problem p{even_beam(elements, elements, 1.0), {{0, 0, true}, {elements, 0, true}}, {}, {}};
@@ -237,7 +243,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the reference solution of a load does not depend on loads solved before, even if these were much "
+    "the reference solution does not depend on loads that were solved before, even if these were much "
     "larger") {
   double worst = 0.0;
   int compared = 0;
@@ -267,7 +273,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "for a load that is not finite, the reference solution gives no state and no statement about "
+    "for a load with a NaN or infinite number, the reference solution gives no state and decides no "
     "equilibrium") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
@@ -282,8 +288,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the condition number of a reference solution is that of its pairs in contact, and needs no "
-    "factorisation") {
+    "the condition number of a reference solution is that of the pairs in contact, and needs no new factor") {
   const beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {0, 1, true}}, {{2, face_above, 1.0, 10.0, false}}, {}};
   const linear_structure s = p.structure();

@@ -62,7 +62,9 @@ std::vector<int> in_order(int n) {
 
 }  // namespace
 
-TEST_CASE("the lower bound on the least eigenvalue of a chain is at least a hundredth of the eigenvalue") {
+TEST_CASE(
+    "the proved lower bound on the least eigenvalue of a chain of springs is at least 1 % of the "
+    "eigenvalue") {
   for (const int n : {1, 2, 10, 1000, 30000}) {
     const long_system t = chain(n);
     scaled_stiffness k(t, in_order(n), 1);
@@ -77,8 +79,7 @@ TEST_CASE("the lower bound on the least eigenvalue of a chain is at least a hund
 }
 
 TEST_CASE(
-    "a matrix that cannot be factored in doubles is proved definite in 32 digits, with L as a sum of two "
-    "doubles") {
+    "a matrix without a factor in doubles is proved definite in 32 digits, with L as a sum of two doubles") {
   long_system t = chain(20);
   t.stiffness[0][0] = double_double(1.0) + 0x1p-60;  // both ends are free, except for a soft spring
   t.stiffness[19][19] = 1.0;
@@ -97,8 +98,7 @@ TEST_CASE(
   CHECK((!k.factor({}) || k.least_eigenvalue() == 0.0));
 }
 
-TEST_CASE(
-    "a bound on the least eigenvalue is at most the shift minus the factor's error in rational numbers") {
+TEST_CASE("a proved bound on the least eigenvalue is at most the shift minus the exact error of the factor") {
   int proved = 0;
   for (int i = 0; i < 400; ++i) {
     const int n = 2 + i % 5;
@@ -116,7 +116,8 @@ TEST_CASE(
   CHECK(proved >= 100);
 }
 
-TEST_CASE("sparse storage by columns gives the same eigenvalue bound as a band, within 0.1 %") {
+TEST_CASE(
+    "a matrix in sparse storage has the same proved eigenvalue bound as the band matrix, within 0.1 %") {
   if (!sparse_factor::available()) return;
   for (const int n : {1, 2, 10, 1000}) {
     const long_system t = chain(n);
@@ -135,7 +136,8 @@ TEST_CASE("sparse storage by columns gives the same eigenvalue bound as a band, 
 }
 
 TEST_CASE(
-    "a matrix with a negative eigenvalue of 1e-14 has no bound, either as a band or in sparse storage") {
+    "a matrix with a negative eigenvalue of -1e-14 gets no eigenvalue bound, as a band or in sparse "
+    "storage") {
   const double least = 4 * std::pow(std::sin(std::acos(-1.0) / 42), 2);
   for (const double less : {-1e-3, -1e-9, -1e-14}) {
     const long_system t = chain(20, -least + less);
@@ -148,7 +150,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a plate without supports has an eigenvalue bound if the springs of its pairs hold it") {
+TEST_CASE(
+    "a plate without supports has a positive eigenvalue bound if the springs of pairs in contact hold the "
+    "plate") {
   problem p;
   std::vector<double> lines(9);
   for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = static_cast<double>(i) / 8;
@@ -174,7 +178,7 @@ TEST_CASE("a plate without supports has an eigenvalue bound if the springs of it
   for (const double_double& back : k.times(x)) CHECK(back.hi == Approx(1.0).margin(1e-6));
 }
 
-TEST_CASE("a chain that is fixed at one node is proved definite in doubles, whichever node this is") {
+TEST_CASE("a chain of springs that is fixed at any one node is proved definite in doubles") {
   for (const int fixed : {0, 3, 9}) {
     long_system t = chain(10);
     t.fixed[fixed] = 1;

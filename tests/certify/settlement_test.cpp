@@ -56,7 +56,7 @@ std::vector<double> reactions_at_end(const problem& p, const solved_path& path, 
 
 }  // namespace
 
-TEST_CASE("A middle support of two spans l that settles by d pulls with the force 6 EI d / l^3") {
+TEST_CASE("If the middle support of two spans l settles by d, it pulls with the force 6 EI d / l^3") {
   for (const double unit : {1e-9, 1.0, 1e9}) {
     problem p = two_spans(unit);
     const double l = 3 * unit;
@@ -82,7 +82,7 @@ TEST_CASE("Equal settlements of all supports move a beam without bending it") {
   for (const double r : reactions_at_end(p, path, 1)) CHECK(std::abs(r) < 1e-9);
 }
 
-TEST_CASE("Forces are not certified if they are only rounding") {
+TEST_CASE("Forces that are only rounding are not certified") {
   problem p = two_spans();
   p.steps = {{{}, {}, {{0, 0, -0.5}, {4, 0, -0.5}, {8, 0, -0.5}}}};
   const linear_structure s = structure_of(p);
@@ -93,7 +93,7 @@ TEST_CASE("Forces are not certified if they are only rounding") {
   CHECK(judged.steps()[0]->proved);
 }
 
-TEST_CASE("A clamp that rotates by t has the moment 4 EI t / l if the far end of the beam is clamped") {
+TEST_CASE("A clamp that rotates by t has the moment 4 EI t / l if the other end of the beam is clamped") {
   problem p = two_spans();
   p.supports = {{0, 0, true}, {0, 1, true}, {8, 0, true}, {8, 1, true}};
   p.steps = {{{}, {}, {{0, 1, 0.002}}}};
@@ -103,7 +103,9 @@ TEST_CASE("A clamp that rotates by t has the moment 4 EI t / l if the far end of
   CHECK(r[3] == Approx(2 * 1e4 * 0.002 / 6).epsilon(rounding));
 }
 
-TEST_CASE("A settlement reaches a face at the proportional share, and the next step reverses it") {
+TEST_CASE(
+    "If a support settles onto a face, contact is at the proportional share, and the next step ends "
+    "contact") {
   problem p = two_spans();
   p.supports = {{0, 0, true}, {8, 0, true}};
   p.pairs = {{4, face_below, -0.005, 2e3, false}};
@@ -128,7 +130,8 @@ TEST_CASE("A settlement reaches a face at the proportional share, and the next s
   }
 }
 
-TEST_CASE("The reaction of a support that settles does not include the contact force of a pair at its node") {
+TEST_CASE(
+    "The reaction of a support that settles does not contain the contact force of a pair at the same node") {
   problem p = two_spans();
   p.pairs = {{4, face_below, -0.004, 3e4, false}, {4, face_above, 0.0, 1e5, true}};
   p.steps = {settle(4, -0.01)};
@@ -172,7 +175,9 @@ TEST_CASE("The displacements of loads and settlements add up, on a plate and on 
   }
 }
 
-TEST_CASE("The reference solution equals the path's settled state, and a wrong settlement is not certified") {
+TEST_CASE(
+    "The reference solution equals the state of the path after a settlement, and a wrong settlement is not "
+    "certified") {
   problem p = two_spans();
   p.pairs = {{2, face_below, -0.001, 1e5, false}, {6, face_above, 0.002, 1e5, false}};
   p.steps = {{{{6, 0, 300.0}}, {}, {{4, 0, -0.01}, {0, 0, 0.003}}}};
@@ -190,7 +195,7 @@ TEST_CASE("The reference solution equals the path's settled state, and a wrong s
   CHECK_FALSE(judged.all_certified());
 }
 
-TEST_CASE("A settlement of a dof that was not built to settle is refused") {
+TEST_CASE("add_settlements refuses a dof for which the structure was built without settlements") {
   problem p = two_spans();
   p.steps = {settle(4, -0.01)};
   const linear_structure rigid = build(p.geometry, p.supports, p.pairs);

@@ -98,7 +98,8 @@ TEST_CASE("Two cantilevers that meet press on each other with (F / k1 - gap) / (
 }
 
 TEST_CASE(
-    "The 1989 kernels get the difference of two dofs as an additional row, and their answers are equal") {
+    "For a pair of two dofs, the 1989 kernels get their difference in an additional row, and answer "
+    "equally") {
   const problem p = two_cantilevers();
   struct : observer {
     void called(const answered_call& c) override {
@@ -120,14 +121,16 @@ TEST_CASE(
   CHECK(calls.rows[2] == Approx(-0.002 - 75.0 / 11 / 1e5).epsilon(1e-10));  // c - C / k
 }
 
-TEST_CASE("A body held only by a pair with another body moves like a spring in series with this body") {
+TEST_CASE("A pair that is the only hold of a body acts as a spring in series between two bodies") {
   in_every_storage(chain(0.0), {"fortran", "corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.u(1)[3] == Approx(-9.0 / 200 - 9.0 / 100 - 9.0 / 600 - 9.0 / 50).epsilon(1e-11));
   });
 }
 
-TEST_CASE("A free body moves across the gap to another body, and without limit in the opposite direction") {
+TEST_CASE(
+    "A free body moves across the gap until it meets another body, and in the opposite direction its path "
+    "fails") {
   in_every_storage(chain(-0.01), {"corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.seen.increments.at(0).snaps);
@@ -138,7 +141,7 @@ TEST_CASE("A free body moves across the gap to another body, and without limit i
   CHECK(follow_met(away, "refactor", "corrected").end.status != path_status::solved);
 }
 
-TEST_CASE("A pair between two dofs of one free body stops no rigid-body motion") {
+TEST_CASE("A pair between two dofs of one free body removes no rigid-body motion of the body") {
   const problem p =
       on_matrix({2, {{0, 0, 1}, {1, 0, -1}, {1, 1, 1}}}, {{0, face_below, 0.0, 5.0, true, 1}}, {force(0, 0)});
   const linear_structure s = structure_of(p);
@@ -146,7 +149,7 @@ TEST_CASE("A pair between two dofs of one free body stops no rigid-body motion")
   CHECK_FALSE(s.is_held(s.held_by([](std::size_t) { return true; })));
 }
 
-TEST_CASE("A dof may have one pair with the ground and another pair with a second dof") {
+TEST_CASE("A dof may be in a pair with the ground and in a pair with a second dof") {
   const problem p = on_matrix({2, {{0, 0, 300}, {1, 0, 0}, {1, 1, 200}}},
                               {{0, face_below, -0.01, 600.0, false, 1}, {0, face_below, -0.02, 500.0, false}},
                               {force(0, -30)});
@@ -169,7 +172,7 @@ TEST_CASE("A moved face between two dofs reduces the gap of its pair") {
   });
 }
 
-TEST_CASE("A state is not certified if one of a pair's two dofs has a relative error of 1e-4") {
+TEST_CASE("For a pair between two dofs, a relative error of 1e-4 in one of the two is not certified") {
   const problem p = two_cantilevers();
   const linear_structure s = structure_of(p);
   const met path = follow_met(p, "refactor", "corrected");
@@ -182,8 +185,7 @@ TEST_CASE("A state is not certified if one of a pair's two dofs has a relative e
   }
 }
 
-TEST_CASE(
-    "The error bound of a state that moves both dofs of a stiff pair by 1e-4 too far is at least 1e-4") {
+TEST_CASE("If both dofs of a stiff pair are wrong by 1e-4, the error bound of the state is at least 1e-4") {
   const problem p =
       on_matrix({2, {{0, 0, 1}, {1, 0, 0}, {1, 1, 1}}}, {{0, face_below, 0.0, 1e6, true, 1}}, {force(0, -3)});
   const linear_structure s = structure_of(p);
@@ -196,7 +198,7 @@ TEST_CASE(
   CHECK(judged.steps()[0]->error[quantity::w].value_or(1.0) >= 0.999e-4);
 }
 
-TEST_CASE("The reference solution of two cantilevers that meet equals the closed form") {
+TEST_CASE("The reference solution of two cantilevers that press on each other equals the closed form") {
   const problem p = two_cantilevers();
   const linear_structure s = structure_of(p);
   const std::vector<double> load = {-15, 0, 0, 0};

@@ -31,7 +31,8 @@ std::optional<decision> named(small_call<double> c, Change change) {
 }  // namespace
 
 TEST_CASE(
-    "the branch margin of a wrong SS belongs to its own pair, even if another pair has a narrower margin") {
+    "if one SS is wrong, the nearest IF (branch margin) is one of the same pair, although another pair is "
+    "nearer") {
   const auto of_gap = named(three_pairs(), [](call_outputs& o) { o.ss[1] = 1e-17; });
   REQUIRE(of_gap);
   CHECK(words_of(*of_gap).starts_with("pair 2: IF (ABS(GAP).LT.EPSGAP) was false by "));
@@ -40,9 +41,7 @@ TEST_CASE(
   CHECK(words_of(*of_response) == "pair 3: IF (DTEST(NDOF).EQ.0.) was true, exactly on the threshold");
 }
 
-TEST_CASE(
-    "the branch margin of a wrong SMIN belongs to the SS that differs, or to the smallest SS if none "
-    "differs") {
+TEST_CASE("if SMIN is wrong, the nearest IF (branch margin) is at the wrong SS, or else at the smallest SS") {
   const auto of_ss = named(three_pairs(), [](call_outputs& o) { o.smin = o.ss[1] = 1e-17; });
   REQUIRE(of_ss);
   CHECK(of_ss->what == branch::stationary);
@@ -52,7 +51,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the branch margin of a wrong ISEP is its pair's DIFF, or SMIN if the other kernel toggled no pair") {
+    "if an ISEP is wrong, the nearest IF (branch margin) compares the DIFF of this pair, or SMIN without "
+    "events") {
   // SMIN is the number next to 1, so the decision IF (SMIN.EQ.1.) has a narrower margin than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},
                                                       {0.0, 1.0, 4.0, separated, face_above}})
@@ -65,7 +65,9 @@ TEST_CASE(
   CHECK(words_of(*of_smin) == "IF (SMIN.EQ.1.) was false by 1 ULP");
 }
 
-TEST_CASE("if both kernels toggle a pair to different statuses, the reported branch is IF (ISEP(I).EQ.1)") {
+TEST_CASE(
+    "if two kernels toggle a pair to different statuses, the nearest IF (branch margin) is IF "
+    "(ISEP(I).EQ.1)") {
   const small_call<double> odd = small_call<double>({{0.0, 1.0, 0.5, 2, face_above}}).ask();
   CHECK(odd.isep[0] == separated);
   const auto of_status = named(odd, [](call_outputs& o) { o.isep[0] = in_contact; });
@@ -73,9 +75,7 @@ TEST_CASE("if both kernels toggle a pair to different statuses, the reported bra
   CHECK(words_of(*of_status) == "pair 1: IF (ISEP(I).EQ.1) was false");
 }
 
-TEST_CASE(
-    "the fault of a kernel with EPSGAP = 1e-9 is traced to IF (ABS(GAP).LT.EPSGAP) of the pair with the "
-    "wrong SS") {
+TEST_CASE("a wrong SS by EPSGAP = 1e-9 is traced to IF (ABS(GAP).LT.EPSGAP) of the pair with this SS") {
   made_kernel wrong(
       [](call<double>& c) {
         std::vector<event> events(c.cc.size());

@@ -28,7 +28,7 @@ bool any(branch /*b*/, std::size_t /*pair*/) {
 
 }  // namespace
 
-TEST_CASE("the outcomes of each IF of the listing are counted separately") {
+TEST_CASE("true and false outcomes of each IF of the listing are counted separately") {
   small_call<double> c({{0.0, 0.0, 1.0, separated, face_above},     // no response
                         {0.0, 1.0, 0.0, in_contact, face_below},    // stationary and pulled: breaks
                         {0.0, -1.0, 0.0, in_contact, face_below},   // stationary and pressed: no event
@@ -54,8 +54,8 @@ TEST_CASE("the outcomes of each IF of the listing are counted separately") {
 }
 
 TEST_CASE(
-    "an event within EPSMUL by one ULP has a branch margin of one ULP, and an event exactly at EPSMUL a "
-    "margin of 0") {
+    "a DIFF one ULP below EPSMUL has a branch margin of one ULP, and a DIFF of exactly EPSMUL a margin of "
+    "0") {
   const double edge = 0.5 + 0.5 / 256;
   for (const auto& [face, ulps] : {std::pair(edge, 0UL), {std::nextafter(edge, 0.0), 1UL}}) {
     const small_call<double> c(
@@ -65,7 +65,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a gap one ULP below EPSGAP is the narrowest decision of its call, with a margin of one ULP") {
+TEST_CASE(
+    "if a gap is one ULP below EPSGAP, the IF nearest to its threshold is that of the gap, at one ULP") {
   small_call<double> c({{0.0, 1.0, std::nextafter(1e-10, 0.0), separated, face_above}});
   CHECK(margin_of(c, branch::stationary, 0) == 1);
   const std::optional<decision> least = narrowest_decision(c.ask().answered(), 8, any);
@@ -82,7 +83,7 @@ TEST_CASE("a response of +0 or -0 is exactly on the threshold of IF (DTEST(NDOF)
   CHECK(margin(std::numeric_limits<double>::denorm_min()) == 1);
 }
 
-TEST_CASE("a comparison with NaN has no branch margin, and its message names NaN") {
+TEST_CASE("a comparison with NaN has no distance to a threshold (branch margin), and the message names NaN") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   CHECK(margin_of(small_call<double>({{nan, 1.0, 0.5, separated, face_above}}), branch::stationary, 0) ==
@@ -91,7 +92,8 @@ TEST_CASE("a comparison with NaN has no branch margin, and its message names NaN
         "pair 1: IF (ABS(GAP).LT.EPSGAP) was false, with NaN");
 }
 
-TEST_CASE("branch margins of a 4-byte call are counted in 4-byte numbers") {
+TEST_CASE(
+    "in a call with 4-byte REAL, the distance to a threshold (branch margin) is counted in 4-byte numbers") {
   const auto face = static_cast<double>(std::nextafter(1e-10F, 0.0F));
   small_call<double> c({{0.0, 1.0, face, separated, face_above}});
   const std::optional<decision> least = narrowest_decision(c.ask().answered(), 4, any);

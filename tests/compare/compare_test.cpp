@@ -61,7 +61,7 @@ replay_report replayed(const std::string& trace) {
 
 }  // namespace
 
-TEST_CASE("equal bytes and NaNs of any payload count as equal, and are counted as compared") {
+TEST_CASE("equal bytes count as equal, and so do NaNs of any payload") {
   tally t;
   const std::vector<int> isep = {1, -1};
   const auto compare = [&](double a, double b) {
@@ -80,7 +80,7 @@ TEST_CASE("equal bytes and NaNs of any payload count as equal, and are counted a
   CHECK(t.mismatches == 1);
 }
 
-TEST_CASE("a difference of one bit is a mismatch, and the first difference is named") {
+TEST_CASE("a difference of one bit is a mismatch, and the message names the first difference") {
   tally t;
   const auto one_ulp = differ(0.5, {0.5, std::numeric_limits<double>::denorm_min()}, {1, -1}, t);
   REQUIRE(one_ulp);
@@ -101,7 +101,7 @@ TEST_CASE("a difference of one bit is a mismatch, and the first difference is na
   CHECK(t.mismatches == 5);
 }
 
-TEST_CASE("text is compared byte for byte, and the first different line is named") {
+TEST_CASE("texts of unit 26 are compared byte for byte, and the message names the first line that differs") {
   tally t;
   CHECK_FALSE(compare_text("a\nb\n", "a\nb\n", t));
   const auto line = compare_text("a\nb\nc\n", "a\nB\nc\n", t);
@@ -117,7 +117,9 @@ TEST_CASE("text is compared byte for byte, and the first different line is named
   CHECK(t.mismatches == 3);
 }
 
-TEST_CASE("texts compared by meaning may differ only in blanks and in a number's leading zero") {
+TEST_CASE(
+    "texts of unit 26 that are compared by meaning may differ in blanks and in a number's leading zero "
+    "only") {
   const auto same = [](std::string_view a, std::string_view b) {
     tally t;
     const auto found = compare_text(a, b, t, text_equality::meaning);
@@ -139,7 +141,7 @@ TEST_CASE("texts compared by meaning may differ only in blanks and in a number's
   CHECK_FALSE(same("a\n", "a\nb\n"));
 }
 
-TEST_CASE("the texts of gfortran and C++ are compared by bytes, and only f2c's is compared by meaning") {
+TEST_CASE("unit 26 of gfortran and of C++ is compared by bytes, and only unit 26 of f2c by meaning") {
   CHECK_FALSE(facts_of_kernel("fortran").text_by_meaning);
   CHECK_FALSE(facts_of_kernel("cpp").text_by_meaning);
   CHECK(text_equality_of(facts_of_kernel("fortran"), facts_of_kernel("cpp")) == text_equality::bytes);
@@ -152,7 +154,8 @@ TEST_CASE("the texts of gfortran and C++ are compared by bytes, and only f2c's i
     CHECK(facts_of_kernel(name).text_by_meaning == (name == "f2c"));
 }
 
-TEST_CASE("a follower counts the compared values and keeps the mismatch of the earliest call") {
+TEST_CASE(
+    "the comparison of a follower counts compared values, and keeps the mismatch of the earliest call") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -175,7 +178,7 @@ TEST_CASE("a follower counts the compared values and keeps the mismatch of the e
   CHECK(f.compared.mismatches == 2);
 }
 
-TEST_CASE("a follower refuses a call beyond the limits of 32-bit integers, and compares nothing") {
+TEST_CASE("a follower refuses a call that exceeds 32-bit integers, and compares no value of this call") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -189,7 +192,7 @@ TEST_CASE("a follower refuses a call beyond the limits of 32-bit integers, and c
   CHECK(f.compared.values == 3);
 }
 
-TEST_CASE("a follower compares the text only if the leader's text is given, and counts it as one value") {
+TEST_CASE("if the leader's text is given, a follower compares the text, which counts as one value") {
   const auto k = make_kernel("cpp");
   follower f(k->facts(), *k);
   const answered_half_way right;
@@ -210,7 +213,8 @@ TEST_CASE("a comparison of kernels of different precisions or rules is refused")
 }
 
 TEST_CASE(
-    "the report of a mismatch names call, kernels and place, and describes a narrow decision as a tie") {
+    "a mismatch report names the call, the kernels and the place, and calls a decision at the threshold a "
+    "tie") {
   mismatch_report r{3, "fortran", "mine", {"ISEP", 2, "-1", "1", 0}, {}};
   r.narrowest = {branch::within_epsmul, 1, true, 1};
   CHECK(words_of(r)[0] == "call 3: mine differs in ISEP(2): fortran has -1, mine has 1");
@@ -221,7 +225,7 @@ TEST_CASE(
   CHECK(words_of(r) == std::vector<std::string>{"call 3: mine gave no answer: it ended with status 3"});
 }
 
-TEST_CASE("a replay compares the text by bytes, and the text of a trace from f2c by meaning") {
+TEST_CASE("contct replay compares unit 26 by bytes, and the unit 26 of f2c by meaning") {
   const auto mismatches = [](const char* kernel, const char* scale_factor) {
     return replayed(trace_of(kernel, scale_factor)).compared.mismatches;
   };
@@ -235,9 +239,7 @@ TEST_CASE("a replay compares the text by bytes, and the text of a trace from f2c
   CHECK(replayed(trace_of("fortran", "  .5000E+00")).first->where.field == "text");
 }
 
-TEST_CASE(
-    "an answer in which every s and every status differs has a mismatch in each of them, even if SMIN is "
-    "equal") {
+TEST_CASE("if every s and every status is wrong, each of them counts as a mismatch, even if SMIN is equal") {
   tally t;
   const std::optional<mismatch> first = differ(0.5, {0.25, 1.0}, {-1, 1}, t);
   REQUIRE(first);

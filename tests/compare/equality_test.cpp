@@ -64,8 +64,8 @@ void require_no_mismatch(side_by_side<Real>& both) {
 }  // namespace
 
 TEMPLATE_TEST_CASE(
-    "FORTRAN and C++ are equal for one pair with 31 values each of D, d* and c, and with all statuses", "",
-    float, double) {
+    "FORTRAN and C++ give equal answers for one pair, with 31 values each of D, d* and c, and all statuses",
+    "", float, double) {
   using Real = TestType;
   const std::vector<Real> numbers = interesting_numbers<Real>();
   REQUIRE(numbers.size() == 31);
@@ -101,7 +101,7 @@ TEMPLATE_TEST_CASE(
 }
 
 TEMPLATE_TEST_CASE(
-    "FORTRAN and C++ are equal for two pairs at ties, and at near ties of 2^-8 exactly and one ULP to either "
+    "FORTRAN and C++ give equal answers for two pairs at a tie, at a DIFF of EPSMUL, and one ULP to either "
     "side",
     "", float, double) {
   using Real = TestType;
@@ -155,9 +155,8 @@ TEMPLATE_TEST_CASE(
 }
 
 TEMPLATE_TEST_CASE(
-    "FORTRAN and C++ are equal in 100,000 random calls with up to 64 pairs, shared nodes and every dof "
-    "layout",
-    "", float, double) {
+    "FORTRAN and C++ give equal answers in 100,000 random calls with up to 64 pairs and every dof layout", "",
+    float, double) {
   using Real = TestType;
   constexpr int calls = 100'000;
   random_calls<Real> source(1989);

@@ -40,8 +40,8 @@ std::vector<std::string> listing_text() {
 }  // namespace
 
 TEST_CASE(
-    "a pair within EPSMUL that has not reached its face is explained as toggled too early, with its "
-    "distance") {
+    "an explanation says that a pair within EPSMUL is toggled too early, and gives the distance to the "
+    "face") {
   const explained_call e = explained(
       small_call<double>({{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, 0.501, separated, face_above}}));
   CHECK(e.winner == 0);
@@ -53,8 +53,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a pair whose s exceeds the winner's only by rounding is explained as reaching its face at the same "
-    "share") {
+    "if the s of two pairs differ only by rounding, the explanation says that both reach their faces "
+    "together") {
   const explained_call e = explained(small_call<double>(
       {{0.0, 1.0, 0.5, separated, face_above}, {0.0, 1.0, std::nextafter(0.5, 1.0), separated, face_above}}));
   CHECK(e.pairs[1].why == why_toggled::same_moment);
@@ -62,7 +62,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "near full load, the s = 1 of a pair without an event lies within EPSMUL, so that the pair is toggled") {
+    "near full load, the mark s = 1 of a pair without an event is within EPSMUL of SMIN, so the pair is "
+    "toggled") {
   const explained_call e = explained(small_call<double>({{0.0, 1.0, 0.999, separated, face_above},
                                                          {0.0, 0.0, -1.0, separated, face_below},
                                                          {0.0, -1.0, 0.0, in_contact, face_below}}));
@@ -75,14 +76,16 @@ TEST_CASE(
   CHECK(e.pairs[2].why == why_toggled::by_mark);
 }
 
-TEST_CASE("if SMIN is 256/257, the s = 1 of a pair without an event lies just beyond EPSMUL") {
+TEST_CASE("if SMIN is 1e-9 below 256/257, the mark s = 1 of a pair without an event is just outside EPSMUL") {
   const explained_call e = explained(small_call<double>(
       {{0.0, 1.0, 256.0 / 257.0 - 1e-9, separated, face_above}, {0.0, 0.0, -1.0, separated, face_below}}));
   CHECK(e.pairs[1].why == why_toggled::not_toggled);
   CHECK_FALSE(e.pairs[1].toggled());
 }
 
-TEST_CASE("a stationary pair wins by its check variable, and no pair farther away is within EPSMUL") {
+TEST_CASE(
+    "the explanation of a stationary pair has the check variable, and no pair that is farther away is within "
+    "EPSMUL") {
   const explained_call e = explained(
       small_call<double>({{0.0, 2.0, 0.0, in_contact, face_below}, {0.0, 1.0, 0.5, separated, face_above}}));
   CHECK(e.winner == 0);
@@ -93,7 +96,9 @@ TEST_CASE("a stationary pair wins by its check variable, and no pair farther awa
   CHECK(e.pairs[1].why == why_toggled::not_toggled);
 }
 
-TEST_CASE("the explanation of a call without events has no winner, and names the narrowest decision") {
+TEST_CASE(
+    "if a call has no event, the explanation has no winner and gives the IF that is nearest to its "
+    "threshold") {
   const explained_call e = explained(small_call<double>({{0.0, 1.0, 2.0, separated, face_above}}));
   CHECK(e.smin == 1.0);
   CHECK(e.winner == -1);
@@ -103,8 +108,8 @@ TEST_CASE("the explanation of a call without events has no winner, and names the
 }
 
 TEST_CASE(
-    "an explanation's winner has SMIN, and its toggled pairs are those of the kernel, in 20,000 random "
-    "calls") {
+    "in 20,000 random calls, the s of the explained winner is SMIN, and the explained toggles are the "
+    "kernel's") {
   const auto agree = [](const auto& in, const call_outputs& out, const explained_call& e) {
     for (std::size_t i = 0; i < in.pairs(); ++i) {
       const explained_pair& p = e.pairs[i];
@@ -138,7 +143,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "every line of the listing that explanations cite has the cited statement, and no line is cited twice") {
+    "explanations cite lines of the listing with the statements of these lines, and no line is listed "
+    "twice") {
   const std::vector<std::string> text = listing_text();
   REQUIRE(text.size() == 69);
   std::ifstream file(CONTCT_CITED_LINES);
@@ -156,7 +162,8 @@ TEST_CASE(
   CHECK(cited.size() >= 32);
 }
 
-TEST_CASE("the explanation of a call has its precision, and only those values that the call's IFs computed") {
+TEST_CASE(
+    "an explanation has the precision of the call, and only the values that the IFs of the call computed") {
   // A pair before its face, a pair beyond its face, and a pair without response.
   small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
                         {0.4, 1.0, 0.1, separated, face_above},

@@ -44,13 +44,14 @@ int line_of(const fault_finder& all) {
 
 }  // namespace
 
-TEST_CASE("equal answers name no faulty line") {
+TEST_CASE("if all answers are equal, no line is reported as faulty") {
   fault_finder all;
   note(all, four_pairs(0.25), [](call_outputs&) {});
   CHECK_FALSE(all.found());
 }
 
-TEST_CASE("line 33 is reported for a kernel with EPSGAP = 1e-9, with the gaps that it treated as zero") {
+TEST_CASE(
+    "for a kernel with EPSGAP = 1e-9, line 33 is reported with the gaps that the kernel treated as zero") {
   fault_finder all;
   for (const double gap : {2e-10, 5e-10}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
@@ -92,15 +93,8 @@ TEST_CASE("line 52 is reported for a wrong threshold of DIFF, and line 51 for a 
   CHECK(line_of(no_threshold) == 51);
 }
 
-TEST_CASE("a kernel without text that toggles some separated pairs and leaves others is not told line 54") {
-  fault_finder all;
-  for (const double diff : {0x1p-9, 0x1.8p-9})
-    note(all, with_diffs(0x1p-10, diff), [](call_outputs& o) { o.isep[2] = separated; });
-  note(all, with_diffs(0x1p-11, 0x1p-12), [](call_outputs&) {});  // all three are toggled
-  CHECK(line_of(all) == 52);
-}
-
-TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong, SS are not suspected") {
+TEST_CASE(
+    "if only SMIN is wrong, the reported line is the IF that finds SMIN, and not a line that computes SS") {
   fault_finder all;
   for (const double gap : {0.25, 0.3}) {
     note(all, four_pairs(gap), [](call_outputs& o) {
@@ -113,7 +107,7 @@ TEST_CASE("SMIN is judged by the other kernel's own SS: where only SMIN is wrong
   CHECK(all.found()->explained == 2);
 }
 
-TEST_CASE("a wrong value that the reported line cannot cause is counted as not explained") {
+TEST_CASE("a wrong value that the reported faulty line cannot cause is counted as not explained") {
   fault_finder all;
   for (int times = 0; times < 4; ++times) {
     note(all, four_pairs(0.3), [](call_outputs& o) {
@@ -128,7 +122,9 @@ TEST_CASE("a wrong value that the reported line cannot cause is counted as not e
   CHECK(all.found()->differ == 5);
 }
 
-TEST_CASE("the lines that two kernels took for a pair are reported with GAP, DTEST and SSCHK") {
+TEST_CASE(
+    "if the SS of a pair differs, the lines of both kernels are reported with GAP, DTEST and SSCHK of the "
+    "pair") {
   small_call<double> c = four_pairs(5e-10);
   call_outputs other{c.smin, c.ss, c.isep, ""};
   other.ss[2] = 1e-20;
@@ -142,7 +138,7 @@ TEST_CASE("the lines that two kernels took for a pair are reported with GAP, DTE
         "(SSCHK.GT.0.) SS(I) = SSCHK * DELTA");
 }
 
-TEST_CASE("the FORMAT is reported as the faulty line if only the text differs in a call without pairs") {
+TEST_CASE("in a call without pairs, the FORMAT is the faulty line if only the text of unit 26 differs") {
   fault_finder all;
   small_call<double> c({});
   answered_call right = c.ask().answered();
@@ -152,7 +148,7 @@ TEST_CASE("the FORMAT is reported as the faulty line if only the text differs in
   CHECK(line_of(all) == 44);
 }
 
-TEST_CASE("the FORMAT is reported as the faulty line if a text has no line of the listing") {
+TEST_CASE("the FORMAT is the faulty line if a text of unit 26 has no line that the listing can write") {
   fault_finder all;
   small_call<double> c = four_pairs(0.25);
   answered_call right = c.answered();

@@ -45,7 +45,7 @@ std::string without_origin(const std::string& trace) {
 
 }  // namespace
 
-TEST_CASE("the committed traces equal the 1989 code's answers, line by line") {
+TEST_CASE("the 1989 code gives the answers of the committed traces, line by line") {
   int calls = 0;
   for (const golden::golden_trace& t : golden::all_traces()) {
     INFO(t.name);
@@ -55,7 +55,7 @@ TEST_CASE("the committed traces equal the 1989 code's answers, line by line") {
   CHECK(calls > 300);
 }
 
-TEST_CASE("every committed trace states its purpose, and the folder of traces has no other files") {
+TEST_CASE("every committed trace states a purpose, and the folder of traces has no other files") {
   std::set<std::string> made;
   for (const golden::golden_trace& t : golden::all_traces()) made.insert(t.name + ".trace");
   for (const auto& path : committed()) {
@@ -69,7 +69,8 @@ TEST_CASE("every committed trace states its purpose, and the folder of traces ha
   }
 }
 
-TEST_CASE("the C++ kernel answers all committed traces equal to the bit, with every outcome of every IF") {
+TEST_CASE(
+    "the C++ kernel gives all answers of the committed traces to the bit, with every outcome of every IF") {
   std::map<int, branch_counts> reached;
   std::int64_t values = 0;
   for (const auto& path : committed()) {

@@ -54,7 +54,8 @@ lockstep_on_path with_fault(std::function<void(call<double>&, std::string&)> fau
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ follow PB1 in lockstep without a mismatch, and every value is counted") {
+TEST_CASE(
+    "in lockstep, FORTRAN and C++ follow a cantilever over a stop (PB1) without a mismatch, in 24 values") {
   const lockstep_on_path compared = in_lockstep_with(make_kernel("cpp"));
   CHECK(compared.calls() == 6);
   CHECK(compared.compared().values == 6L * 4);  // SMIN, SS, ISEP and text
@@ -63,7 +64,8 @@ TEST_CASE("FORTRAN and C++ follow PB1 in lockstep without a mismatch, and every 
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("the last call's differences are counted in ULPs for each follower, for SMIN and for the worst s") {
+TEST_CASE(
+    "for each follower, the differences of SMIN and of the worst s in the last call are counted in ULPs") {
   const lockstep_on_path good = in_lockstep_with(make_kernel("cpp"));
   REQUIRE(good.last_answers().size() == 1);
   CHECK(good.last_answers()[0].values == 4);
@@ -80,7 +82,7 @@ TEST_CASE("the last call's differences are counted in ULPs for each follower, fo
   CHECK(off.last_answers()[0].ss_ulps == 2);
 }
 
-TEST_CASE("a fault of one ULP in SMIN is detected at its first call") {
+TEST_CASE("lockstep detects a fault of one ULP in SMIN in the call in which the fault occurs") {
   int call_number = 0;
   const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
     if (++call_number == 2) c.smin = std::nextafter(c.smin, 1.0);
@@ -93,7 +95,7 @@ TEST_CASE("a fault of one ULP in SMIN is detected at its first call") {
   CHECK(compared.first()->follower == "faulty");
 }
 
-TEST_CASE("the last call counts as equal only if every follower's answer is equal") {
+TEST_CASE("in lockstep, the last call counts as equal only if the answer of every follower is equal") {
   const auto fault = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
   CHECK_FALSE(with_fault(fault).last_call_equal());
   CHECK_FALSE(with_fault([](call<double>&, std::string& text) { text += "?"; }).last_call_equal());
@@ -109,7 +111,7 @@ TEST_CASE("the last call counts as equal only if every follower's answer is equa
   }
 }
 
-TEST_CASE("a follower without an answer has one mismatch in its call, and no difference in ULPs") {
+TEST_CASE("if a follower gives no answer, the call has one mismatch and no difference in ULPs") {
   const lockstep_on_path compared =
       with_fault([](call<double>&, std::string&) { throw kernel_failure("it ended with status 3"); });
   CHECK(compared.compared().values == 6);
@@ -119,14 +121,14 @@ TEST_CASE("a follower without an answer has one mismatch in its call, and no dif
   CHECK(compared.last_answers()[0].smin_ulps == 0);
 }
 
-TEST_CASE("faults in SS, in ISEP and in the text are detected") {
+TEST_CASE("lockstep detects a fault in SS, a fault in ISEP, and a fault in the text of unit 26") {
   CHECK(with_fault([](call<double>& c, std::string&) { c.ss[0] = -c.ss[0]; }).first()->where.field == "SS");
   CHECK(with_fault([](call<double>& c, std::string&) { c.isep[0] = -c.isep[0]; }).first()->where.field ==
         "ISEP");
   CHECK(with_fault([](call<double>&, std::string& text) { text[3] = '?'; }).first()->where.field == "text");
 }
 
-TEST_CASE("the path follows the leader's answers, whatever the followers answer") {
+TEST_CASE("in lockstep, the path follows the answers of the leading kernel, whatever the followers answer") {
   // Every call has the leader's inputs, so that one fault gives one mismatch.
   int call_number = 0;
   const lockstep_on_path compared = with_fault([&](call<double>& c, std::string&) {
@@ -136,7 +138,7 @@ TEST_CASE("the path follows the leader's answers, whatever the followers answer"
   CHECK(compared.last_call_equal());
 }
 
-TEST_CASE("the mismatch of the earliest call is reported, in any order of the followers") {
+TEST_CASE("lockstep reports the mismatch of the earliest call, in any order of the followers") {
   const auto wrong_from = [](int call, double by) {
     return faulty([call, by, n = 0](call_of_double& c, std::string&) mutable {
       if (++n >= call) c.smin += by;

@@ -25,7 +25,7 @@ std::vector<std::string> other_kernels() {
 }  // namespace
 
 TEST_CASE(
-    "flang's and f2c's builds answer 20,000 random calls as gfortran's and C++ do, and f2c's text has equal "
+    "in 20,000 random calls, flang's and f2c's builds give gfortran's answers, and f2c's text has equal "
     "meaning") {
   constexpr int calls = 20'000;
   for (const std::string& name : other_kernels()) {
@@ -60,7 +60,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("each compiler's run-time library has a separate unit 26, and only one of them is open at a time") {
+TEST_CASE(
+    "each compiler's run-time library has a unit 26 of its own, and only one of these units is open at a "
+    "time") {
   const call_inputs<double> quarter{{0.0}, {4.0}, {1.0}, {1}, {separated}, {face_above}, {}};
   for (const std::string& name : other_kernels()) {
     INFO(name);

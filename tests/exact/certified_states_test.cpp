@@ -96,7 +96,7 @@ problem two_dofs(double coupling, double stiffness, double load) {
 }  // namespace
 
 TEST_CASE(
-    "No certified state of 500 beams on settling supports has a wrong number or status, under either rule") {
+    "In 500 beams on settling supports, no certified state has a wrong number or status, under either rule") {
   for (const std::string kernel : {"fortran", "corrected"}) {
     int certified = 0;
     for (std::uint64_t number = 0; number < 500; ++number) {
@@ -116,7 +116,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A reaction of 200 N with an error of 0.2 N is not certified, even if its clamp is very stiff") {
+TEST_CASE(
+    "A state whose reaction of 200 N is wrong by 0.2 N is not certified, even if the clamp is very stiff") {
   const std::string text =
       "[beam]\nlength = 2.0\nelement_size = 1.0\nEI = 1.0e7\n[[support]]\nx = 0.0\nfix = [\"w\", \"theta\"]\n"
       "[[contact]]\nx = 0.001\nsurface = \"below\"\nface = -0.1\nstiffness = 1.0e6\n"
@@ -130,7 +131,7 @@ TEST_CASE("A reaction of 200 N with an error of 0.2 N is not certified, even if 
   CHECK(corrected.of_step(1).certified);
 }
 
-TEST_CASE("A pair that the 1989 rule toggles 0.9 mm before its face is not certified") {
+TEST_CASE("A state is not certified after the 1989 rule toggled a pair 0.9 mm before the face of the pair") {
   // The 1989 rule toggles both pairs during unloading, although node 1 is fixed 0.9 mm from its face.
   const std::string text =
       "[beam]\nx = [0.0, 1.0, 2.0, 3.0]\nEI = 11.2\n[[support]]\nnodes = [1, 4]\nfix = [\"w\", \"theta\"]\n"
@@ -144,7 +145,7 @@ TEST_CASE("A pair that the 1989 rule toggles 0.9 mm before its face is not certi
   CHECK(*r.of_step(2).error[quantity::gap] >= 0.0009);
 }
 
-TEST_CASE("The corrected rule gives a pair of almost no stiffness its correct status") {
+TEST_CASE("The corrected rule gives the correct status to a pair with almost no stiffness") {
   problem p;
   assembled a;
   a.name = "soft.mtx";
@@ -162,14 +163,15 @@ TEST_CASE("The corrected rule gives a pair of almost no stiffness its correct st
   CHECK(r.of_step(1).certified);
 }
 
-TEST_CASE("A matrix with a negative eigenvalue of 1e-11 has two equilibria, and no state is certified") {
+TEST_CASE("A problem on a matrix with a negative eigenvalue of -1e-11 has no certified state") {
   const judged_run r(two_dofs(1 + 1e-11, 1e-9, -1e-11), "corrected");
   REQUIRE(r.judged.steps().size() == 1);
   CHECK_FALSE(r.of_step(1).certified);
   CHECK(r.of_step(1).problem.find("semidefinite") != std::string::npos);
 }
 
-TEST_CASE("A singular matrix that is exactly semidefinite is certified if a pair holds it") {
+TEST_CASE(
+    "A state on a singular matrix that is exactly semidefinite is certified if a pair holds the structure") {
   problem p = two_dofs(-1.0, 1e3, -5.0);
   std::get<assembled>(p.geometry.kind).free_motions = 1;
   const judged_run r(p, "corrected");
@@ -177,7 +179,7 @@ TEST_CASE("A singular matrix that is exactly semidefinite is certified if a pair
   CHECK(r.of_step(1).certified);
 }
 
-TEST_CASE("The displacements of loads that cancel at a node or on an element are certified as 0") {
+TEST_CASE("If loads cancel at a node or on elements, all displacements are 0 and the state is certified") {
   const std::string beam =
       "[beam]\nlength = 2.0\nelements = 2\nEI = 1.0e4\n[[support]]\nx = [0.0, 2.0]\nfix = \"w\"\n"
       "[[contact]]\nx = 1.0\nsurface = \"below\"\nface = -0.01\nstiffness = 5.0e4\n[[step]]\n";
@@ -197,7 +199,8 @@ TEST_CASE("The displacements of loads that cancel at a node or on an element are
 }
 
 TEST_CASE(
-    "A state with numbers below the normal range of doubles is not certified, and the reason is reported") {
+    "A state with numbers below the normal range of doubles is not certified, and the certificate gives this "
+    "reason") {
   for (const std::string numbers :
        {"x = [0.0, 1.0e-40, 2.0e-40]\nEI = 1.5e-322", "x = [0.0, 1e-100, 2e-100]\nEI = 1e-90"}) {
     const judged_run r = judged(

@@ -42,7 +42,8 @@ const std::string lies =
 
 }  // namespace
 
-TEST_CASE("the exact path of a combination equals that of a step with its cases' loads times their factors") {
+TEST_CASE(
+    "the exact path of a combination equals that of a step with the sum of factor times load of all cases") {
   for (const auto follow : {follow_corrected_path, follow_1989_path}) {
     const exact_path of_cases = follow(read(combined), {});
     const exact_path of_one_step = follow(read(by_hand), {});
@@ -59,7 +60,7 @@ TEST_CASE("the exact path of a combination equals that of a step with its cases'
   }
 }
 
-TEST_CASE("in the exact path, a combination after a mechanism starts from the unloaded structure") {
+TEST_CASE("in the exact path, a combination after a mechanism still starts from the unloaded structure") {
   for (const auto follow : {follow_corrected_path, follow_1989_path}) {
     const exact_path path = follow(read(lies), {});
     CHECK(path.status == path_status::mechanism);

@@ -90,7 +90,8 @@ const std::string free_beam = "[beam]\nx = [0, 1, 2]\nEI = 1\n";
 }  // namespace
 
 TEST_CASE(
-    "the exact path of PB1 makes contact at share 1/10, and breaks contact at share 3/10 while unloading") {
+    "the exact path of a cantilever over a stop (PB1) makes contact at share 1/10 and breaks contact at "
+    "3/10") {
   const exact_path path = reference("pb01-cantilever-tip-stop");
   REQUIRE(path.steps.size() == 4);
   CHECK(told(path.steps[0]) == "1:");
@@ -100,14 +101,16 @@ TEST_CASE(
   CHECK(path.steps[1].force[0] == 50000 * (rational(26, 5375) - rational(4, 1000)));
 }
 
-TEST_CASE("the exact path of PB7 reaches its two outer stops at exactly 3/38 of the step") {
+TEST_CASE(
+    "the exact path of a beam over three stops (PB7) reaches both outer stops at exactly 3/38 of the step") {
   const exact_path path = reference("pb07-three-gap-supports");
   CHECK(told(path.steps[1]) == "3/38: +1 +3; 1:");
   CHECK(told(path.steps[3]) == "231/730: -2; 84/95: -1 -3; 1:");
 }
 
 TEST_CASE(
-    "the exact deflections of a nearly rigid plate on springs are the published -208/58875 and 176/153075") {
+    "the exact deflections of a nearly rigid plate on springs are the published fractions -208/58875 and "
+    "176/153075") {
   contct::problem p = read_problem(CONTCT_REFERENCE "/problems/pb09b-plate-on-springs-ei-4e8.toml");
   for (double& EI : std::get<contct::beam>(p.geometry.kind).EI) EI = 1e40;
   const exact_path path = follow_corrected_path(exact_problem_of(p));
@@ -117,7 +120,7 @@ TEST_CASE(
   CHECK(std::count(path.steps[0].closed.begin(), path.steps[0].closed.end(), 1) == 13);
 }
 
-TEST_CASE("in the exact path, an event exactly at full load belongs to the next step") {
+TEST_CASE("in the exact path, an event exactly at full load is counted in the next step") {
   const std::string stop = cantilever + pair(2, "below", "-1", "3");
   const std::string step = "[[step]]\npoint = [ { node = 2, w = ";
   const exact_path path =
@@ -130,7 +133,8 @@ TEST_CASE("in the exact path, an event exactly at full load belongs to the next 
 }
 
 TEST_CASE(
-    "in the exact path, pairs at their faces get their statuses together from one complementarity problem") {
+    "in the exact path, one complementarity problem gives the statuses of all pairs that are at their "
+    "faces") {
   // Both pairs start in contact. The moment at node 1 presses the beam on pair 1 and lifts its end off pair
   // 2.
   const exact_path path = followed("[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n" +
@@ -139,7 +143,9 @@ TEST_CASE(
   CHECK(told(path.steps[0]) == "0: -2; 1:");
 }
 
-TEST_CASE("in the exact path, a free beam falls onto its faces at constant load, one after the other") {
+TEST_CASE(
+    "in the exact path, a free beam falls onto two faces at constant load, first onto one and then onto the "
+    "other") {
   const exact_path path = followed(free_beam + pair(1, "below", "-1", "2") + pair(3, "below", "-2", "2") +
                                    "[[step]]\npoint = [ { node = 2, w = -4 } ]\n");
   CHECK(path.status == contct::path_status::solved);
@@ -149,7 +155,8 @@ TEST_CASE("in the exact path, a free beam falls onto its faces at constant load,
   CHECK(at(path, 0, 2) == rational(-5, 2) - 4 * rational(8, 48));
 }
 
-TEST_CASE("the exact path proves a mechanism by a rigid-body motion on which the load does work") {
+TEST_CASE(
+    "the exact path proves a mechanism by a rigid-body motion and the positive work of the load on it") {
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(2, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -1 }, { node = 2, theta = -4e-13 } ]\n");
@@ -162,7 +169,7 @@ TEST_CASE("the exact path proves a mechanism by a rigid-body motion on which the
 }
 
 TEST_CASE(
-    "an exact path whose step removes the last contact ends in a mechanism at the share of this event") {
+    "if a step removes the last contact, the exact path ends in a mechanism at the share of this event") {
   const exact_path path =
       followed(free_beam + pair(1, "below", "0", "1") + pair(3, "below", "0", "1") +
                "[[step]]\npoint = [ { node = 2, w = -2 } ]\n[[step]]\npoint = [ { node = 2, w = 3 } ]\n");
@@ -173,7 +180,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an exact path does not move a structure along a rigid-body motion on which the load does no work") {
+    "if the load does no work on a rigid-body motion, the exact path does not move the structure along it") {
   const exact_path path = followed(free_beam + pair(2, "below", "0", "1") +
                                    "[[step]]\npoint = [ { node = 1, w = -1 }, { node = 3, w = -1 } ]\n");
   REQUIRE(path.status == contct::path_status::solved);
@@ -181,7 +188,7 @@ TEST_CASE(
   CHECK(at(path, 0, 0) == at(path, 0, 4));
 }
 
-TEST_CASE("the exact path reaches a face at 1/5 of a settlement, and ends with the exact settlement") {
+TEST_CASE("the exact path reaches a face at 1/5 of a settlement, and ends with the exact displacements") {
   contct::problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = "
       "3\n"
@@ -199,7 +206,7 @@ TEST_CASE("the exact path reaches a face at 1/5 of a settlement, and ends with t
 }
 
 TEST_CASE(
-    "in the exact path, an elastic support and pairs on both sides of a node follow a load that reverses") {
+    "in the exact path, an elastic support and pairs above and below a node follow a load that reverses") {
   const std::string text =
       "[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[support]]\nnode = 2\n"
       "spring = { w = 1 }\n" +
@@ -214,7 +221,7 @@ TEST_CASE(
   CHECK(path.steps[1].reactions[2] == rational(-1, 2));
 }
 
-TEST_CASE("the exact path solves numbers from 1e-300 to 1e308") {
+TEST_CASE("the exact path solves problems with numbers from 1e-300 to 1e308") {
   const exact_path path =
       followed("[beam]\nx = [0, 1]\nEI = 1e-300\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n" +
                pair(2, "below", "-1e-300", "1e300") + "[[step]]\npoint = [ { node = 2, w = -1e308 } ]\n");
@@ -222,7 +229,7 @@ TEST_CASE("the exact path solves numbers from 1e-300 to 1e308") {
   CHECK(length_in_bits(path.steps[0].displacement[2]) > 1000);
 }
 
-TEST_CASE("the exact final states of 300 random problems are equilibria") {
+TEST_CASE("the exact final states of 300 random problems satisfy equilibrium and all contact conditions") {
   contct::random_problem_kind kind;
   kind.most_elements = 8;
   kind.most_lines = 2;

@@ -55,7 +55,7 @@ entries chain(int n, double more) {
 }  // namespace
 
 TEST_CASE(
-    "matrices that are singular in doubles are classified exactly, and exactly singular ones are "
+    "matrices that are singular in doubles are classified exactly, and exactly singular matrices as "
     "semidefinite") {
   CHECK(pair_of(1.0, 1.0).what.semidefinite);
   CHECK(pair_of(1.0, 1.0000000000000002).what.semidefinite);
@@ -67,12 +67,12 @@ TEST_CASE(
   CHECK(of(30, chain(30, -0x1p-52)).shows());
 }
 
-TEST_CASE("an indefinite matrix counts as semidefinite if only fixed dofs do negative work") {
+TEST_CASE("a matrix counts as semidefinite if only displacements of fixed dofs have negative energy") {
   CHECK(of(4, chain(4, -6.0), 0).what.semidefinite);
   CHECK(of(4, chain(4, -6.0)).shows());
 }
 
-TEST_CASE("a matrix with entries from 1e-200 to 1e200 is scaled before it is classified as semidefinite") {
+TEST_CASE("a matrix with entries from 1e-200 to 1e200 is classified correctly as semidefinite") {
   const auto coupled = [](double coupling) {
     return of(3, {{0, 0, 1e-200}, {1, 0, coupling}, {1, 1, 1e200}, {2, 2, 3.0}});
   };
@@ -80,7 +80,9 @@ TEST_CASE("a matrix with entries from 1e-200 to 1e200 is scaled before it is cla
   CHECK(coupled(1.001).shows());
 }
 
-TEST_CASE("random Gram matrices are semidefinite, and most are indefinite with a slightly smaller diagonal") {
+TEST_CASE(
+    "random Gram matrices are semidefinite, and most of them are indefinite with a slightly smaller "
+    "diagonal") {
   std::mt19937_64 random(16);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same matrices every time
   int indefinite = 0;
   for (int round = 0; round < 60; ++round) {

@@ -144,7 +144,8 @@ struct one_end {
 }  // namespace
 
 TEST_CASE(
-    "error bounds contain the errors of random problems on exact paths, and refined states are certified") {
+    "in random problems, error bounds contain the errors against the exact path, and refined states are "
+    "proved") {
 #ifdef CONTCT_HAS_GMP
   constexpr int problems = 40;
 #else
@@ -177,7 +178,7 @@ TEST_CASE(
   CHECK(2 * proved > steps * 95 / 100);
 }
 
-TEST_CASE("if any number of a state is wrong, its error bound contains the error") {
+TEST_CASE("if any one number of a state is wrong, the error bound of this number contains the error") {
   one_end e(beam_over_stop);
   REQUIRE(certified(e.again()));
   CHECK(check_bounds(errors_of(e.what, e.truly, e.end), e.again().error) == 6);
@@ -187,11 +188,11 @@ TEST_CASE("if any number of a state is wrong, its error bound contains the error
     check_bounds(errors_of(e.what, e.truly, e.end), b.error);
     CHECK(certified(b) == still_certified);
   };
-  SECTION("a force has a relative error of 1e-9") {
+  SECTION("a contact force has a relative error of 1e-9") {
     e.end.numbers.pair_forces[0] *= 1 + 1e-9;
     check(true);
   }
-  SECTION("a force has a relative error of 1e-5") {
+  SECTION("a contact force has a relative error of 1e-5") {
     e.end.numbers.pair_forces[0] *= 1 + 1e-5;
     check(false);
   }
@@ -217,7 +218,9 @@ TEST_CASE("if any number of a state is wrong, its error bound contains the error
   }
 }
 
-TEST_CASE("the error bounds of a state contain the error caused by a stiffness that is wrong by 1e-9") {
+TEST_CASE(
+    "the error bounds of a state contain the error of a state computed with a stiffness that is wrong by "
+    "1e-9") {
   one_end wrong(std::string(beam_over_stop).replace(beam_over_stop.find("1e4"), 3, "1.000000001e4"));
   const one_end right(beam_over_stop);
   error_prover prover(right.what, right.structure);
@@ -226,7 +229,7 @@ TEST_CASE("the error bounds of a state contain the error caused by a stiffness t
   CHECK(*b.error[quantity::w] >= 1e-10 * *b.size[quantity::w]);
 }
 
-TEST_CASE("displacements that are only rounding of 0 become 0, so that a held structure is certified") {
+TEST_CASE("refine sets displacements that are only rounding of 0 to 0, so that the state is certified") {
   const one_end e(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = \"w\"\n[[contact]]\nnode = 2\n"
       "surface = \"below\"\nface = -1\nstiffness = 1e5\n[[step]]\npoint = [ { node = 3, w = -7 } ]\n");
@@ -243,8 +246,8 @@ TEST_CASE("displacements that are only rounding of 0 become 0, so that a held st
 }
 
 TEST_CASE(
-    "an unloaded state's errors are known if supports hold the structure, and otherwise only its forces' "
-    "errors") {
+    "without load, displacement errors have bounds if supports hold the structure, and else only forces have "
+    "bounds") {
   const std::string freed =
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
       "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = -10\n"
@@ -271,7 +274,8 @@ TEST_CASE(
   CHECK(*b.error[quantity::force] == 0.0);
 }
 
-TEST_CASE("the error of an unloaded state is at least its largest number at any pair, support or element") {
+TEST_CASE(
+    "the error bound of an unloaded state is at least the largest number at any pair, support or element") {
   const problem p = parse_problem(
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
       "[[contact]]\nnodes = [2, 3]\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = "
@@ -306,7 +310,8 @@ TEST_CASE("the error of an unloaded state is at least its largest number at any 
   }
 }
 
-TEST_CASE("a structure is not proved if it is not certain that it is held, and the reason is reported") {
+TEST_CASE(
+    "if it is not certain that a structure is held, the state is not proved, and the reason is reported") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = "
       "0\nstiffness = 1e6\n"
@@ -320,7 +325,7 @@ TEST_CASE("a structure is not proved if it is not certain that it is held, and t
         "the stiffness is too ill-conditioned, or it is not certain that the structure is held");
 }
 
-TEST_CASE("the reactions of a fixed dof that settles and has a spring are certified") {
+TEST_CASE("the reactions of a support that is fixed, has a spring and settles are certified") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
@@ -346,7 +351,8 @@ std::string balanced(const std::string& loads) {
 
 }  // namespace
 
-TEST_CASE("for a beam that balances on one face, forces and moments are proved, but displacements are not") {
+TEST_CASE(
+    "if a beam balances on one face, forces and moments have proved bounds, but displacements have none") {
   const one_end e(balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1 }, { node = 2, w = -3 }"));
   CHECK(certified(e.end.bounds));
   CHECK_FALSE(e.end.bounds.unique);
@@ -356,7 +362,9 @@ TEST_CASE("for a beam that balances on one face, forces and moments are proved, 
   CHECK(*e.end.bounds.error[quantity::moment] < 1e-14);
 }
 
-TEST_CASE("a beam whose load is out of balance by one part in 1e13 rotates until its end is supported") {
+TEST_CASE(
+    "if the load of a balanced beam is uneven by one part in 1e13, the beam rotates onto the pair at its "
+    "end") {
   const one_end e(
       balanced("{ node = 1, w = -0.1 }, { node = 3, w = -0.1000000000001 }, { node = 2, w = -3 }"));
   CHECK(e.end.bounds.unique);
@@ -365,9 +373,7 @@ TEST_CASE("a beam whose load is out of balance by one part in 1e13 rotates until
   CHECK(certified(e.end.bounds));
 }
 
-TEST_CASE(
-    "a residual that underflows does not count as 0, so a wrong slope is not proved at a stiffness of "
-    "1e-300") {
+TEST_CASE("at a stiffness of 1e-300, a residual that underflows does not prove a wrong slope") {
   const problem p = parse_problem(
       "[beam]\nlength = 2.5\nelements = 1\nEI = 1e-300\n[[support]]\nnode = 1\nfix = \"w\"\n"
       "[[support]]\nnode = 2\nfix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",
@@ -381,9 +387,7 @@ TEST_CASE(
   CHECK((!slope || *slope >= 1.5e-24));
 }
 
-TEST_CASE(
-    "a matrix is not certified if the last digits of a whole row could free it, even if no single digit "
-    "could") {
+TEST_CASE("if the last digits of all entries of a row could free a matrix, the state is not certified") {
   // Dof 1 is coupled with all other dofs by entries that are written with 6 digits.
   const auto proved = [](int others) {
     problem p;
@@ -415,7 +419,9 @@ TEST_CASE(
   CHECK_FALSE(proved(250));  // 250 * 0.005 > 1
 }
 
-TEST_CASE("the bound of a refined state takes no solve, that of a state rounded to doubles does") {
+TEST_CASE(
+    "the error bound of a refined state takes no solve, but the bound of a state rounded to doubles takes "
+    "one") {
   const one_end e(beam_over_stop);
   error_prover prover(e.what, e.structure);
   prover.keep_proof();
@@ -431,7 +437,7 @@ TEST_CASE("the bound of a refined state takes no solve, that of a state rounded 
   CHECK(has_no_z(prover.bound({1, u, isep, *numbers})));
 }
 
-TEST_CASE("an elastic support without a force does not widen the bounds on reactions") {
+TEST_CASE("an elastic support without a force does not widen the bounds on the reactions of other supports") {
   const one_end e(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
       "[[support]]\nnode = 1\nspring = { w = 5 }\n"
@@ -442,7 +448,7 @@ TEST_CASE("an elastic support without a force does not widen the bounds on react
 }
 
 TEST_CASE(
-    "a pair whose face is below the normal range of doubles has the force of a face at 0, and is not "
+    "a pair whose face is 1e-300 or less from 0 has the force of a face at 0, but its state is not "
     "certified") {
   for (const char* face : {"-5e-324", "-1e-310", "-1.2345678901234567e-300", "0"}) {
     INFO(face);

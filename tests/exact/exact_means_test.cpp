@@ -20,7 +20,7 @@ problem referee_problem(const std::string& name) {
 }  // namespace
 
 TEST_CASE(
-    "the exact path gives the final forces of a drop onto stiff pairs, at which the path in doubles fails") {
+    "if the path in doubles fails at a drop onto stiff pairs, the exact path gives certified final forces") {
   const judged_run r(referee_problem("dropped-onto-stiff-pairs"), "corrected");
   CHECK(r.end.status == path_status::solved);
   CHECK(r.exactly == std::vector<char>{0, 1});
@@ -33,7 +33,7 @@ TEST_CASE(
   CHECK(without.reference == std::vector<char>{0, 1});
 }
 
-TEST_CASE("the first step on a mesh without a factor in doubles ends in the exact path's final state") {
+TEST_CASE("if a mesh has no factor in doubles, the first step ends in the final state of the exact path") {
   const judged_run r(referee_problem("graded-mesh"), "corrected");
   CHECK(r.end.status == path_status::solved);
   CHECK(r.exactly.front() == 1);
@@ -51,8 +51,7 @@ TEST_CASE("the first step on a mesh without a factor in doubles ends in the exac
 }
 
 TEST_CASE(
-    "a structure that is a mechanism only by rounding is followed to its end, and a true mechanism is "
-    "reported") {
+    "a beam that is a mechanism only by rounding gets an exact final state, and a true mechanism gets none") {
   problem p = referee_problem("held-by-a-hair");
   CHECK(judged_run(p, "corrected").end.status == path_status::solved);
   p.steps[0].points[1].value = -4e-17;  // the load turns the beam the other way
@@ -63,7 +62,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "no exact state is given for steps after the end of an exact path, or for a problem that is too large") {
+    "no exact state is given for a step after the end of the exact path, or for a problem with too many "
+    "dofs") {
   const problem p = referee_problem("graded-mesh");
   CHECK_FALSE(exact_means_of(p)->end_of(3).exists);
 
@@ -75,7 +75,9 @@ TEST_CASE(
   CHECK_FALSE(exact_means_of(large)->end_of(1).exists);
 }
 
-TEST_CASE("the residual of an exact state is only the rounding of u, and at a fixed dof the reaction") {
+TEST_CASE(
+    "the exact residual of an exact state is the reaction at a fixed dof, and only rounding at all other "
+    "dofs") {
   const problem p = referee_problem("graded-mesh");
   const exact_path path = follow_corrected_path(exact_problem_of(p));
   const auto exactly = exact_means_of(p);
@@ -95,7 +97,7 @@ TEST_CASE("the residual of an exact state is only the rounding of u, and at a fi
   CHECK(checked == 20);
 }
 
-TEST_CASE("the residual of a state in 32 digits is exact on either side of a face") {
+TEST_CASE("the residual of a state in 32 digits is exact just above and just below a face") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);
   const rational face = decimal_of(-7.6e-12);
@@ -114,7 +116,7 @@ TEST_CASE("the residual of a state in 32 digits is exact on either side of a fac
 }
 
 TEST_CASE(
-    "a residual beyond the range of doubles is infinite, and an infinite or NaN displacement has no "
+    "a residual beyond the range of doubles is infinite, and a state with an infinite or NaN u has no "
     "residual") {
   const problem p = referee_problem("stiff-pair-at-its-face");
   const auto exactly = exact_means_of(p);

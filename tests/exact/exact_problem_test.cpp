@@ -17,14 +17,15 @@ const std::string unloaded = "[[step]]\nuniform = 0\n";
 
 }  // namespace
 
-TEST_CASE("the exact stiffness of a beam with three elements is computed from exact thirds of its length") {
+TEST_CASE(
+    "in exact arithmetic, three equal elements of a beam have a stiffness from exact thirds of the length") {
   const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 0.1\n" + clamped + unloaded);
   CHECK(e.stiffness[2].at(0) == -12 * rational(1, 10) * 27);
   CHECK(e.stiffness[2].at(2) == 24 * rational(1, 10) * 27);
   CHECK(e.stiffness[3].at(2) == 0);
 }
 
-TEST_CASE("in exact arithmetic, a bed's pairs have its modulus times exact tributary lengths") {
+TEST_CASE("in exact arithmetic, the pairs of a bed have the modulus times exact tributary lengths") {
   const exact_problem e = of("[beam]\nlength = 1\nelements = 3\nEI = 1\n" + clamped +
                              "[[contact]]\nnode = 2\nsurface = \"above\"\nface = 0.1\nstiffness = 0.7\n"
                              "[[bed]]\nmodulus = 0.3\nface = 0\n" +
@@ -44,7 +45,7 @@ TEST_CASE("in exact arithmetic, the pairs of a bed under a plate have exact trib
   CHECK(e.pairs[1].stiffness == rational(1, 6));
 }
 
-TEST_CASE("the exact stiffness includes elastic supports, but not fixed ones") {
+TEST_CASE("the exact stiffness matrix contains springs of elastic supports, but not fixed supports") {
   const exact_problem e = of("[beam]\nx = [0, 1]\nEI = 1\n" + clamped +
                              "[[support]]\nnode = 2\nspring = { theta = 0.2 }\n" + unloaded);
   CHECK(e.stiffness[3].at(3) == rational(42, 10));
@@ -52,7 +53,9 @@ TEST_CASE("the exact stiffness includes elastic supports, but not fixed ones") {
   CHECK(e.supports[2].spring == rational(1, 5));
 }
 
-TEST_CASE("the exact load of a plate is consistent with its pressure, and its settlement moves a fixed dof") {
+TEST_CASE(
+    "a plate's pressure becomes exact consistent nodal loads, and a settlement is the exact decimal of the "
+    "file") {
   contct::problem p = parse_problem(
       "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0.3\n[[support]]\nnode = 1\nfix = [\"w\"]\n"
       "[[step]]\nuniform = 0.6\n",
@@ -65,8 +68,8 @@ TEST_CASE("the exact load of a plate is consistent with its pressure, and its se
 }
 
 TEST_CASE(
-    "in exact arithmetic, a list of coordinates is used as written, even if doubles divide its length "
-    "evenly") {
+    "in exact arithmetic, a list of coordinates is used as written, even if doubles would show equal "
+    "elements") {
   const rational third = decimal_of(0.3333333333333333);
   const exact_problem list =
       of("[beam]\nx = [0, 0.3333333333333333, 0.6666666666666666, 1]\nEI = 1\n" + clamped + unloaded);
@@ -87,8 +90,7 @@ TEST_CASE("in exact arithmetic, element_size makes equal elements between the co
 }
 
 TEST_CASE(
-    "in exact arithmetic, the value of a bed's polynomial face and the test whether the value is 0 are "
-    "exact") {
+    "in exact arithmetic, a polynomial face of a bed has its exact value, and is 0 only if this value is 0") {
   const std::string bed = clamped + "[[bed]]\nmodulus = 1\n";
   const exact_problem e = of("[beam]\nx = [0, 0.1, 1]\nEI = 1\n" + bed +
                              "face = { polynomial = [0, -0.001, 0, -0.02] }\n" + unloaded);

@@ -15,7 +15,7 @@ exact_path path_of(const contct::problem& p) {
 
 }  // namespace
 
-TEST_CASE("The moment at the hinge of a two-span Gerber beam is 0, and its reactions are 20, 80 and 20") {
+TEST_CASE("A two-span Gerber beam has no moment at the hinge, and the exact reactions 20, 80 and 20") {
   const contct::problem p = parse_problem(
       "[beam]\nlength = 12.0\nelement_size = 2.0\nsection = { E = 2.1e8, I = 2.517e-4 }\n[[hinge]]\nx = 8.0\n"
       "[[support]]\nx = [0.0, 6.0, 12.0]\nfix = \"w\"\n[[step]]\nuniform = -10.0\n",
@@ -34,8 +34,7 @@ TEST_CASE("The moment at the hinge of a two-span Gerber beam is 0, and its react
 }
 
 TEST_CASE(
-    "Two cantilevers joined by a hinge over a stop carry equal parts of the load that the stop does not "
-    "carry") {
+    "Two cantilevers joined by a hinge over a stop deflect equally, and the exact force of the stop is 30") {
   const contct::problem p = parse_problem(
       "[beam]\nlength = 2.0\nelements = 4\nEI = 1e4\n[[hinge]]\nx = 1.0\n"
       "[[support]]\nx = [0.0, 2.0]\nfix = [\"w\", \"theta\"]\n"
@@ -48,7 +47,7 @@ TEST_CASE(
   CHECK(end.force.at(0) == 30);
 }
 
-TEST_CASE("A beam with three hinges between two supports is a mechanism under its load") {
+TEST_CASE("The exact path of a beam with three hinges between two supports ends in a mechanism at once") {
   const exact_path path =
       path_of(parse_problem("[beam]\nlength = 4.0\nelements = 4\nEI = 1\n[[hinge]]\nx = [1, 2, 3]\n"
                             "[[support]]\nx = [0, 4]\nfix = \"w\"\n[[step]]\nuniform = -1\n",
@@ -58,7 +57,7 @@ TEST_CASE("A beam with three hinges between two supports is a mechanism under it
   CHECK(path.mechanism->work == 3);
 }
 
-TEST_CASE("The exact self-weight is the product of weight and area, and the exact EI that of E and I") {
+TEST_CASE("The exact self-weight is weight times area, and the exact bending stiffness is E times I") {
   const contct::problem p = parse_problem(
       "[beam]\nx = [0, 1]\nsection = { E = 0.1, I = 0.3, A = 0.7, weight = 0.1 }\n"
       "[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nself_weight = true\n",

@@ -42,7 +42,7 @@ struct stop_run {
 
 }  // namespace
 
-TEST_CASE("a kernel's path that is correct to the last bit has 16 correct digits") {
+TEST_CASE("if a kernel's path is correct to the last bit, the kernel has 16 correct digits") {
   const kernel_digits r = stop_run().with(0.0, 0.0);
   CHECK(r.same_events);
   CHECK(r.first_difference.empty());
@@ -51,7 +51,9 @@ TEST_CASE("a kernel's path that is correct to the last bit has 16 correct digits
   CHECK(r.event_digits > 15.5);
 }
 
-TEST_CASE("lost digits of a kernel's path are measured separately for displacements, forces and shares") {
+TEST_CASE(
+    "correct digits of a kernel's path are counted separately for displacements, forces and shares of "
+    "events") {
   const kernel_digits r = stop_run().with(1e-7, 2e-6);
   CHECK(r.same_events);
   CHECK(r.digits == Approx(6.0));
@@ -59,11 +61,12 @@ TEST_CASE("lost digits of a kernel's path are measured separately for displaceme
   CHECK(r.event_digits == Approx(7.0));
 }
 
-TEST_CASE("an error as large as the number leaves no correct digit") {
+TEST_CASE("an error as large as the number itself leaves no correct digit") {
   CHECK(stop_run().with(0.0, 5.0).digits == 0.0);
 }
 
-TEST_CASE("the first event in which a kernel's path differs from the exact path is reported for both") {
+TEST_CASE(
+    "if a kernel's path differs from the exact path, the first different event of both paths is reported") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::break_);
   CHECK_FALSE(r.same_events);
   CHECK(r.first_difference ==
@@ -72,13 +75,13 @@ TEST_CASE("the first event in which a kernel's path differs from the exact path 
         "0.333333333");
 }
 
-TEST_CASE("a kernel's path that ends early does not count as having the exact path's events") {
+TEST_CASE("if a kernel's path ends early, its events do not count as those of the exact path") {
   const kernel_digits r = stop_run().with(0.0, 0.0, change::make, path_status::mechanism);
   CHECK_FALSE(r.same_events);
   CHECK_THAT(r.first_difference, Contains("ends before the full load"));
 }
 
-TEST_CASE("events that only the kernel's path or only the exact path has are reported") {
+TEST_CASE("an event that only one of the two paths has, the kernel's or the exact one, is reported") {
   const stop_run run;
   const kernel_digits nothing = digit_counter(run.what, run.exactly).result("k", path_status::solved, 1e-9);
   CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("no further event"));
@@ -93,8 +96,7 @@ TEST_CASE("events that only the kernel's path or only the exact path has are rep
                  Contains("does not happen on the exact path"));
 }
 
-TEST_CASE(
-    "neither toggles of a pair that cancel at one share nor a touch at the end of a step count as events") {
+TEST_CASE("two toggles of a pair that cancel at one share do not count as a difference of events") {
   const stop_run run;
   digit_counter counter(run.what, run.exactly);
   const std::vector<event> makes = {{0, change::make}};

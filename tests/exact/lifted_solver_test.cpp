@@ -43,7 +43,7 @@ contct::rational_rows chain(std::size_t n) {
 
 }  // namespace
 
-TEST_CASE("the exact solver solves a chain of springs in any order of its points") {
+TEST_CASE("the exact solver solves a chain of springs for any numbering of the points") {
   const contct::rational_rows k = chain(7);
   const std::vector<char> fixed(7, 0);
   const std::vector<added_spring> springs = {{0, rational(1, 7)}, {4, rational(22, 7)}};
@@ -68,7 +68,7 @@ TEST_CASE("the exact solver gives fixed dofs no displacement") {
 }
 
 TEST_CASE(
-    "the exact solver finds the rigid-body motion of a free chain, and solves loads that do no work on it") {
+    "the exact solver finds the rigid-body motion of a free chain, and solves for a load in equilibrium") {
   const contct::rational_rows k = chain(5);
   const std::vector<char> fixed(5, 0);
   const std::vector<int> places = in_order(5);
@@ -80,7 +80,7 @@ TEST_CASE(
   CHECK(product(k, {}, solver.solve(b)) == b);
 }
 
-TEST_CASE("the exact solver uses another prime for a stiffness that is 0 modulo the first prime") {
+TEST_CASE("the exact solver takes another prime if a stiffness is 0 modulo the first prime") {
   contct::rational_rows k(2);
   k[0] = {{0, rational(integer((std::uint64_t{1} << 61U) - 1))}};
   k[1] = {{1, rational(2)}};
@@ -93,7 +93,7 @@ TEST_CASE("the exact solver uses another prime for a stiffness that is 0 modulo 
         rational_vector{rational(integer(1), integer("2305843009213693951")), rational(1, 2)});
 }
 
-TEST_CASE("the exact solver refuses an indefinite matrix with a zero on its diagonal") {
+TEST_CASE("the exact solver refuses an indefinite matrix with zeros on the diagonal") {
   contct::rational_rows k(2);
   k[0] = {{0, rational(0)}, {1, rational(1)}};
   k[1] = {{0, rational(1)}, {1, rational(0)}};
@@ -103,7 +103,7 @@ TEST_CASE("the exact solver refuses an indefinite matrix with a zero on its diag
   CHECK_THROWS_WITH(solver.factor({}), Catch::Matchers::Contains("indefinite"));
 }
 
-TEST_CASE("the exact solver refuses numbers of more bits than allowed, and reports the limit") {
+TEST_CASE("the exact solver refuses to compute with more bits than allowed, and reports the limit") {
   contct::rational_rows k = chain(30);
   for (std::size_t i = 0; i < k.size(); ++i)
     k[i][static_cast<int>(i)] += rational(1, 1000003 + 2 * static_cast<int>(i));

@@ -21,7 +21,8 @@ const std::string raised_stop =
 }  // namespace
 
 TEST_CASE(
-    "The exact force of a raised stop is (m - gap) / (1 / k + l^3 / 3 EI), a fraction, by either rule") {
+    "The exact force of a stop raised by m is the fraction (m - gap) / (1 / k + l^3 / 3 EI), by either "
+    "rule") {
   const exact_problem p = exact_problem_of(parse_problem(raised_stop, "p.toml"));
   for (const exact_path& path : {follow_1989_path(p), follow_corrected_path(p)}) {
     REQUIRE(path.steps.size() == 3);
@@ -38,14 +39,14 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("The value and the factor of a face's move are multiplied as decimals") {
+TEST_CASE("The value and the factor of a face's move are multiplied as exact decimals") {
   problem p = parse_problem(raised_stop, "p.toml");
   p.steps[0].moves[0].value = 0.1;
   p.steps[0].moves[0].factor = 0.1;  // in doubles 0.1 * 0.1 differs from 0.01
   CHECK(exact_problem_of(p).steps[0].moved[4] == rational(1, 100));
 }
 
-TEST_CASE("The errors of states with moved faces are within their bounds") {
+TEST_CASE("The errors of states with moved faces are within the proved bounds") {
   for (const std::string kernel : {"fortran", "corrected"}) {
     const judged_run r{parse_problem(raised_stop, "p.toml"), kernel};
     const exact_path truly = follow_corrected_path(exact_problem_of(r.what));
@@ -62,7 +63,9 @@ TEST_CASE("The errors of states with moved faces are within their bounds") {
   }
 }
 
-TEST_CASE("Two cantilevers that meet press on each other with the exact force, a fraction, by either rule") {
+TEST_CASE(
+    "Two cantilevers that meet press on each other with the exact fraction of the closed form, by either "
+    "rule") {
   assembled a;
   a.stiffness = {4,
                  {{0, 0, 15000},

@@ -35,8 +35,8 @@ std::string stop(int node, const std::string& face, const std::string& k) {
 }  // namespace
 
 TEST_CASE(
-    "the exact 1989 rule gives the s of a pair without a response, of an advancing pair and of one at its "
-    "face") {
+    "the exact 1989 rule gives the right s to a pair without a response, an advancing and a stationary "
+    "pair") {
   const rational d_star(-1, 3);
   const std::vector<listing_pair> pairs = {
       open_pair(-1, 0, 0),                // no response
@@ -50,9 +50,7 @@ TEST_CASE(
   CHECK(a.toggled == std::vector<int>{2});
 }
 
-TEST_CASE(
-    "for the exact 1989 rule, a gap of exactly EPSGAP is not stationary, and an s of exactly 1 is not an "
-    "event") {
+TEST_CASE("for the exact 1989 rule, a gap of exactly EPSGAP is not stationary, and s = 1 is no event") {
   const std::vector<listing_pair> pairs = {open_pair(-ten_to_minus(10), 0, -ten_to_minus(10))};
   const listing_answer a = answer_exactly(pairs);
   CHECK(a.s[0] == 1);
@@ -60,7 +58,7 @@ TEST_CASE(
   CHECK(a.toggled.empty());
 }
 
-TEST_CASE("the exact 1989 rule toggles every pair within EPSMUL, but only tied pairs have the least s") {
+TEST_CASE("the exact 1989 rule toggles every pair within EPSMUL, and gives two tied pairs the same least s") {
   const std::vector<listing_pair> pairs = {
       open_pair(rational(-1, 2), 0, -1), open_pair(-2, -1, -2),
       open_pair(rational(-1, 2) - rational(1, 1024), 0, -1),  // later by 1/512, within EPSMUL
@@ -73,7 +71,7 @@ TEST_CASE("the exact 1989 rule toggles every pair within EPSMUL, but only tied p
   CHECK(a.toggled == std::vector<int>{0, 1, 2});
 }
 
-TEST_CASE("the exact 1989 rule makes contact with a single stop exactly at its face") {
+TEST_CASE("by the exact 1989 rule, a single stop makes contact exactly when the beam reaches the face") {
   const exact_path path =
       listed(one_span + stop(2, "-1", "3") + "[[step]]\npoint = [ { node = 2, w = -9 } ]\n");
   REQUIRE(path.steps[0].increments.size() == 2);
@@ -82,8 +80,8 @@ TEST_CASE("the exact 1989 rule makes contact with a single stop exactly at its f
 }
 
 TEST_CASE(
-    "by the exact 1989 rule, a pair within EPSMUL is toggled before it touches, and the displacements keep "
-    "the error") {
+    "by the exact 1989 rule, a pair within EPSMUL is toggled too early, and the displacements keep the "
+    "error") {
   // Of two stops at one node, the face at -1 is reached at s = 1/3, and the face at -1.001 within 1/256 of
   // this s.
   const exact_path path = listed(one_span + stop(2, "-1", "3") + stop(2, "-1.001", "6") +
@@ -106,7 +104,8 @@ TEST_CASE("the exact 1989 rule toggles a stationary pair after DELTA of the resi
   CHECK(path.steps[0].displacement[2] == 2 - ten_to_minus(20));
 }
 
-TEST_CASE("for the exact 1989 rule, a gap below EPSGAP is stationary in any unit of length") {
+TEST_CASE(
+    "for the exact 1989 rule, a gap of 1e-11 is stationary, even if it is large in the unit of length") {
   const exact_path path =
       listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
   // Contact is made at a share of DELTA / d*, and not at the true share of 1/20.
@@ -115,8 +114,8 @@ TEST_CASE("for the exact 1989 rule, a gap below EPSGAP is stationary in any unit
 }
 
 TEST_CASE(
-    "the exact 1989 rule is wrong in the same problems as the 1989 code, with the errors that DIVERGENCES.md "
-    "gives") {
+    "the exact 1989 rule has the errors and the ended paths that are expected for each file of "
+    "DIVERGENCES.md") {
   struct divergence {
     const char* name;
     double error;  // largest error of w at the ends of steps, relative to the largest w
@@ -148,7 +147,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("for the exact 1989 rule, a structure held by no pair in contact is a mechanism") {
+TEST_CASE("for the exact 1989 rule, a beam without supports above its stops is a mechanism") {
   const exact_path path = listed("[beam]\nx = [0, 1]\nEI = 1\n" + stop(1, "-1", "1") + stop(2, "-1", "1") +
                                  "[[step]]\nuniform = -1\n");
   CHECK(path.status == contct::path_status::mechanism);

@@ -23,13 +23,13 @@ rational_vector work_of(const std::string& step) {
 
 }  // namespace
 
-TEST_CASE("A force at a quarter of an element does the exact work on its cubic shape functions") {
+TEST_CASE(
+    "A force or moment at a quarter of an element has the exact nodal loads of the cubic shape functions") {
   CHECK(work_of("point = [ { x = 0.25, w = 64 } ]\n") == rational_vector{54, 9, 10, -3});
   CHECK(work_of("point = [ { x = 0.25, theta = 16 } ]\n") == rational_vector{-18, 3, 18, -5});
 }
 
-TEST_CASE(
-    "A load on a tenth of an element does exact work, and a curvature does the work of its two end moments") {
+TEST_CASE("A load on a tenth of an element has exact nodal loads, and so has a curvature") {
   // The integrals of the shape functions from 0 to 1/10, such as L - L^3 + L^4 / 2.
   CHECK(work_of("uniform = [ { value = 1, to = 0.1 } ]\n") ==
         rational_vector{rational(1981, 20000), rational(523, 120000), rational(19, 20000),
@@ -93,7 +93,8 @@ told_extremes extremes_told_of(const problem& p) {
 
 }  // namespace
 
-TEST_CASE("Extremes in two elements equal those of a mesh with a node at each load, within proved bounds") {
+TEST_CASE(
+    "Extremes in two elements equal, within proved bounds, the extremes of a mesh with a node at each load") {
   random_numbers random(41);
   for (int number = 0; number < 100; ++number) {
     const drawn_load drawn = draw_load(random);

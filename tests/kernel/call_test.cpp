@@ -26,7 +26,7 @@ std::string verdict(int id, dof_layout layout, int isep, int isurf) {
 
 }  // namespace
 
-TEST_CASE("a call is accepted up to the 32-bit limits of the product ISEP * ISURF and of a dof") {
+TEST_CASE("a call is accepted up to the 32-bit limits of a dof and of the product ISEP * ISURF") {
   CHECK(verdict(2, {1, 1}, 1, -1) == "accepted");
   CHECK(verdict(1, {2, 2}, 65536, -32768) == "accepted");
   CHECK(verdict(2, {1, 1}, 46341, 46340) == "accepted");
@@ -34,7 +34,7 @@ TEST_CASE("a call is accepted up to the 32-bit limits of the product ISEP * ISUR
   CHECK(verdict(0, {3, 2}, 1, 1) == "accepted");  // dof 1
 }
 
-TEST_CASE("a call whose product ISEP * ISURF overflows 32 bits is refused with the product") {
+TEST_CASE("a call is refused if ISEP * ISURF exceeds 32 bits, and the message gives this product") {
   CHECK(verdict(2, {1, 1}, 65536, 65536) ==
         "call: pair 1: found ISEP 65536 and ISURF 65536, whose product is 4294967296; allowed: a product "
         "within 32 "
@@ -43,7 +43,7 @@ TEST_CASE("a call whose product ISEP * ISURF overflows 32 bits is refused with t
   CHECK_THAT(verdict(2, {1, 1}, 65536, -32769), Contains("whose product is -2147549184"));
 }
 
-TEST_CASE("a call is refused if a dof is outside its arrays, or inside them only after a 32-bit overflow") {
+TEST_CASE("a call is refused if a dof is outside the arrays, or is inside only after a 32-bit overflow") {
   CHECK(verdict(3, {1, 1}, 1, 1) ==
         "call: pair 1: found ID 3, which is dof 3 with INDOF 1 and NDOFPN 1; allowed: a dof from 1 to 2, "
         "computed "
@@ -55,8 +55,7 @@ TEST_CASE("a call is refused if a dof is outside its arrays, or inside them only
   CHECK_THAT(verdict(least, {1, 0}, 1, 1), Contains("which is dof 1 with INDOF 1 and NDOFPN 0"));
 }
 
-TEST_CASE(
-    "a call of 2147483647 pairs is refused before any pair is read, since the listing's loop would not end") {
+TEST_CASE("a call of 2147483647 pairs is refused at once, because the loop of the listing would not end") {
   const double one = 0.0;
   call<double> c{};
   c.cc = {&one, 2'147'483'647};

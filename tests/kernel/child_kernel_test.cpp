@@ -21,7 +21,7 @@ std::string put_to_pipe(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("a second answer to a call is not used as the answer to the next call") {
+TEST_CASE("if a kernel command answers a call twice, the second answer is not used for the next call") {
   const leftovers left;
   {
     // The command writes a second answer after the first answer was read, and before the next call.
@@ -44,7 +44,7 @@ TEST_CASE("a second answer to a call is not used as the answer to the next call"
   left.check();
 }
 
-TEST_CASE("a command that ends is reported, and the next call is sent to a new process") {
+TEST_CASE("a kernel command that ends is reported, and the next call starts a new process") {
   const leftovers left;
   CHECK(put_to_pipe("exit 0") == "it ended with status 0");
   CHECK(put_to_pipe("read -r line; exit 3") == "it ended with status 3");
@@ -60,7 +60,7 @@ TEST_CASE("a command that ends is reported, and the next call is sent to a new p
   left.check();
 }
 
-TEST_CASE("a command is stopped if it does not answer, closes its pipe or answers too much") {
+TEST_CASE("a kernel command is stopped if it does not answer, closes the pipe or writes too much") {
   const leftovers left;
   CHECK(put_to_pipe("exec cat >/dev/null") == "it did not answer within 500 ms");
   CHECK(put_to_pipe("exec sleep 100 <&- >&-") == "it closed its end of the pipe");
@@ -69,7 +69,7 @@ TEST_CASE("a command is stopped if it does not answer, closes its pipe or answer
   left.check();
 }
 
-TEST_CASE("an invalid answer of a command is refused, with what was found and what is allowed") {
+TEST_CASE("an invalid answer of a kernel command is refused, with what was found and what is allowed") {
   const auto answering = [](const std::string& text) {
     return put_to_pipe("printf '" + text + "'; exec cat >/dev/null");
   };

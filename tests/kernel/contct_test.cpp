@@ -19,7 +19,8 @@ TEMPLATE_TEST_CASE("a pair makes contact at the share of the load that brings it
   CHECK(c.events == std::vector<event>{{0, change::make}});
 }
 
-TEMPLATE_TEST_CASE("a pair in contact separates at the share that eq. 4 gives", "", float, double) {
+TEMPLATE_TEST_CASE("a pair in contact separates at the share of the load that eq. 4 gives", "", float,
+                   double) {
   // The pair is at D = -3, below its face at -2, and rises by 4, so that it passes the face at a quarter of
   // its way.
   small_call<TestType> c({{TestType(-3), TestType(4), TestType(-2), touching, below}});
@@ -29,13 +30,15 @@ TEMPLATE_TEST_CASE("a pair in contact separates at the share that eq. 4 gives", 
   CHECK(c.events == std::vector<event>{{0, change::break_}});
 }
 
-TEST_CASE("the s of eq. 4 is the same for a face above and a face below") {
+TEST_CASE("s by eq. 4 is the same for a face above and a face below") {
   small_call<double> c({{0.0, 2.0, 1.0, apart, above}, {0.0, 2.0, 1.0, apart, below}});
   c.ask();
   CHECK(c.ss[0] == c.ss[1]);
 }
 
-TEST_CASE("a pair has no event if its face is out of reach or behind it, or if it does not respond") {
+TEST_CASE(
+    "a pair without a response has no event, and neither has a pair whose face is out of reach or behind "
+    "it") {
   small_call<double> c({{0.0, -1.0, -2.0, apart, below},    // s = 2, beyond full load
                         {0.0, 1.0, -2.0, apart, below},     // s = -2, moving away
                         {0.0, 0.0, -2.0, apart, below},     // d* = 0
@@ -47,7 +50,7 @@ TEST_CASE("a pair has no event if its face is out of reach or behind it, or if i
   CHECK(c.isep == std::vector<int>{apart, apart, apart, apart});
 }
 
-TEST_CASE("the smallest s of several events comes first (lemma 2)") {
+TEST_CASE("of several pairs with events, the pair with the smallest s is toggled first (lemma 2)") {
   small_call<double> c(
       {{0.0, -1.0, -0.75, apart, below}, {0.0, -2.0, -0.5, apart, below}, {-1.0, 2.0, 0.5, touching, below}});
   c.ask();
@@ -55,8 +58,8 @@ TEST_CASE("the smallest s of several events comes first (lemma 2)") {
   CHECK(c.events == std::vector<event>{{1, change::make}});
 }
 
-TEMPLATE_TEST_CASE("a stationary pair separates at once if it is pulled, at an s below 1e-19 (eq. 11, 12)",
-                   "", float, double) {
+TEMPLATE_TEST_CASE("a stationary pair that is pulled separates at once, at an s below 1e-19 (eq. 11, 12)", "",
+                   float, double) {
   using Real = TestType;
   small_call<Real> c({{Real(0), Real(0.5), Real(0), touching, below},     // pulled off its face
                       {Real(0), Real(-0.5), Real(0), touching, below},    // pressed: no event
@@ -71,7 +74,7 @@ TEMPLATE_TEST_CASE("a stationary pair separates at once if it is pulled, at an s
   CHECK(c.events == std::vector<event>{{0, change::break_}, {2, change::make}});
 }
 
-TEST_CASE("a stationary pair has its event before every advancing pair, and its s does not change D") {
+TEST_CASE("a stationary pair is toggled before every advancing pair, at an s too small to change D") {
   small_call<double> c({{0.0, -1.0, -1e-9, apart, below}, {0.25, 1e-3, 0.25, touching, below}});
   c.ask();
   CHECK(c.events == std::vector<event>{{1, change::break_}});
@@ -79,8 +82,9 @@ TEST_CASE("a stationary pair has its event before every advancing pair, and its 
 }
 
 TEMPLATE_TEST_CASE(
-    "a near tie toggles every pair whose s is less than 2^-8 above the smallest, but not at exactly 2^-8", "",
-    float, double) {
+    "a near tie toggles every pair whose s is less than 2^-8 above the smallest s, relative to the smallest "
+    "s",
+    "", float, double) {
   using Real = TestType;
   const Real half = Real(0.5);
   const Real edge = half + half / Real(256);
@@ -94,7 +98,8 @@ TEMPLATE_TEST_CASE(
   CHECK(ask(std::nextafter(edge, Real(1))) == 1);
 }
 
-TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257, a defect of the listing") {
+TEST_CASE(
+    "a pair without an event is toggled if the smallest s exceeds 256/257, by a defect of the listing") {
   // Pair 2 is at a fixed dof, d* = 0, one unit from its face, but is toggled.
   small_call<double> c({{0.0, 1.0, 0.9999, apart, above}, {0.0, 0.0, -1.0, apart, below}});
   c.ask();
@@ -103,7 +108,8 @@ TEST_CASE("a pair without an event is toggled if the smallest s exceeds 256/257,
 }
 
 // Problem files refuse a pair that starts beyond its face (reference/DIVERGENCES.md, way 5).
-TEST_CASE("a pair that starts beyond its face gets the wrong status at its event, without an error") {
+TEST_CASE(
+    "a pair that starts beyond its face gets the wrong status at its event, and the kernel gives no error") {
   small_call<double> pressed({{0.0, -1.0, 0.1, apart, below}});  // the face is inside the structure
   CHECK(pressed.ask().smin == 1.0);                              // the structure ends 1.1 beyond the face
   CHECK(pressed.ss[0] == -0.1);
@@ -115,7 +121,7 @@ TEST_CASE("a pair that starts beyond its face gets the wrong status at its event
   CHECK(reaches.isep[0] == apart);
 }
 
-TEST_CASE("EPSGAP is an absolute length, so that every gap counts as zero in small units") {
+TEST_CASE("EPSGAP is an absolute length, so in a small unit of length every gap counts as zero") {
   // In units in which the structure measures 1e-10, a real gap counts as zero.
   small_call<double> c({{0.0, -4e-11, -1e-11, apart, below}});
   c.ask();
@@ -123,7 +129,7 @@ TEST_CASE("EPSGAP is an absolute length, so that every gap counts as zero in sma
   CHECK(c.isep[0] == touching);  // the pair has not reached its face
 }
 
-TEST_CASE("a call with NaN has no event") {
+TEST_CASE("a call with NaN for every pair has no event") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   small_call<double> c(
       {{nan, 1.0, 0.5, apart, above}, {0.0, nan, 0.5, apart, above}, {0.0, 1.0, nan, apart, above}});
@@ -132,7 +138,7 @@ TEST_CASE("a call with NaN has no event") {
   CHECK(c.events.empty());
 }
 
-TEST_CASE("a pair's dof is found through ID, INDOF and NDOFPN, and one node may have several pairs") {
+TEST_CASE("the dof of a pair is computed from ID, INDOF and NDOFPN, and one node may have several pairs") {
   // Two nodes have three dofs each, of which the second deflects.
   std::vector<double> dd(6, 0.0);
   std::vector<double> dtest = {9, 9, 9, 9, 2.0, 9};
@@ -155,7 +161,8 @@ TEST_CASE("a call without pairs has no event") {
   CHECK(c.events.empty());
 }
 
-TEST_CASE("the constants of single precision differ from those of double precision after rounding") {
+TEST_CASE(
+    "EPSGAP and DELTA are rounded in single precision, but EPSMUL is exactly 1/256 in both precisions") {
   CHECK(static_cast<double>(constants<float>::delta) != constants<double>::delta);
   CHECK(static_cast<double>(constants<float>::epsgap) != constants<double>::epsgap);
   CHECK(constants<float>::epsmul == 1.0F / 256);

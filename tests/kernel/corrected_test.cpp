@@ -90,7 +90,8 @@ void check_unchanged(const Change& changed) {
 }  // namespace
 
 TEST_CASE(
-    "the corrected kernel makes contact when a pair reaches its face, and breaks it on return to the face") {
+    "the corrected kernel makes contact when a pair reaches its face, and breaks contact on return to the "
+    "face") {
   const answered closes({{-1.0, -4.0, -2.0, apart, below}});
   CHECK(closes.smin == 0.25);
   CHECK(closes.ss[0] == 0.25);
@@ -115,7 +116,7 @@ TEST_CASE("the corrected kernel makes contact only on approach, and breaks conta
 }
 
 TEST_CASE(
-    "the corrected kernel has no event without a response or at full load and beyond, and all s are 1") {
+    "the corrected kernel has no event for pairs without a response or at full load, and gives them s = 1") {
   const answered c({{0.0, -1.0, -1.0, apart, below},      // exactly at full load
                     {0.0, -1.0, -2.0, apart, below},      // beyond full load
                     {0.0, 1.0, -2.0, apart, below},       // moving away
@@ -127,7 +128,8 @@ TEST_CASE(
   CHECK(c.ss == std::vector<double>(6, 1.0));
 }
 
-TEST_CASE("the corrected kernel's answer does not depend on the places of the pairs' dofs in its arrays") {
+TEST_CASE(
+    "the corrected kernel gives the same answer at whatever places of the arrays the dofs of the pairs are") {
   random_numbers random(31);
   int happened = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -154,7 +156,7 @@ TEST_CASE("the corrected kernel's answer does not depend on the places of the pa
   CHECK(happened >= 500);
 }
 
-TEST_CASE("the corrected kernel counts a face as reached if it is overshot by any amount") {
+TEST_CASE("the corrected kernel counts a face as reached if a pair is beyond it by any amount") {
   for (const double beyond : {0.0, eps, 1e-9, 0.1}) {
     const answered makes_at_once({{-1.0 - beyond, -1.0, -1.0, apart, below}});
     CHECK(makes_at_once.smin == 0.0);
@@ -166,7 +168,7 @@ TEST_CASE("the corrected kernel counts a face as reached if it is overshot by an
   }
 }
 
-TEST_CASE("the corrected kernel treats a gap of any size as a gap") {
+TEST_CASE("the corrected kernel does not round a gap to zero, however small the gap is") {
   // The listing treats every gap below 1e-10 as zero.
   const answered c({{0.0, -4e-11, -1e-11, apart, below}});
   CHECK(c.smin == 0.25);
@@ -174,7 +176,8 @@ TEST_CASE("the corrected kernel treats a gap of any size as a gap") {
   CHECK(tiny.smin == 0.25);
 }
 
-TEST_CASE("the corrected kernel ignores an approach of less than 1e-10 of the largest response") {
+TEST_CASE(
+    "the corrected kernel ignores an approach below 1e-10 of the largest response, but ignores no break") {
   const auto ask = [](double d_star, int isep) {
     // The first pair is at its face; the second has a response of 1 and no event.
     return answered({{0.0, isep * -d_star, 0.0, isep, below}, {0.0, 1.0, -5.0, apart, below}}).happened;
@@ -188,7 +191,8 @@ TEST_CASE("the corrected kernel ignores an approach of less than 1e-10 of the la
   CHECK(ask(std::numeric_limits<double>::denorm_min(), touching) == breaks(0));
 }
 
-TEST_CASE("the corrected kernel's largest response is that of all pairs, above or below, in any status") {
+TEST_CASE(
+    "the largest response in the corrected kernel is that of all pairs, above or below, in any status") {
   for (const int isep : {apart, touching}) {
     for (const double other : {-1.0, 1.0}) {
       // The other pair has no event in this call.
@@ -199,7 +203,7 @@ TEST_CASE("the corrected kernel's largest response is that of all pairs, above o
   }
 }
 
-TEST_CASE("the corrected kernel toggles only the first pair with the least s, and no near tie") {
+TEST_CASE("the corrected kernel toggles only the first pair with the least s, and no pair of a near tie") {
   const answered tie({{0.0, -1.0, -0.5, apart, below},
                       {0.0, 2.0, 0.5, apart, above},
                       {0.0, 1.0, 0.25, apart, above},
@@ -210,9 +214,7 @@ TEST_CASE("the corrected kernel toggles only the first pair with the least s, an
   CHECK(tie.isep == std::vector<int>{apart, touching, apart, apart});
 }
 
-TEST_CASE(
-    "among pairs at rest, the corrected kernel toggles the pair with the largest response, and of equal ones "
-    "the first") {
+TEST_CASE("of pairs at their faces, the corrected kernel toggles the first one with the largest response") {
   const std::vector<pair_at<double>> pairs = {{0.0, -0.5, 0.0, apart, below},
                                               {0.0, 2.0, 0.0, touching, below},
                                               {0.0, -2.0, 0.0, touching, above},
@@ -224,14 +226,14 @@ TEST_CASE(
   CHECK(c.isep == std::vector<int>{apart, apart, touching, apart});
 }
 
-TEST_CASE("the corrected kernel has no event in a call without pairs or with NaN") {
+TEST_CASE("the corrected kernel has no event in a call without pairs or in a call with NaN") {
   CHECK(answered({}).happened == nothing);
   CHECK(answered({}).smin == 1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(answered({{0.0, nan, 0.5, apart, above}}).happened == nothing);
 }
 
-TEST_CASE("the corrected kernel's answer is the same to the bit in other units of length") {
+TEST_CASE("in another unit of length, the corrected kernel gives the same s and statuses to the bit") {
   for (const int power : {-600, -40, 33, 600}) {
     INFO(power);
     check_unchanged([power](const pair_at<double>& p) -> pair_at<double> {
@@ -240,13 +242,16 @@ TEST_CASE("the corrected kernel's answer is the same to the bit in other units o
   }
 }
 
-TEST_CASE("the corrected kernel's answer is the same to the bit for a structure turned upside down") {
+TEST_CASE(
+    "for a structure turned upside down, the corrected kernel gives the same s and statuses to the bit") {
   check_unchanged([](const pair_at<double>& p) -> pair_at<double> {
     return {-p.d, -p.d_star, -p.c, p.isep, -p.isurf};
   });
 }
 
-TEST_CASE("the corrected kernel's s is from 0 to 1, SMIN is the least s, and toggled pairs have this s") {
+TEST_CASE(
+    "the corrected kernel gives each pair an s from 0 to 1, and toggles only pairs whose s is the least, "
+    "SMIN") {
   random_numbers r(103);
   for (int round = 0; round < 20000; ++round) {
     const std::vector<pair_at<double>> pairs = random_pairs(r);

@@ -23,7 +23,7 @@ small_call<double> one_that_closes() {
 
 }  // namespace
 
-TEST_CASE("the 1989 code answers in 4-byte REAL, as printed, and in 8-byte REAL") {
+TEST_CASE("the 1989 code answers a call in 4-byte REAL, as in the listing, and a call in 8-byte REAL") {
   small_call<float> r4({{0.0F, 3.0F, 1.0F, separated, face_above}});
   call<float> c4 = r4.arguments();
   fortran::contct(c4);
@@ -36,7 +36,7 @@ TEST_CASE("the 1989 code answers in 4-byte REAL, as printed, and in 8-byte REAL"
   CHECK(r8.isep[0] == in_contact);
 }
 
-TEST_CASE("without a request, unit 26 writes nothing and no file fort.26 appears") {
+TEST_CASE("if unit 26 is not requested, the 1989 code writes no text and no file fort.26") {
   for (int i = 0; i < 1000; ++i) {
     auto c = one_that_closes();
     call<double> arguments = c.arguments();
@@ -45,7 +45,7 @@ TEST_CASE("without a request, unit 26 writes nothing and no file fort.26 appears
   CHECK_FALSE(std::filesystem::exists("fort.26"));
 }
 
-TEST_CASE("a second request for the text of unit 26 returns only the text of later calls") {
+TEST_CASE("each request for the text of unit 26 returns only the text of calls since the request before") {
   fortran::unit_26 log;
   CHECK(log.take().empty());
   auto c = one_that_closes();
@@ -59,7 +59,7 @@ TEST_CASE("a second request for the text of unit 26 returns only the text of lat
   CHECK(log.take() == text);
 }
 
-TEST_CASE("each reading of unit 26 returns exactly the text written since the reading before") {
+TEST_CASE("the text of unit 26 is read completely, whatever the number of calls since the last reading") {
   fortran::unit_26 log;
   auto c = small_call<double>({{0.0, 0.0, 0.25, separated, face_above}});
   call<double> arguments = c.arguments();
@@ -80,7 +80,7 @@ TEST_CASE("each reading of unit 26 returns exactly the text written since the re
   CHECK(characters > 2'500'000);
 }
 
-TEST_CASE("unit 26 belongs to the whole process, and is opened by one object at a time") {
+TEST_CASE("only one object at a time can open unit 26, because unit 26 belongs to the whole process") {
   {
     const fortran::unit_26 log;
     CHECK_THROWS_AS(fortran::unit_26(), std::logic_error);
@@ -88,7 +88,7 @@ TEST_CASE("unit 26 belongs to the whole process, and is opened by one object at 
   CHECK_NOTHROW(fortran::unit_26());
 }
 
-TEST_CASE("a signal at any moment leaves no file of unit 26") {
+TEST_CASE("if a signal ends the process at any moment, no file of unit 26 remains") {
   const auto folder =
       std::filesystem::temp_directory_path() / ("contct-unit26-test-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
@@ -109,7 +109,7 @@ TEST_CASE("a signal at any moment leaves no file of unit 26") {
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("COMMON /DOF/ is set for every call, so that calls from several threads do not mix") {
+TEST_CASE("COMMON /DOF/ is set for every call, so that calls in several threads do not affect each other") {
   const auto many = [](int indof, bool& right) {
     // Node 1 has the dofs 1 to 3, of which only dof `indof` responds.
     const std::vector<double> dd(3, 0.0);

@@ -23,7 +23,7 @@ bool same(const call_outputs& a, const call_outputs& b) {
 
 }  // namespace
 
-TEST_CASE("every built-in kernel can be created, and its facts have name, precision and compiler") {
+TEST_CASE("every built-in kernel can be created, and states a name, a precision and a compiler") {
   const auto names = kernel_names();
   REQUIRE(names.size() >= 4);
   for (const std::string& name : names) {
@@ -40,7 +40,7 @@ TEST_CASE("every built-in kernel can be created, and its facts have name, precis
   }
 }
 
-TEST_CASE("every kernel gives the answer that was calculated by hand") {
+TEST_CASE("every built-in kernel gives the answer of a hand calculation") {
   for (const std::string& name : kernel_names()) {
     const auto k = make_kernel(name);
     small_call<double> c({{0.0, -4.0, -1.0, separated, face_below}, {0.0, 0.0, 1.0, separated, face_above}});
@@ -55,7 +55,8 @@ TEST_CASE("every kernel gives the answer that was calculated by hand") {
   }
 }
 
-TEST_CASE("a single-precision kernel rounds its inputs, and returns its numbers as exact doubles") {
+TEST_CASE(
+    "a single-precision kernel rounds the input of a call, and returns single-precision numbers as doubles") {
   for (const char* name : {"fortran-r4", "cpp-r4"}) {
     const auto k = make_kernel(name);
     small_call<double> c({{0.0, 3.0 + 1e-12, 1.0, separated, face_above}});
@@ -66,7 +67,7 @@ TEST_CASE("a single-precision kernel rounds its inputs, and returns its numbers 
   }
 }
 
-TEST_CASE("every kernel gives the same bits for the same calls in another order") {
+TEST_CASE("every built-in kernel gives the same bits for the same calls in another order") {
   constexpr int calls = 2000;
   std::vector<call_inputs<double>> inputs;
   random_calls<double> source(7);
@@ -86,7 +87,7 @@ TEST_CASE("every kernel gives the same bits for the same calls in another order"
   }
 }
 
-TEST_CASE("the prefix of a kernel's name determines its facts before the kernel is created") {
+TEST_CASE("before a kernel is created, precision, rule and text are known from the prefix of its name") {
   const kernel_facts plugin = facts_of_kernel("plugin:./no-such.so");
   CHECK(plugin.name == "plugin:./no-such.so");
   const kernel_facts pipe = facts_of_kernel("pipe:no-such-command");
@@ -100,7 +101,7 @@ TEST_CASE("the prefix of a kernel's name determines its facts before the kernel 
   CHECK(facts_of_kernel("fortran").has_text);
 }
 
-TEST_CASE("a prefix without a name and a misspelt kernel name are refused, with the list of valid names") {
+TEST_CASE("a prefix without a name and a misspelt kernel name are refused, with a list of valid names") {
   for (const char* name : {"plugin:", "pipe:", "plugin", ""})
     CHECK_THROWS_AS(make_kernel(name), std::invalid_argument);
   CHECK_THROWS_WITH(facts_of_kernel("fortan"), Contains("no kernel is named \"fortan\"") &&

@@ -33,7 +33,7 @@ std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
 
 }  // namespace
 
-TEST_CASE("the C++ kernel's text of an event equals gfortran's, letter for letter") {
+TEST_CASE("the C++ kernel writes the text of an event byte for byte as gfortran does") {
   const auto [f, cpp] = texts(0.25, 1.0, 7);
   CHECK(f ==
         "  ******* MAKING CONTACT ********\n"
@@ -41,26 +41,26 @@ TEST_CASE("the C++ kernel's text of an event equals gfortran's, letter for lette
   CHECK(cpp == f);
 }
 
-TEST_CASE("the C++ kernel's text of a call without events equals gfortran's") {
+TEST_CASE("the C++ kernel writes the text of a call without events byte for byte as gfortran does") {
   const auto [f, cpp] = texts(3.0, 1.0, 1);
   CHECK(f == "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n");
   CHECK(cpp == f);
   CHECK(texts(3.0F, 1.0F, 1) == std::pair(f, f));
 }
 
-TEST_CASE("I3 prints asterisks for a node above 999, in gfortran and in C++") {
+TEST_CASE("for a node above 999, FORMAT I3 prints asterisks in gfortran and in C++") {
   const auto [f, cpp] = texts(0.25, 1.0, 1000);
   CHECK(f.find("NODE: *** SURFACE") != std::string::npos);
   CHECK(cpp == f);
 }
 
-TEST_CASE("an exponent of three digits is printed without its E, by gfortran and by C++") {
+TEST_CASE("gfortran and C++ print an exponent of three digits without the letter E") {
   const auto [f, cpp] = texts(1.0, 3e200, 1);
   CHECK(f.find("SCALE FACTOR =  0.3333-200") != std::string::npos);
   CHECK(cpp == f);
 }
 
-TEMPLATE_TEST_CASE("the C++ kernel's text rounds digits as gfortran does, from the smallest subnormal to 1",
+TEMPLATE_TEST_CASE("the C++ kernel rounds printed numbers as gfortran does, from the smallest subnormal to 1",
                    "", float, double) {
   using Real = TestType;
   std::vector<Real> factors = {std::numeric_limits<Real>::denorm_min(),

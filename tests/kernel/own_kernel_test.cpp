@@ -28,7 +28,7 @@ void changes_its_input(const double dd[], const double dtest[], const double cc[
 
 }  // namespace
 
-TEST_CASE("a function can be a kernel of the 1989 rule, without text") {
+TEST_CASE("a C++ function can be a kernel of the 1989 rule, and such a kernel has no text of unit 26") {
   const auto k = make_function_kernel("halves", halves);
   CHECK(k->facts().name == "halves");
   CHECK(k->facts().language == "a function");
@@ -41,7 +41,8 @@ TEST_CASE("a function can be a kernel of the 1989 rule, without text") {
   CHECK(k->take_text().empty());
 }
 
-TEST_CASE("a function that changes its input is reported, and its answer and its changes are not used") {
+TEST_CASE(
+    "if a kernel function changes the input of a call, the change is reported and the answer is not used") {
   const auto k = make_function_kernel("changes", changes_its_input);
   const call_inputs<double> in = one_pair();
   call_outputs out;
@@ -51,7 +52,7 @@ TEST_CASE("a function that changes its input is reported, and its answer and its
   CHECK(c.smin == not_an_answer);
 }
 
-TEST_CASE("a function's name that is empty, has a : or a comma, or is another kernel's is refused") {
+TEST_CASE("the name of a kernel function is refused if it is empty, has a colon or comma, or is taken") {
   for (const char* const name : {"cpp", "fortran", "", "a:b", "a,b"})
     CHECK_THROWS_AS(refuse_name_of_function(name), std::invalid_argument);
   CHECK_NOTHROW(refuse_name_of_function("mine"));

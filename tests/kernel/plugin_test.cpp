@@ -72,7 +72,7 @@ class caught_stream {
 
 }  // namespace
 
-TEST_CASE("a plug-in that hangs three times is stopped, and not started again") {
+TEST_CASE("a kernel plug-in that hangs three times is stopped, and is not started again") {
   const leftovers left;
   {
     const auto k = make_plugin(plugin("misbehaves"), short_patience());
@@ -87,7 +87,8 @@ TEST_CASE("a plug-in that hangs three times is stopped, and not started again") 
   left.check();
 }
 
-TEST_CASE("a plug-in is not called again after the allowed number of quick failures, 1000 by default") {
+TEST_CASE(
+    "after the allowed number of quick failures, 1000 by default, a kernel plug-in is not called again") {
   const leftovers left;
   {
     outside_limits limits;  // 40 failures instead of 1000, which take long under a sanitizer
@@ -102,7 +103,7 @@ TEST_CASE("a plug-in is not called again after the allowed number of quick failu
   left.check();
 }
 
-TEST_CASE("a plug-in that writes beyond an array fails, and the message names the array") {
+TEST_CASE("if a kernel plug-in writes outside an array, the call fails and the message names the array") {
   const std::vector<std::string> arrays = {"DD", "DTEST", "CC", "SS", "SMIN", "ID", "ISEP", "ISURF"};
   const leftovers left;
   {
@@ -116,7 +117,7 @@ TEST_CASE("a plug-in that writes beyond an array fails, and the message names th
   left.check();
 }
 
-TEST_CASE("a plug-in that changes an input fails, and the message names the input") {
+TEST_CASE("if a kernel plug-in changes an input, the call fails and the message names the input") {
   const auto k = make_plugin(plugin("misbehaves"), short_patience());
   CHECK(put(*k, 30) == "it changed its input DD");
   CHECK(put(*k, 31) == "it changed its input DTEST");
@@ -126,7 +127,7 @@ TEST_CASE("a plug-in that changes an input fails, and the message names the inpu
   CHECK(put(*k, behaves).empty());
 }
 
-TEST_CASE("a library that is not a plug-in is refused, with the reason") {
+TEST_CASE("a library that is not a kernel plug-in is refused, and the message gives the reason") {
   const leftovers left;
   CHECK_THAT(why_refused("/no/such/library.so"), Contains("plugin:/no/such/library.so: cannot be loaded"));
   CHECK_THAT(why_refused("no-such-library.so"), Contains("cannot be loaded: ./no-such-library.so"));
@@ -141,7 +142,7 @@ TEST_CASE("a library that is not a plug-in is refused, with the reason") {
   left.check();
 }
 
-TEST_CASE("a plug-in answers calls of any size after a small call") {
+TEST_CASE("after a small call, a kernel plug-in answers calls of any size") {
   const leftovers left;
   {
     const auto k = make_plugin(plugin("misbehaves"));
@@ -166,7 +167,7 @@ TEST_CASE("a plug-in answers calls of any size after a small call") {
   left.check();
 }
 
-TEST_CASE("a FORTRAN plug-in's unit 26 is separate from this program's, and leaves no file") {
+TEST_CASE("unit 26 of a FORTRAN plug-in is separate from unit 26 of this program, and leaves no file") {
   const leftovers left;
   const in_own_folder here;
   {
@@ -187,7 +188,7 @@ TEST_CASE("a FORTRAN plug-in's unit 26 is separate from this program's, and leav
   left.check();
 }
 
-TEST_CASE("a FORTRAN plug-in leaves no file in a process that never called the listing") {
+TEST_CASE("a FORTRAN plug-in leaves no file of unit 26 in a process that never called the listing") {
   const in_own_folder here;
   {
     const auto k = make_plugin(plugin("writes_unit_26"), short_patience());
@@ -196,14 +197,14 @@ TEST_CASE("a FORTRAN plug-in leaves no file in a process that never called the l
   CHECK(here.is_empty());
 }
 
-TEST_CASE("a plug-in's crash is reported, whatever signal handler this program has") {
+TEST_CASE("if a kernel plug-in crashes, the signal is reported, whatever signal handler this program has") {
   const auto own = std::signal(SIGSEGV, [](int) { _exit(9); });
   const std::string words = put(*make_plugin(plugin("misbehaves"), short_patience()), crashes);
   (void)std::signal(SIGSEGV, own);
   CHECK_THAT(words, Contains("it was ended by signal 11"));
 }
 
-TEST_CASE("a plug-in's printed output goes to standard error") {
+TEST_CASE("what a kernel plug-in prints goes to standard error") {
   const caught_stream out(STDOUT_FILENO);
   const caught_stream err(STDERR_FILENO);
   std::string words;

@@ -248,7 +248,7 @@ double read_number(const std::string& word) {
 
 }  // namespace
 
-TEST_CASE("numbers of every kind are read from a trace as they were written, to the bit") {
+TEST_CASE("numbers of every kind are written to a trace and read back with the same bits") {
   recorded_call c = call_with(numbers());
   const recorded_call back = read_back(written(c));
   CHECK(differences(c.in.dd, back.in.dd) == 0);
@@ -268,7 +268,7 @@ TEST_CASE("numbers of every kind are read from a trace as they were written, to 
   }
 }
 
-TEST_CASE("a dof that no pair uses is not written to a trace, and is read as NaN") {
+TEST_CASE("a dof without a pair is not written to a trace, and is NaN when the trace is read") {
   recorded_call c = call_with({1.0, 2.0});
   c.in.dd[0] = 7.0;
   const std::string text = written(c);
@@ -278,7 +278,7 @@ TEST_CASE("a dof that no pair uses is not written to a trace, and is read as NaN
   CHECK(back.in.dd[1] == 1.0);
 }
 
-TEST_CASE("notes and texts of unit 26 with any characters are read from a trace as they were written") {
+TEST_CASE("notes and texts of unit 26 with any characters are written to a trace and read back unchanged") {
   recorded_call c = call_with({1.0});
   c.note = "a note with \"quotes\", | bars |, end, \t tabs and \xc3\xa9";
   c.out.text = "|bar\n\nend\n  call 2\n\t\x01\x7f\xff" + std::string(1, '\0') + "\ncarriage\r\n ask\n";
@@ -291,7 +291,7 @@ TEST_CASE("notes and texts of unit 26 with any characters are read from a trace 
   CHECK(read_back(written(c)).out.text.empty());
 }
 
-TEST_CASE("a header of a trace is read as it was written") {
+TEST_CASE("the header of a trace is written and read back unchanged") {
   const trace_header h{{"what it is for", "in two lines"},
                        "fortran-r4",
                        4,
@@ -316,7 +316,7 @@ TEST_CASE("a header of a trace is read as it was written") {
   CHECK(back.floating_point == h.floating_point);
 }
 
-TEST_CASE("a kernel's name of several lines is written as one line of a trace's header") {
+TEST_CASE("if the name of a kernel has several lines, the header of a trace has the name on one line") {
   trace_header h;
   h.kernel = "pipe:while read x\ndo echo $x\ndone";
   std::string text;
@@ -325,7 +325,8 @@ TEST_CASE("a kernel's name of several lines is written as one line of a trace's 
   CHECK(reader.read_header().kernel == "pipe:while read x do echo $x done");
 }
 
-TEST_CASE("a malformed trace is refused with file and line, what was found and what is allowed") {
+TEST_CASE(
+    "a malformed trace is refused, and the message has file, line, what was found and what is allowed") {
   const std::vector<attack> all = attacks();
   CHECK(all.size() >= 55);
   for (const attack& a : all) {
@@ -338,7 +339,7 @@ TEST_CASE("a malformed trace is refused with file and line, what was found and w
   }
 }
 
-TEST_CASE("a trace that is cut anywhere is refused, except between its calls") {
+TEST_CASE("a trace is refused if it is cut inside a call") {
   int whole = 0;
   for (std::size_t length = 0; length <= good.size(); ++length) {
     const read_result r = read_all(good.substr(0, length));
@@ -357,7 +358,7 @@ TEST_CASE("a trace that is cut anywhere is refused, except between its calls") {
   CHECK(whole < static_cast<int>(good.find("call 1")) + 6);
 }
 
-TEST_CASE("a dof that a later call of a trace does not name becomes NaN again") {
+TEST_CASE("a dof that one call of a trace gives and a later call does not give is NaN in the later call") {
   const std::string calls =
       "call 1\nindof 1 ndofpn 1 dofs 3 nc 1\ndof 1 dd 1 dtest 1\ndof 3 dd 3 dtest 3\n"
       "pair 1 id 1 isep 1 isurf 1 cc 1\nask\nsmin 1\npair 1 ss 1 isep 1\nend\n"
@@ -376,7 +377,7 @@ TEST_CASE("a dof that a later call of a trace does not name becomes NaN again") 
   CHECK_FALSE(reader.next(c));
 }
 
-TEST_CASE("a trace may have numbers as decimals, hex floats, inf and nan") {
+TEST_CASE("a number in a trace may be a decimal, a hex float, inf or nan") {
   CHECK(read_number("1") == 1.0);
   CHECK(read_number("-0.1") == -0.1);
   CHECK(read_number(".5") == 0.5);

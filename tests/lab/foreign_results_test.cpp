@@ -66,9 +66,7 @@ const std::string force2 = R"("quantity": "force", "pair": 2)";
 
 }  // namespace
 
-TEST_CASE(
-    "another program's error is relative to the largest exact number of its kind, even if the exact number "
-    "is 0") {
+TEST_CASE("the error of another program's number is relative to the largest exact number of the same kind") {
   const foreign_results r =
       judged(of_p(entry(w1, "-0.25025") + "," + entry(w2, "0.0005") + "," + entry(force2, "-0.004")));
   const auto& numbers = r.cases.at(0).numbers;
@@ -81,7 +79,7 @@ TEST_CASE(
   CHECK(r.cases.at(0).largest_error == numbers.at(1).error);
 }
 
-TEST_CASE("another program's counts and states must be equal, whatever the tolerance") {
+TEST_CASE("counts and states from another program must be equal to the exact ones, whatever the tolerance") {
   const std::string state = R"("quantity": "state", "pair": 2)";
   const std::string contacts = R"("quantity": "contacts")";
   const auto failed = [&](const std::string& a, const std::string& b) {
@@ -92,13 +90,15 @@ TEST_CASE("another program's counts and states must be equal, whatever the toler
   CHECK(failed("\"separated\"", "1.05") == 1);
 }
 
-TEST_CASE("numbers and problems that another program's results do not have are listed once each") {
+TEST_CASE("the judgement of another program lists each number and each problem for which it gave no result") {
   const foreign_results r = judged(of_p(entry(w2, "0")));
   CHECK(r.not_given == std::vector<std::string>{"other"});
   CHECK(r.cases.at(0).not_given.size() == 5);
 }
 
-TEST_CASE("a result of another program that is unknown or given twice is refused, with its place") {
+TEST_CASE(
+    "a result of another program is refused if it is unknown or given twice, and the message gives the "
+    "place") {
   CHECK_THAT(refused("\"q\": [" + entry(w1, "0") + "]"),
              StartsWith("f.json:3:6: problems.q: found an unknown key") && Contains("allowed: p, other"));
   CHECK_THAT(refused("\"othr\": [" + entry(w1, "0") + "]"), Contains("did you mean \"other\"?"));

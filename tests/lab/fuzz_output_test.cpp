@@ -24,7 +24,7 @@ found_case a_case() {
 
 }  // namespace
 
-TEST_CASE("a shrunk case is written as a trace, whose header says what differed") {
+TEST_CASE("contct fuzz writes a shrunk case as a trace, and the header of the trace says what differed") {
   const found_case c = a_case();
   const std::string text = trace_of(c, {});
   trace_reader reader(text, "a case");

@@ -38,7 +38,7 @@ fuzz_result full_result(std::int64_t calls, std::int64_t each) {
 
 }  // namespace
 
-TEST_CASE("the shards of a fuzz run together compare the calls of the whole run") {
+TEST_CASE("the shards of a fuzz run together compare the same calls as a run without shards") {
   std::vector<branch_counts> counts;
   std::vector<std::int64_t> calls;
   for (const int stride : {1, 3}) {
@@ -59,13 +59,13 @@ TEST_CASE("the shards of a fuzz run together compare the calls of the whole run"
   }
 }
 
-TEST_CASE("a fuzz run refuses kernels of different rules or precisions") {
+TEST_CASE("contct fuzz refuses kernels of different rules or precisions") {
   CHECK_THROWS_AS(of_calls({"fortran", "corrected"}), std::invalid_argument);
   CHECK_THROWS_AS(of_calls({"fortran", "cpp-r4"}), std::invalid_argument);
   CHECK_THROWS_AS(of_calls({"fortran", "nobody"}), std::invalid_argument);
 }
 
-TEST_CASE("a fuzz run counts events by kind, and those of pairs within EPSGAP of their face as stationary") {
+TEST_CASE("contct fuzz counts makes, breaks, and events of pairs within EPSGAP of their faces") {
   two_toggles t;
   fuzz_result r;
   r.count(t.c, t.before);
@@ -78,7 +78,7 @@ TEST_CASE("a fuzz run counts events by kind, and those of pairs within EPSGAP of
 }
 
 TEST_CASE(
-    "a follower's report has its largest difference in ULPs, and whether its events equal the leader's") {
+    "for each follower, contct fuzz has the largest difference in ULPs, and says if all events are equal") {
   const call_inputs<double> in{{0.0}, {1.0}, {0.5}, {1}, {separated}, {face_above}, {}};
   call_outputs out;
   call<double> led = out.prepare(in);
@@ -98,7 +98,9 @@ TEST_CASE(
   CHECK_FALSE(r.same_events);
 }
 
-TEST_CASE("a fuzz run fails below its minimum counts of calls, values, events and outcomes of every IF") {
+TEST_CASE(
+    "contct fuzz fails if calls, values, events or outcomes of any IF are fewer than the least allowed "
+    "numbers") {
   CHECK(floors_missed(full_result(100'000, 10)).empty());
   CHECK_THAT(floors_missed(full_result(100'000, 9)),
              Catch::Matchers::Contains("make: 9, break: 9, stationary: 9"));
@@ -112,7 +114,8 @@ TEST_CASE("a fuzz run fails below its minimum counts of calls, values, events an
   CHECK_THAT(floors_missed(nobody), Catch::Matchers::Contains("nothing was compared"));
 }
 
-TEST_CASE("a fuzz run on whole problems compares every call of every path, and is the same every time") {
+TEST_CASE(
+    "contct fuzz --problems compares every call of every path, and compares the same calls in each run") {
   fuzz_request r;
   r.calls = 1;
   r.problems = 20;

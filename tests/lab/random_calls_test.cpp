@@ -33,8 +33,8 @@ std::uint64_t digest(const call_inputs<double>& in) {
 }  // namespace
 
 TEMPLATE_TEST_CASE(
-    "adversarial random calls lie on every threshold of the listing, and one ULP to either side", "", float,
-    double) {
+    "adversarial random calls reach the exact threshold of every IF of the listing, and one ULP beside most",
+    "", float, double) {
   using Real = TestType;
   random_calls<Real> source(1989);
   // Counts of IFs whose sides are equal, differ by one ULP and are true, differ by one ULP and are false.
@@ -81,7 +81,7 @@ TEST_CASE("a random call depends only on its seed and its number") {
   }
 }
 
-TEST_CASE("a random call has NaN at every dof without a pair, so that a kernel that reads it is found") {
+TEST_CASE("a random call has NaN at every dof without a pair, which exposes a kernel that reads such a dof") {
   call_source source(1989, 8);
   for (std::uint64_t n = 1; n <= 50; ++n) {
     const call_inputs<double>& in = source.at(n);

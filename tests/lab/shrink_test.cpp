@@ -33,7 +33,9 @@ call_sequence some_calls(std::size_t last) {
 
 }  // namespace
 
-TEST_CASE("a difference that needs one pair of one call is shrunk to this pair, with round numbers") {
+TEST_CASE(
+    "if one pair of one call is enough for a difference, shrinking leaves only this pair, with round "
+    "numbers") {
   const still_differs differs = [](const call_sequence& c) { return approaches(c.back()); };
   const call_sequence small = shrink(some_calls(20), differs);
   REQUIRE(small.size() == 1);
@@ -48,7 +50,7 @@ TEST_CASE("a difference that needs one pair of one call is shrunk to this pair, 
   CHECK(small[0].isurf[0] == face_above);
 }
 
-TEST_CASE("a difference that needs one earlier call is shrunk to two calls") {
+TEST_CASE("if a difference needs one earlier call, shrinking leaves two calls") {
   const still_differs differs = [](const call_sequence& c) {
     int many = 0;
     for (std::size_t i = 0; i + 1 < c.size(); ++i) many += c[i].pairs() >= 3 ? 1 : 0;
@@ -60,7 +62,9 @@ TEST_CASE("a difference that needs one earlier call is shrunk to two calls") {
   CHECK(small[1].pairs() == 1);
 }
 
-TEST_CASE("shrinking stops after the allowed number of tries, with calls whose answers still differ") {
+TEST_CASE(
+    "shrinking stops after the allowed number of tries, and the answers to the remaining calls still "
+    "differ") {
   int tries = 0;
   const still_differs differs = [&tries](const call_sequence& c) {
     ++tries;
@@ -71,13 +75,14 @@ TEST_CASE("shrinking stops after the allowed number of tries, with calls whose a
   CHECK(approaches(small.back()));
 }
 
-TEST_CASE("calls whose answers agree are not shrunk") {
+TEST_CASE("calls to which both kernels give equal answers are not shrunk") {
   const auto leader = make_kernel("fortran");
   CHECK_FALSE(shrunk_case(
       *leader, [] { return make_kernel("cpp"); }, some_calls(3), ""));
 }
 
-TEST_CASE("a mismatch is reproduced with new kernels, and the case has the leader's answers") {
+TEST_CASE(
+    "a mismatch is reproduced with newly made kernels, and the shrunk case contains the leader's answers") {
   const auto leader = make_kernel("fortran");
   const fresh_kernel in_single_precision = [] { return make_kernel("cpp-r4"); };
   const call_sequence calls = some_calls(3);

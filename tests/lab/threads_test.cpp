@@ -20,7 +20,7 @@ std::vector<double> errors_of(const problem_result& r) {
 
 }  // namespace
 
-TEST_CASE("sixteen threads follow different paths, and each gets the same answer as a single thread") {
+TEST_CASE("sixteen threads follow different paths, and each path equals the same path in a single thread") {
   constexpr std::size_t threads = 16;
   constexpr std::size_t problems = 6;
   const char* const engines[] = {"refactor", "updated"};

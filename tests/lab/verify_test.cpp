@@ -73,8 +73,7 @@ std::string refusal_of(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE(
-    "verification.toml is refused if a number has no exact value, a decimal or a fraction in lowest terms") {
+TEST_CASE("a number in verification.toml is refused if its exact value is not a decimal or a fraction") {
   for (const char* exact : {"1/2", "0.5", "5e-1", "-0.0", "-208/58875"})
     CHECK(refusal_of("value = 0.5\nexact = \"" + std::string(exact) + "\"\n").empty());
   CHECK_THAT(refusal_of("value = 0.5\n"), Contains("exact"));
@@ -86,7 +85,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a computed number and the value of verification.toml must be within tolerance of the exact value") {
+    "contct verify compares computed and expected numbers with the exact value, each within a tolerance") {
   expected_number e = third();
   CHECK(exact_disagreement(e, 1.0 / 3 + 1e-9, 1e-8).empty());
   CHECK_THAT(exact_disagreement(e, 1.0 / 3 + 1e-7, 1e-8),
@@ -100,7 +99,8 @@ TEST_CASE(
              Contains("exact value 1/3; allowed: a relative difference of 1e-05 from the expected 0.333"));
 }
 
-TEST_CASE("exact states are compared by name, and a number without an exact value is not compared") {
+TEST_CASE(
+    "contct verify compares states with exact states by name, and omits a number without an exact value") {
   expected_number e;
   e.quantity = "state";
   e.value = in_contact;
@@ -113,7 +113,9 @@ TEST_CASE("exact states are compared by name, and a number without an exact valu
   CHECK(exact_disagreement(unknown, 7.0, 1e-8).empty());
 }
 
-TEST_CASE("the size of a number is the largest number of its kind on the path") {
+TEST_CASE(
+    "the scale of an error is the largest number of the same kind on the path, such as the largest "
+    "deflection") {
   const followed f("pb01-cantilever-tip-stop.toml");
   const measurement m(f.p, f.path.result.record);
   const auto size = [&](const char* quantity, const char* dof = "") {
@@ -133,7 +135,7 @@ TEST_CASE("the size of a number is the largest number of its kind on the path") 
   for (const char* other : {"events", "contacts", "zero", "x of max moment"}) CHECK(size(other) == 0.0);
 }
 
-TEST_CASE("a quantity that a plate does not have has the value NaN") {
+TEST_CASE("a quantity, corner or element that a plate does not have has the value NaN") {
   const followed f("pp01a-simply-supported-plate-n4.toml");
   const measurement m(f.p, f.path.result.record);
   expected_number e;
@@ -154,7 +156,7 @@ TEST_CASE("a quantity that a plate does not have has the value NaN") {
   CHECK(std::isnan(m.of(e)));
 }
 
-TEST_CASE("a difference is relative to the expected value, or absolute if the expected value is 0") {
+TEST_CASE("a difference is relative to the expected value, but absolute if the expected value is 0") {
   verified_number n;
   n.expected.value = 2.0;
   n.computed = 3.0;
@@ -167,8 +169,7 @@ TEST_CASE("a difference is relative to the expected value, or absolute if the ex
   CHECK(n.difference() == 1e-3);
 }
 
-TEST_CASE(
-    "each number is verified on both rules' paths, and against its exact value to the certified accuracy") {
+TEST_CASE("contct verify compares each number on the paths of both rules, and within certified accuracy") {
   const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
   expected_number tip;
   tip.step = 2;
@@ -198,8 +199,7 @@ TEST_CASE(
   CHECK_THAT(c.numbers[4].apart, Contains("exact value -27/5375; allowed: "));
 }
 
-TEST_CASE(
-    "extremes are named by bound and quantity, and are NaN if the structure does not have the quantity") {
+TEST_CASE("an extreme is found by a name such as max moment, and an unknown name gives NaN") {
   const followed f("pb07-three-gap-supports.toml");
   const measurement m(f.p, f.path.result.record);
   expected_number e;
@@ -215,7 +215,7 @@ TEST_CASE(
   for (const char* none : {"max mx", "x of min mxy", "mean moment", "max "}) CHECK(std::isnan(of(none)));
 }
 
-TEST_CASE("a verified number is described by its quantity and its place") {
+TEST_CASE("the description of a verified number has the quantity and the node, element or pair") {
   expected_number e;
   e.quantity = "w";
   e.node = 3;

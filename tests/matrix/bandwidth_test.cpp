@@ -6,7 +6,7 @@
 
 using namespace contct;
 
-TEST_CASE("a chain with shuffled rows is reordered to a band of one subdiagonal") {
+TEST_CASE("the rows of a chain in random order are reordered to a band with one subdiagonal") {
   constexpr int n = 23;
   sparse_matrix chain{n, {}};
   const auto shuffled = [](int i) { return i * 7 % n; };
@@ -24,7 +24,7 @@ TEST_CASE("a chain with shuffled rows is reordered to a band of one subdiagonal"
   for (int i = 0; i < n; ++i) CHECK(rows[i] == i);  // each row once
 }
 
-TEST_CASE("an order of rows whose band cannot become narrower is kept") {
+TEST_CASE("if no other order of rows makes the band narrower, the order is kept") {
   const sparse_matrix pair{2, {{0, 0, 1.0}, {1, 0, -0.5}, {1, 1, 1.0}}};
   CHECK(rows_for_small_band(pair).empty());
   const sparse_matrix diagonal{3, {{0, 0, 1.0}, {1, 1, 1.0}, {2, 2, 1.0}}};

@@ -29,7 +29,7 @@ double rcond_of(const linear_structure& s) {
 
 }  // namespace
 
-TEST_CASE("a band factor solves K x = b for the x from which b was computed") {
+TEST_CASE("a band factor solves K x = b, and gives the x from which b was computed") {
   band_matrix a(5, 2);
   for (int j = 0; j < 5; ++j) {
     a.add(j, j, 10.0 + j);
@@ -43,7 +43,7 @@ TEST_CASE("a band factor solves K x = b for the x from which b was computed") {
   for (std::size_t i = 0; i < 5; ++i) CHECK(b[i] == Approx(x[i]).epsilon(1e-14));
 }
 
-TEST_CASE("the condition number is that of the equilibrated matrix, so that it does not depend on units") {
+TEST_CASE("the condition number is that of the equilibrated matrix, and does not depend on units") {
   const double metres = rcond_of(simple_span(10, 1.0));
   const double tiny = rcond_of(simple_span(10, 1e-9));
   CHECK(metres == Approx(tiny).epsilon(1e-6));
@@ -51,7 +51,7 @@ TEST_CASE("the condition number is that of the equilibrated matrix, so that it d
   CHECK(metres < 1e-3);
 }
 
-TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
+TEST_CASE("the condition number equals the estimate that dpbcon of LAPACK gives") {
   for (const int n : {1, 2, 7, 50, 400}) {
     const linear_structure s = simple_span(n, 1.0);
     const double ours = rcond_of(s);
@@ -77,8 +77,8 @@ TEST_CASE("the condition number equals the estimate of LAPACK's dpbcon") {
   }
 }
 
-TEST_CASE("the condition number of a 2 by 2 matrix is exact") {
-  band_matrix a(2, 1);  // scaled: [[1, .5], [.5, 1]] of norm 1.5, with an inverse of norm 2
+TEST_CASE("the condition number of an equilibrated 2 by 2 matrix is exact") {
+  band_matrix a(2, 1);  // scaled [[1, .5], [.5, 1]]: norm 1.5, its inverse 2
   a.add(0, 0, 4.0);
   a.add(1, 1, 25.0);
   a.add(1, 0, 5.0);
@@ -86,7 +86,7 @@ TEST_CASE("the condition number of a 2 by 2 matrix is exact") {
   CHECK(stiffness_factor(k).reciprocal_condition({}) == Approx(1.0 / 3.0).epsilon(1e-14));
 }
 
-TEST_CASE("a span of n elements loses digits as n^4, and at n = 5000 at most one digit is left") {
+TEST_CASE("a span of n elements loses correct digits as n^4, and for n = 5000 at most one digit remains") {
   const double at_10 = rcond_of(simple_span(10, 1.0));
   const double at_100 = rcond_of(simple_span(100, 1.0));
   CHECK(at_10 / at_100 == Approx(1e4).epsilon(0.5));
@@ -94,13 +94,13 @@ TEST_CASE("a span of n elements loses digits as n^4, and at n = 5000 at most one
   CHECK(digits_left(rcond_of(simple_span(5000, 1.0))) <= 1);
 }
 
-TEST_CASE("the number of digits is never negative") {
+TEST_CASE("the number of correct digits is from 0 to 15 for any condition number") {
   CHECK(digits_left(0.0) == 0);
   CHECK(digits_left(1e-30) == 0);
   CHECK(digits_left(1.0) == 15);
 }
 
-TEST_CASE("LAPACK is identified by its version and the library that contains dpbtrf") {
+TEST_CASE("LAPACK is identified by a version and the library that contains dpbtrf") {
   const std::string identity = lapack_identity();
   CHECK(identity.rfind("LAPACK 3.", 0) == 0);
   const std::size_t comma = identity.find(", ");

@@ -24,7 +24,7 @@ std::ptrdiff_t threads_of_this_process() {
 
 }  // namespace
 
-TEST_CASE("the sparse factor L multiplied by its transpose is the matrix in the factor's order of rows") {
+TEST_CASE("the sparse factor L times its transpose is the matrix with its rows in the order of the factor") {
   const band_matrix k = random_band(unknowns, 7, 4);
   const auto f = sparse_factor::make(columns_of(k));
   REQUIRE(f->factor(diagonal_of(k)));
@@ -46,7 +46,7 @@ TEST_CASE("the sparse factor L multiplied by its transpose is the matrix in the 
       CHECK(product[places[row]][places[column]] == Approx(k.at(row, column)).margin(1e-13));
 }
 
-TEST_CASE("CHOLMOD factors a matrix without creating threads of OpenMP") {
+TEST_CASE("CHOLMOD factors a matrix without creating OpenMP threads") {
   constexpr int many = 3000;
   const band_matrix k = random_band(many, 20, 5);
   const auto f = sparse_factor::make(columns_of(k));

@@ -6,7 +6,7 @@
 
 using namespace contct;
 
-TEST_CASE("K with springs has the same solution by LAPACK as a band and by CHOLMOD in sparse storage") {
+TEST_CASE("K with springs has the same solution with LAPACK as a band and with CHOLMOD in sparse storage") {
   const stiffness_matrix wide(random_band(40, 7, 3));
   const stiffness_matrix narrow(columns_of(wide.band()));
   stiffness_factor by_band(wide);
@@ -42,9 +42,7 @@ TEST_CASE("a matrix that is not positive definite cannot be factored, as a band 
   CHECK(f.factor(enough));  // the failed factorisation has no effect
 }
 
-TEST_CASE(
-    "several right-hand sides solved at once have the same solutions as one at a time, by LAPACK and by "
-    "CHOLMOD") {
+TEST_CASE("LAPACK and CHOLMOD solve several right-hand sides at once with the same result as one by one") {
   for (const int order : {1, 9, 40, 300}) {
     const auto n = static_cast<std::size_t>(order);
     const stiffness_matrix wide(

@@ -19,7 +19,7 @@ std::vector<long double> minus_product(const stiffness_matrix& k, std::span<cons
 
 }  // namespace
 
-TEST_CASE("a matrix stored as a band equals the matrix stored by columns, to the bit") {
+TEST_CASE("a matrix stored as a band and a matrix stored by columns are equal to the bit") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const band_matrix band = random_band(order, half_bandwidth, seed);
     stiffness_matrix wide(band);
@@ -67,7 +67,7 @@ TEST_CASE("a matrix stored as a band equals the matrix stored by columns, to the
   }
 }
 
-TEST_CASE("the 1-norm of K includes the upper triangle, which is not stored") {
+TEST_CASE("the 1-norm of K includes the upper triangle, although only the lower one is stored") {
   band_matrix k(3, 1);
   k.at(0, 0) = 4;
   k.at(1, 0) = -1;
@@ -79,7 +79,7 @@ TEST_CASE("the 1-norm of K includes the upper triangle, which is not stored") {
   CHECK(stiffness_matrix(columns_of(k)).one_norm(std::vector<double>{4, 5.5, 6}, ones) == 8.5);
 }
 
-TEST_CASE("several springs at one row add up on the diagonal, and K itself does not change") {
+TEST_CASE("several springs at one row add up on the diagonal, and K without springs does not change") {
   band_matrix k(3, 1);
   for (int row = 0; row < 3; ++row) k.at(row, row) = row + 1.0;
   const std::vector<spring_at> springs = {{1, 10.0}, {1, 0.5}, {2, 4.0}};
@@ -89,7 +89,7 @@ TEST_CASE("several springs at one row add up on the diagonal, and K itself does 
   }
 }
 
-TEST_CASE("a band stores the entry (row, column) of its lower half at column * (kd + 1) + row - column") {
+TEST_CASE("the entry (row, column) of a band is at column * (kd + 1) + row - column in memory") {
   band_matrix a(4, 1);
   a.add(1, 0, 2.0);
   a.add(0, 1, 3.0);
@@ -107,11 +107,13 @@ const sparse_matrix small = {3, {{2, 0, 1.0}, {0, 0, 4.0}, {2, 2, 6.0}, {1, 1, 5
 
 }  // namespace
 
-TEST_CASE("a product with a band uses both triangles of the matrix") {
+TEST_CASE(
+    "the product of a symmetric matrix and a vector uses both triangles, although only the lower one is "
+    "stored") {
   CHECK(small.times(std::vector<double>{1, 2, 3}) == std::vector<long double>{7, 10, 19});
 }
 
-TEST_CASE("the order of rows determines the width of a band, its memory and the positions of its entries") {
+TEST_CASE("the order of rows determines the width and the memory of a band, and where an entry is stored") {
   CHECK(subdiagonals_of(small, {}) == 2);
   CHECK(bytes_of_band(small, {}) == 3L * 3 * 8);
   const std::vector<int> rows = {0, 2, 1};  // row 2 of the matrix is next to row 0
@@ -126,7 +128,7 @@ TEST_CASE("the order of rows determines the width of a band, its memory and the 
   CHECK(band.at(2, 2) == 5.0);
 }
 
-TEST_CASE("entries in any order become columns in ascending order, each with its diagonal entry") {
+TEST_CASE("entries in any order are sorted by column and row, and each column gets a diagonal entry") {
   const sparse_matrix a{4, {{3, 1, 5.0}, {2, 2, 7.0}, {2, 1, 4.0}, {0, 0, 1.0}, {3, 3, 9.0}, {3, 0, 2.0}}};
   const sparse_columns k = columns_of(a);
   CHECK(k.order() == 4);
@@ -135,7 +137,7 @@ TEST_CASE("entries in any order become columns in ascending order, each with its
   CHECK(k.values == std::vector<double>{1, 2, 0, 4, 5, 7, 9});  // row 1 of `a` has no diagonal entry
 }
 
-TEST_CASE("the columns of a band omit its zeros, except those on the diagonal") {
+TEST_CASE("a band that is converted to sparse columns loses zeros, but keeps those on the diagonal") {
   band_matrix band(3, 2);
   band.at(0, 0) = 4.0;
   band.at(2, 0) = 1.0;
@@ -148,7 +150,7 @@ TEST_CASE("the columns of a band omit its zeros, except those on the diagonal") 
   CHECK(k.diagonal(2) == 6.0);
 }
 
-TEST_CASE("a band with mostly zeros is multiplied by columns, and a full band as a band") {
+TEST_CASE("a band with many zeros is multiplied as sparse columns, and a full band as a band") {
   band_matrix band(40, 20);
   for (int row = 0; row < 40; ++row) band.at(row, row) = 1.0;
   CHECK(without_zeros(stiffness_matrix(band)).has_value());

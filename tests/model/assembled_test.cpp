@@ -52,8 +52,8 @@ int rank_of(const linear_structure& s) {
 }  // namespace
 
 TEST_CASE(
-    "the matrices of a free beam, a free plate and a body in space have two, three and six rigid-body "
-    "motions") {
+    "the matrix of a free beam has two rigid-body motions, that of a plate three, that of a body in space "
+    "six") {
   for (const int elements : {1, 2, 7, 40, 200}) {
     INFO(elements << " elements");
     CHECK(by_matrix(build(beam_of(elements), {}, {}), {}, {}).rigid_motions == 2);
@@ -85,7 +85,7 @@ TEST_CASE("the rigid-body motions of a beam's matrix are straight lines, in any 
   }
 }
 
-TEST_CASE("supports remove rigid-body motions from a beam given by its matrix") {
+TEST_CASE("supports remove the rigid-body motions of a beam that is given by its matrix") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, true}}, {}).rigid_motions == 1);
   CHECK(by_matrix(bare, std::vector<support>{{0, 0, false, 1e4}}, {}).rigid_motions == 1);
@@ -94,7 +94,8 @@ TEST_CASE("supports remove rigid-body motions from a beam given by its matrix") 
 }
 
 TEST_CASE(
-    "pairs remove as many rigid-body motions from a beam given by its matrix as from a beam given by EI") {
+    "pairs hold a beam given by its matrix as they hold a beam, but two pairs at rotations hold one motion "
+    "only") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4)})) == 1);
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4), at_dof(4)})) == 1);
@@ -104,15 +105,14 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "four vertical pairs remove three rigid-body motions of a body in space, and six suitable pairs all "
-    "six") {
+    "four vertical pairs remove three rigid-body motions of a body in space, and six pairs remove all six") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(11)})) == 3);
   CHECK(rank_of(build(body, {}, {at_dof(2), at_dof(5), at_dof(8), at_dof(0), at_dof(6), at_dof(1)})) == 6);
 }
 
-TEST_CASE("a pair at a dof that no rigid-body motion moves removes no rigid-body motion") {
+TEST_CASE("a pair removes no rigid-body motion if none of the rigid-body motions moves the dof of the pair") {
   assembled body;
   body.stiffness = braced(box_at(0), 1e5);
   std::vector<support> only_x_is_left;
@@ -124,8 +124,7 @@ TEST_CASE("a pair at a dof that no rigid-body motion moves removes no rigid-body
 }
 
 TEST_CASE(
-    "a very flexible matrix has no rigid-body motion, except if the last digits of its entries leave this "
-    "open") {
+    "a very flexible clamped matrix has no rigid-body motion, unless the last digits of the file allow one") {
   const std::vector<support> clamp = {{0, 0, true}, {1, 0, true}};
   CHECK(by_matrix(build(beam_of(1000), {}, {}), clamp, {}).rigid_motions == 0);
   assembled longer;
@@ -140,7 +139,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a matrix that is not positive semidefinite or has a dof without stiffness is refused, with its name") {
+    "a matrix that is indefinite or has a dof without stiffness is refused, and the message names the file") {
   using Catch::Matchers::Contains;
   assembled a;
   a.name = "K.mtx";
@@ -162,7 +161,7 @@ TEST_CASE(
                                          "motions of the matrix with its supports"));
 }
 
-TEST_CASE("the order of a matrix's rows changes neither its rigid-body motions nor its reactions") {
+TEST_CASE("the order of the rows of a matrix does not change rigid-body motions or reactions") {
   const std::vector<support> supports = {{0, 0, true}, {24, 0, false, 50.0}};
   assembled a;
   a.stiffness = entries_of(build(beam_of(12), {}, {}));

@@ -32,8 +32,7 @@ TEST_CASE("a cantilever under a tip load P has the deflection P L^3 / 3 EI and l
   CHECK(r[1] == Approx(6.0).epsilon(1e-12));
 }
 
-TEST_CASE(
-    "a simply supported beam under uniform load is exact at its nodes, with M = q L^2 / 8 in the middle") {
+TEST_CASE("a simply supported beam under uniform load is exact at nodes, and has q L^2 / 8 in the middle") {
   const beam b = even_beam(10.0, 6, 7.0);
   const std::vector<support> ends = {{0, 0, true}, {6, 0, true}};
   const load l{{}, {{{-2.0}, {}}}};
@@ -59,7 +58,7 @@ TEST_CASE("the EI of a beam may differ from element to element") {
   CHECK(u[4] == Approx(7.0 / 6 + 1.0 / 3).epsilon(1e-13));
 }
 
-TEST_CASE("the nodal forces of a polynomial load have its exact resultant and moment on any mesh") {
+TEST_CASE("the nodal forces of a polynomial load have the exact resultant and moment on any mesh") {
   beam b;
   b.x = {0.0, 0.3, 1.0, 1.1, 2.0};
   b.EI.assign(4, 1.0);
@@ -75,7 +74,7 @@ TEST_CASE("the nodal forces of a polynomial load have its exact resultant and mo
   CHECK(moment == Approx(20.0 / 3).epsilon(1e-14));
 }
 
-TEST_CASE("a polynomial of degree 0 is a uniform load, and several distributed loads add up") {
+TEST_CASE("a polynomial load of degree 0 is a uniform load, and several distributed loads add up") {
   const beam b = even_beam(3.0, 3, 1.0);
   std::vector<double> whole(8, 0.0);
   std::vector<double> parts(8, 0.0);
@@ -108,14 +107,15 @@ TEST_CASE("a beam on two springs k sinks by F / 2k, and each spring reacts with 
   CHECK(r[1] == Approx(2.0).epsilon(1e-9));
 }
 
-TEST_CASE("a rotational spring k at a cantilever's root adds F L^2 / k to the deflection of its tip") {
+TEST_CASE("a rotational spring k at the root of a cantilever increases the tip deflection by F L^2 / k") {
   const beam b = even_beam(1.0, 1, 1.0);
   const std::vector<support> soft = {{0, 0, true}, {0, 1, false, 2.0}};
   const auto u = displaced(b, soft, {{{1, 0, 1.0}}, {}});
   CHECK(u[2] == Approx(1.0 / 3 + 1.0 / 2).epsilon(1e-13));
 }
 
-TEST_CASE("a beam whose stiffness exceeds double precision is refused, and the message names the element") {
+TEST_CASE(
+    "a beam whose stiffness exceeds the range of doubles is refused, and the message names the element") {
   beam b = even_beam(1e-150, 2, 1.0);
   CHECK_THROWS_WITH(build(b, clamped_left, {}), Catch::Matchers::Contains("element 1"));
 }

@@ -42,7 +42,9 @@ TEST_CASE("A propped cantilever of two elements has its sagging moment at 5/8 of
   CHECK(v.least.value == Approx(-3.0 / 8 * 6000).epsilon(rounding));
 }
 
-TEST_CASE("One element between two supports sags 5 q L^4 / 384 EI at midspan, where it has no node") {
+TEST_CASE(
+    "One element between two supports has the deflection 5 q L^4 / 384 EI at midspan, where there is no "
+    "node") {
   const beam b{{0, 2}, {10.0}};
   const std::vector<double> u = displaced(b, {{0, 0, true}, {1, 0, true}}, even(-3));
   const value_range w = range_named(ranges_of({b}, even(-3), u, {}), "w");
@@ -56,7 +58,7 @@ TEST_CASE("One element between two supports sags 5 q L^4 / 384 EI at midspan, wh
   CHECK(clamped.least.value == Approx(-1.0 / 384 * 3 * 16 / 10).epsilon(rounding));
 }
 
-TEST_CASE("A load that grows with x has its largest moment where the shear is zero, at L / sqrt 3") {
+TEST_CASE("Under a load that grows with x, the largest moment is where the shear is zero, at L / sqrt 3") {
   const double L = 4;
   const load l{{}, {{{0.0, -2.0}, {}}}};  // q = -2 x: w0 = 2 L
   for (const int elements : {1, 2, 7}) {
@@ -74,9 +76,7 @@ TEST_CASE("A load that grows with x has its largest moment where the shear is ze
   }
 }
 
-TEST_CASE(
-    "An element's deflection line has the values of its nodes, and its derivatives are slope, moment, shear "
-    "and load") {
+TEST_CASE("The derivatives of an element's deflection line are slope, moment, shear and load") {
   const beam b{{1.0, 1.5, 4.0}, {20.0, 50.0}};
   const load l{{{1, 0, -3.0}}, {{{1.0, -2.0, 0.5}, {1}}, {{4.0}, {}}}};
   const std::vector<double> u = displaced(b, {{0, 0, true}, {0, 1, true}, {2, 0, true}}, l);
@@ -102,7 +102,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A plate's largest moments are at corners of elements, and name the nodes there") {
+TEST_CASE(
+    "A plate's largest moments are found at corners of elements, and its largest deflection at a node") {
   const plate p{{0, 1, 2}, {0, 2, 4}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
   for (std::size_t node = 0; node < 9; ++node) {  // for w = x^2, mx = 2 D and my = 2 nu D
@@ -121,7 +122,7 @@ TEST_CASE("A plate's largest moments are at corners of elements, and name the no
   CHECK(range_named(all, "mxy").largest().value == Approx(0.0).margin(1e-12));
 }
 
-TEST_CASE("the places of a plate's largest and least deflections have the x and y of the node") {
+TEST_CASE("the largest and the least deflection of a plate have the x and y of the node") {
   const plate p{{0, 1, 3}, {0, 2, 5, 9}, 10.0, 0.3};
   std::vector<double> u(p.dofs(), 0.0);
   u[21] = 2.0;   // middle node of the third line
@@ -132,8 +133,8 @@ TEST_CASE("the places of a plate's largest and least deflections have the x and 
 }
 
 TEST_CASE(
-    "a plate's moment that grows along x is least at the left side of an element and largest at the right "
-    "side") {
+    "if a plate's moment grows along x, the least is at the left side of an element and the largest at the "
+    "right") {
   const plate p{{0, 2}, {0, 3}, 10.0, 0.0};
   std::vector<double> u(p.dofs(), 0.0);
   for (std::size_t node = 0; node < 4; ++node) {  // w = x^3: mx = 6 D x
@@ -148,7 +149,7 @@ TEST_CASE(
   CHECK(mx.most.x == 2.0);
 }
 
-TEST_CASE("the largest deflection between two nodes is that of the second node if the deflection grows") {
+TEST_CASE("if the deflection grows between two nodes, the largest deflection is that of the second node") {
   const beam b{{0, 1, 2, 4}, {1.0, 1.0, 1.0}};
   std::vector<double> u;
   for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});
@@ -161,7 +162,9 @@ TEST_CASE("the largest deflection between two nodes is that of the second node i
   CHECK(w.most.node == 3);
 }
 
-TEST_CASE("the polynomials of an element begin with the given shear and moment at its left end") {
+TEST_CASE(
+    "if shear and moment at element ends are given, the polynomials of each element begin with these "
+    "values") {
   const beam b{{0, 1, 2, 3}, {1.0, 1.0, 1.0}};
   const std::vector<double> given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   const std::vector<double> u(8, 0.0);
@@ -183,7 +186,7 @@ TEST_CASE("a moment that is constant along a beam has its extreme at the first n
   CHECK((m.least.x == 0.0 && m.most.x == 0.0));
 }
 
-TEST_CASE("a deflection that is largest just before the end of an element is found there") {
+TEST_CASE("if the largest deflection is just before the end of an element, the extreme is found there") {
   // The deflection w = -0.24 + 0.91 t - 0.24 t^4 needs only a load of -24 * 0.24.
   const beam b{{0, 1}, {1.0}};
   const std::vector<double> u = {-0.24, 0.91, 0.43, 0.91 - 4 * 0.24};

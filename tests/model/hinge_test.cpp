@@ -32,7 +32,7 @@ constexpr double hinge_rounding = 1e-12;
 }  // namespace
 
 TEST_CASE(
-    "A propped cantilever with a hinge carries q (L - a) / 2 at its prop, and the rest of the load at its "
+    "A propped cantilever with a hinge at a has the reactions q (L - a) / 2 at the prop and the rest at the "
     "clamp") {
   const beam b = hinged({0, 2, 4}, {1}, 100);
   const load l = uniform_on(-6);
@@ -71,7 +71,7 @@ TEST_CASE("A hinge over a support makes two simple beams of a beam with two span
   CHECK(u[3] == Approx(-8.0 / 24).epsilon(hinge_rounding));
 }
 
-TEST_CASE("A load that grows along an element with a hinge at its right end is condensed exactly") {
+TEST_CASE("A linearly growing load on an element with a hinge at the right end is condensed exactly") {
   // The left element is clamped, and its hinge is on a prop. Its clamp moment under q = -2 x is that of a
   // propped cantilever, 7 q0 L^2 / 120.
   const beam b = hinged({0, 3, 5}, {1}, 7);
@@ -81,7 +81,7 @@ TEST_CASE("A load that grows along an element with a hinge at its right end is c
   CHECK(reactions({b}, l, supports, u)[1] == Approx(7.0 * 6 * 9 / 120).epsilon(hinge_rounding));
 }
 
-TEST_CASE("A beam of n hinges has 2 + n rigid-body motions, which need no force") {
+TEST_CASE("A free beam with n hinges has 2 + n rigid-body motions, and none of them needs a force") {
   const beam b = hinged({0, 1, 2.5, 3, 4, 6, 7}, {1, 2, 4}, 3);
   const linear_structure s = build(b, {}, {});
   REQUIRE(s.rigid_motions == 5);
@@ -97,9 +97,7 @@ TEST_CASE("A beam of n hinges has 2 + n rigid-body motions, which need no force"
   CHECK(held_motions(build(b, std::vector<support>{{0, 0, true}, {6, 0, true}, {3, 1, true}}, {})) == 3);
 }
 
-TEST_CASE(
-    "Three hinges between two supports make a mechanism, but a load that does no work on it has an "
-    "equilibrium") {
+TEST_CASE("Three hinges make a mechanism of a beam, but a load over a support is still in equilibrium") {
   const beam b = hinged({0, 1, 2, 3, 4}, {1, 2, 3});
   const linear_structure s = build(b, std::vector<support>{{0, 0, true}, {2, 0, true}, {4, 0, true}}, {});
   CHECK(held_motions(s) == 3);
@@ -108,7 +106,7 @@ TEST_CASE(
   CHECK(s.has_equilibrium(s.truth->work_of(uniform_on(-1))) == false);
 }
 
-TEST_CASE("A hinged beam that its supports do not hold is in equilibrium if pairs carry its load") {
+TEST_CASE("A hinged beam without enough supports is in equilibrium if pairs carry the load") {
   const beam b = hinged({0, 1, 2, 3}, {1, 2});
   const std::vector<support> ends = {{0, 0, true}, {3, 0, true}};
   const load down = uniform_on(-1);

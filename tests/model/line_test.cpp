@@ -36,7 +36,7 @@ const std::vector<double> sixth_power = {1e18, -6e15, 1.5e13, -2e10, 1.5e7, -600
 
 }  // namespace
 
-TEST_CASE("the number 0.1 is read as the decimal one tenth, which differs from its double") {
+TEST_CASE("the number 0.1 is read as the decimal one tenth, and not as the double next to one tenth") {
   CHECK(decimal(0.1).hi == 0.1);
   CHECK(decimal(0.1).lo != 0.0);
   CHECK(std::abs((decimal(0.1) * 10 - 1.0).hi) <= 0x1p-100);
@@ -48,7 +48,7 @@ TEST_CASE("the number 0.1 is read as the decimal one tenth, which differs from i
   }
 }
 
-TEST_CASE("a decimal at the ends of the range of doubles equals its double") {
+TEST_CASE("decimals at the ends of the range of doubles equal the doubles") {
   for (const double x : {5e-324, -5e-324, 1e-310, 2.2250738585072014e-308, -1.2345678901234567e-300,
                          1.2345678901234567e-293, 1.7976931348623157e308}) {
     INFO(x);
@@ -58,7 +58,7 @@ TEST_CASE("a decimal at the ends of the range of doubles equals its double") {
   }
 }
 
-TEST_CASE("decimals are added exactly before rounding, so that 0.1, 0.2 and -0.3 have the sum 0") {
+TEST_CASE("decimals are added exactly before rounding, so 0.1, 0.2 and -0.3 have the sum 0") {
   const auto loads = [](const std::vector<double>& parts) {
     std::vector<point_load> all;
     for (const double x : parts) all.push_back({0, 0, x});
@@ -74,7 +74,7 @@ TEST_CASE("decimals are added exactly before rounding, so that 0.1, 0.2 and -0.3
   CHECK(contct::sum_of<double>(loads({0.1, 0.2, -0.3})) == 0.0);
 }
 
-TEST_CASE("a number times a factor is the product of their decimals, rounded once") {
+TEST_CASE("a number with a factor is the product of the two decimals, rounded once") {
   CHECK(contct::product_of<rational>(0.1, 1.1) == rational(11, 100));
   CHECK(contct::product_of<double>(0.1, 3.0) == 0.3);  // in doubles 0.1 * 3.0 is 0.30000000000000004
   CHECK(contct::product_of<double_double>(0.1, 1.1) == decimal(0.11));
@@ -82,18 +82,19 @@ TEST_CASE("a number times a factor is the product of their decimals, rounded onc
 }
 
 TEST_CASE(
-    "loads at one dof have the sum 0 if their decimals times their factors cancel, as 0.1 times 3 and -0.3") {
+    "loads at one dof have the sum 0 if value times factor cancels in decimals, such as 0.1 times 3 and "
+    "-0.3") {
   const std::vector<point_load> all = {{0, 0, 0.1, 3.0}, {0, 0, -0.3}, {0, 0, 1.1, 0.1}, {0, 0, -0.11}};
   CHECK(contct::sum_of<double>(all) == 0.0);
   CHECK(contct::sum_of<rational>(all) == 0);
 }
 
-TEST_CASE("a distributed load is the exact decimal sum of its parts times their factors") {
+TEST_CASE("a distributed load is the exact sum of its parts, each times a factor, in decimals") {
   const distributed_load d{{-0.135}, {}, {{{-0.1}, 1.35}, {{0.3}, 0.1}, {{-0.03}}}};
   CHECK(contct::coefficients_of<rational>(d) == std::vector<rational>{rational(-135, 1000)});
 }
 
-TEST_CASE("A polynomial face is rounded once, even if its terms are 1e33 times as large as the face") {
+TEST_CASE("A polynomial face is rounded once, although its terms are 1e33 times as large as the face") {
   const beam b{{0.0, 1.1, 2.2}, {1e4, 1e4}};
   const auto faces = contct::values_at<double_double>(b, std::vector<double>{-0.001, -1.21e30, 0.0, 1e30},
                                                       std::vector<int>{1, 0});
@@ -104,11 +105,12 @@ TEST_CASE("A polynomial face is rounded once, even if its terms are 1e33 times a
   }
 }
 
-TEST_CASE("the tributary length of a point is half of each interval next to it") {
+TEST_CASE("the tributary length of a node is half of each of the intervals beside the node") {
   CHECK(contct::tributary_lengths<double>(std::vector<double>{2, 1}) == std::vector<double>{1, 1.5, 0.5});
 }
 
-TEST_CASE("Faces at nodes that divide a length equally are evaluated at the exact fractions of the length") {
+TEST_CASE(
+    "If nodes divide a length equally, a polynomial face is evaluated at exact fractions of the length") {
   const beam thirds{{0.0, 1.0 / 3, 2.0 / 3, 1.0}, {1, 1, 1}, {{1.0, 3}}};
   const auto faces =
       contct::values_at<double_double>(thirds, std::vector<double>{-1.0, 3.0}, std::vector<int>{1, 2});
@@ -116,7 +118,7 @@ TEST_CASE("Faces at nodes that divide a length equally are evaluated at the exac
   CHECK(faces[1] == 1.0);
 }
 
-TEST_CASE("The load (x - 1000)^6 becomes t^6 on the element that begins at x = 1000") {
+TEST_CASE("The load (x - 1000)^6 is t^6 in the coordinate t of the element that begins at x = 1000") {
   const beam b{{1000.0, 1001.0, 1003.0}, {1, 1}};
   const load l{{}, {{sixth_power, {}}}};
   CHECK(load_on(b, l, 0) == std::vector<double>{0, 0, 0, 0, 0, 0, 1});
@@ -135,7 +137,7 @@ TEST_CASE("Parts of a distributed load are added exactly before the sum is shift
   CHECK(load_on(b, l, 1) == std::vector<double>{6.0, 2.0});
 }
 
-TEST_CASE("Equal elements under the same constant loads have a common list of load pieces") {
+TEST_CASE("Equal elements under the same constant loads share one list of load pieces") {
   const beam b{{0.0, 0.1, 0.2, 0.3, 0.7}, {1, 1, 1, 1}};
   const auto all = pieces_of(b, {{}, {{{4.0}, {}}, {{2.0}, {1, 2, 3}}}});
   REQUIRE(all.size() == 3);

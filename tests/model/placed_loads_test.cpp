@@ -54,7 +54,7 @@ constexpr double few_roundings = 1e-13;
 
 }  // namespace
 
-TEST_CASE("A simple beam under a load q from a to b has its largest moment R (a + R / 2q) at a + R / q") {
+TEST_CASE("Under a load q from a to b, a simple beam has the largest moment R (a + R / 2q) at a + R / q") {
   for (const beam& b : {bar(10, 1e4), bar(10, 1e4, {1.0, 3.0, 4.5, 8.0})}) {
     const auto r = solved(b, on_two_supports(b), uniform(-40, 2, 5));
     const double R = 40 * 3 * 0.65;  // the middle of the load is 6.5 from the right end
@@ -67,7 +67,7 @@ TEST_CASE("A simple beam under a load q from a to b has its largest moment R (a 
 }
 
 TEST_CASE(
-    "A simple beam of one element is exact under a force P between its nodes, with the moment P a b / L") {
+    "One element as a simple beam is exact under a force P between nodes, and has the moment P a b / L") {
   const beam b = bar(10, 1e4);
   const load l = placed({{load_kind::point, 3.3, 3.3, {-75}}});
   const auto u = displaced(b, on_two_supports(b), l);
@@ -87,7 +87,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A moment m on a simple beam of length L makes the shear m / L, and the bending moment jumps by m") {
+    "Under a moment m, a simple beam of length L has the shear m / L, and the bending moment jumps by m") {
   const beam b = bar(8, 50);
   const load l = placed({{load_kind::moment, 3, 3, {16}}});
   const auto r = solved(b, on_two_supports(b), l);
@@ -98,9 +98,7 @@ TEST_CASE(
   CHECK(r[2].least.value == Approx(2.0).epsilon(few_roundings));
 }
 
-TEST_CASE(
-    "An imposed curvature c deflects a simple beam by c L^2 / 8 and a cantilever by c L^2 / 2, without "
-    "moments") {
+TEST_CASE("An imposed curvature c deflects a simple beam by c L^2 / 8, and a cantilever by c L^2 / 2") {
   for (const beam& b : {bar(4, 7e3), bar(4, 7e3, {1.0, 2.5})}) {
     const auto r = solved(b, on_two_supports(b), curved(1.2e-3, 0, 4));
     CHECK(r[0].least.value == Approx(-1.2e-3 * 16 / 8).epsilon(few_roundings));
@@ -114,7 +112,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A curvature c from a to b rotates the rest of a cantilever by c (b - a) about the middle of a and b") {
+    "A curvature c from a to b rotates the rest of a cantilever by c (b - a) about the middle between a and "
+    "b") {
   const beam b = bar(5, 10, {2.0});
   const auto u = displaced(b, held_left, curved(0.02, 1, 3.5));
   CHECK(u[4] == Approx(0.02 * 2.5 * (5 - 2.25)).epsilon(few_roundings));
@@ -123,7 +122,7 @@ TEST_CASE(
   CHECK(u[2] == Approx(0.02 * 0.5).epsilon(few_roundings));
 }
 
-TEST_CASE("An imposed curvature c between two clamps makes the moment -EI c, without deflection") {
+TEST_CASE("An imposed curvature c of a beam with clamped ends makes the moment -EI c, but no deflection") {
   for (const beam& b : {bar(4, 50), bar(4, 50, {1.0, 2.5})}) {
     const int last = b.nodes() - 1;
     const auto r =
@@ -135,7 +134,7 @@ TEST_CASE("An imposed curvature c between two clamps makes the moment -EI c, wit
   }
 }
 
-TEST_CASE("A load between two nodes has the same nodal forces whether given by coordinates or by elements") {
+TEST_CASE("A load has the same nodal forces if given by coordinates and if given by elements") {
   const beam b = bar(3, 2, {0.7, 1.1, 2.0});
   const std::vector<double> q = {0.3, -2.0, 0.5};
   std::vector<double> by_place(8);
@@ -146,7 +145,7 @@ TEST_CASE("A load between two nodes has the same nodal forces whether given by c
     CHECK(by_place[dof] == Approx(by_elements[dof]).epsilon(1e-15).margin(1e-16));
 }
 
-TEST_CASE("The factor of a load multiplies its force, its moment and its resultant") {
+TEST_CASE("The factor of a load multiplies the force, the moment and the resultant of the load") {
   const beam b = bar(10, 1e4);
   load l = placed({{load_kind::force, 2, 5, {-40}}, {load_kind::point, 6, 6, {-10}}});
   l.placed[0].factor = 1.35;
@@ -160,7 +159,9 @@ TEST_CASE("The factor of a load multiplies its force, its moment and its resulta
   CHECK(forces[1] == Approx(162 * 0.35 + 15 * 0.6).epsilon(few_roundings));
 }
 
-TEST_CASE("A mixture of two loads contains each placed load times its share of the mixture") {
+TEST_CASE(
+    "The mixture of two loads contains the placed loads of both, each times the factor of this load in the "
+    "mixture") {
   const load at =
       mix(uniform(-40, 2, 5), placed({{load_kind::force, 2, 5, {-60}}, {load_kind::point, 1, 1, {8}}}), 0.25);
   REQUIRE(at.placed.size() == 2);
@@ -198,8 +199,7 @@ double work_on(const plate& p, const load& l, int m, int n) {
 
 }  // namespace
 
-TEST_CASE(
-    "A pressure on any rectangle of a plate does exact work on the cubic polynomials, x^3 y and x y^3") {
+TEST_CASE("A pressure on any rectangle of a plate does exact work on cubic polynomials, x^3 y and x y^3") {
   const plate p = uneven_grid();
   const load l = rectangle(3.0, {-0.3, 1.3}, {0.25, 1.05});
   const auto moment = [](double a, double b, int n) {
@@ -223,7 +223,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A pressure on a rectangle between grid lines equals that on the rectangle's elements, to the bit") {
+    "A pressure on a rectangle between grid lines equals a pressure on the elements inside, to the bit") {
   const plate p = uneven_grid();
   std::vector<double> by_place(p.dofs());
   std::vector<double> by_elements(p.dofs());
@@ -233,14 +233,14 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "The resultant of a pressure on a rectangle is pressure times area, at the middle of the rectangle") {
+    "The resultant of a pressure on a rectangle is pressure times area, at the centre of the rectangle") {
   const resultant r = resultant_of(uneven_grid(), rectangle(0.5, {-0.3, 1.3}, {0.25, 1.05}));
   CHECK(r.force == 0.64);
   CHECK(r.moments.at(0) == 0.32);
   CHECK(r.moments.at(1) == 0.416);
 }
 
-TEST_CASE("Pressures on a plate that cancel as decimals leave nodal forces of exactly 0") {
+TEST_CASE("Pressures on a plate that cancel as decimals have nodal forces of exactly 0") {
   const plate p = uneven_grid();
   load l = placed({{load_kind::force, -1.0, 0.3, {0.1}, {0.0, 0.9}},
                    {load_kind::force, 0.3, 2.0, {0.1}, {0.0, 0.9}},

@@ -231,8 +231,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "a plate's corner moments are exact for cubic deflections, x^3 y and x y^3, and positive for sagging") {
+TEST_CASE("the corner moments of a plate are exact for cubic deflections, and positive for sagging") {
   const plate p = uneven_plate();
   const field w = {[](double x, double y) {
                      return x * x * x + 2 * x * x * y - y * y * y + x * x * x * y - 2 * x * y * y * y;
@@ -271,7 +270,8 @@ TEST_CASE("a rigid-body motion of any size gives a plate no moments") {
   for (const double moment : moments.values) CHECK(std::abs(moment) < 1e-8);
 }
 
-TEST_CASE("a quarter of a simply supported square plate has the deflections and corner forces of PP1") {
+TEST_CASE(
+    "a quarter of a simply supported square plate (PP1) has the expected deflections and corner forces") {
   struct expected {
     int n;
     double w, corner;
@@ -335,7 +335,7 @@ TEST_CASE("a strip of a plate along x or along y bends like a beam") {
   }
 }
 
-TEST_CASE("a plate has the same dimensionless answer in units of length from 1e-12 to 1e12") {
+TEST_CASE("a plate has the same answer relative to its size in units of length from 1e-12 to 1e12") {
   const plate one = quarter_of_square(6);
   const auto u = displaced(one, simply_supported_quarter(one), unit_pressure_down);
   for (const double unit : {1e-12, 1e-6, 1e6, 1e12}) {
@@ -355,7 +355,9 @@ TEST_CASE("a plate has the same dimensionless answer in units of length from 1e-
   }
 }
 
-TEST_CASE("the nodal forces of a pressure on some elements of a plate have its resultant and moments") {
+TEST_CASE(
+    "the nodal forces of a pressure on some elements of a plate have the resultant and moments of the "
+    "pressure") {
   const plate p = uneven_plate();
   const auto resultant = [&](const load& l) {
     std::vector<double> f(p.dofs(), 0.0);
@@ -385,13 +387,13 @@ TEST_CASE("the nodal forces of a pressure on some elements of a plate have its r
                                  -4.0 / 3});
 }
 
-TEST_CASE("a pressure on a plate that is a polynomial in x is refused") {
+TEST_CASE("a plate refuses a pressure that is a polynomial in x") {
   const plate p = uneven_plate();
   std::vector<double> f(p.dofs(), 0.0);
   CHECK_THROWS_AS(add_consistent_loads(p, {{}, {{{1.0, 2.0}, {}}}}, f), std::invalid_argument);
 }
 
-TEST_CASE("a plate's reactions balance the loads at fixed corners, edges and inner nodes, and at springs") {
+TEST_CASE("the reactions of a plate balance loads at fixed corners, edges and inner nodes, and at springs") {
   const plate p = uneven_plate();
   std::vector<support> supports = {{p.node_at(0, 0), 0, true},       {p.node_at(3, 0), 0, true},
                                    {p.node_at(1, 2), 0, true},       {p.node_at(1, 2), 2, true},
@@ -412,19 +414,20 @@ TEST_CASE("a plate's reactions balance the loads at fixed corners, edges and inn
   CHECK(std::abs(r[3]) > 0.01);
 }
 
-TEST_CASE("E, nu and thickness make D = E t^3 / 12 (1 - nu^2)") {
+TEST_CASE("E, nu and thickness give a plate the stiffness D = E t^3 / 12 (1 - nu^2)") {
   CHECK(bending_stiffness(10.92, 0.3, 1.0) == Approx(1.0).epsilon(1e-15));
   CHECK(bending_stiffness(12.0, 0.0, 2.0) == 8.0);
 }
 
-TEST_CASE("a plate whose stiffness exceeds double precision is refused, and the message names the element") {
+TEST_CASE(
+    "a plate whose stiffness exceeds the range of doubles is refused, and the message names the element") {
   plate p = quarter_of_square(2);
   p.x = {0.0, 1.0, 1.0 + 1e-12};
   for (double& x : p.x) x *= 1e-100;
   CHECK_THROWS_WITH(build(p, {}, {}), Catch::Matchers::Contains("element 2"));
 }
 
-TEST_CASE("a plate is held by three points that are not on a line, or by a point with its two slopes") {
+TEST_CASE("three points that are not on one line hold a plate, and so does a point with two slopes") {
   const plate p = uneven_plate(1e9, 1e-9);
   const auto rank_of = [&](const std::vector<support>& supports, const std::vector<contact_pair>& pairs) {
     const linear_structure s = build(p, supports, pairs);
@@ -439,7 +442,7 @@ TEST_CASE("a plate is held by three points that are not on a line, or by a point
   CHECK(build(p, {}, {stop}).dof_of_pair(0) == 3 * p.node_at(2, 3));
 }
 
-TEST_CASE("D of a plate is correct to 32 digits even if 1 - nu^2 cancels in doubles") {
+TEST_CASE("the stiffness D of a plate is correct to 32 digits, even if 1 - nu^2 cancels in doubles") {
   const plate p{{0, 1}, {0, 1}, 1.0, -0.9999999999999999, 2484, 0.1};
   // 1 - nu^2 = 1e-16 (2 - 1e-16), and D = 0.207 / (1 - nu^2).
   const auto D = stiffness_of<double_double>(p);

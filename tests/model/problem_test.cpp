@@ -20,8 +20,8 @@ std::vector<std::string> names_of(const model& m) {
 }  // namespace
 
 TEST_CASE(
-    "beam, plate and matrix each know their numbers of nodes, elements and dofs, and the names of their "
-    "dofs") {
+    "a beam and a plate have counts of nodes, elements and dofs, names of dofs, and tributary shares of "
+    "nodes") {
   const model b{two_spans};
   CHECK(nodes(b) == 3);
   CHECK(elements(b) == 2);
@@ -38,7 +38,7 @@ TEST_CASE(
   CHECK(tributary_shares(p) == std::vector<double>{0.25, 0.75, 0.5, 0.25, 0.75, 0.5});
 }
 
-TEST_CASE("the resultant of a load has a force, and one moment for each slope of the structure") {
+TEST_CASE("the resultant of a load has a force, and one moment on a beam or two moments on a plate") {
   const resultant b = resultant_of(model{two_spans}, {{{1, 0, -4.0}, {2, 1, 0.5}}, {{{-2.0}, {1}}}});
   CHECK(b.force == Approx(-8.0));
   REQUIRE(b.moments.size() == 1);
@@ -52,7 +52,7 @@ TEST_CASE("the resultant of a load has a force, and one moment for each slope of
   CHECK(p.moments[1] == Approx(-4.0 * 1 - 2.0 * 0.5 + 0.25));
 }
 
-TEST_CASE("the resultant of a load is exact even if powers of x or loads cancel") {
+TEST_CASE("the resultant of a load is exact, although powers of x or loads cancel") {
   const load far{{}, {{{1e18, -6e15, 1.5e13, -2e10, 1.5e7, -6000, 1}, {}}}};  // (x - 1000)^6
   const resultant r = resultant_of(model{beam{{1000, 1001, 1002}, {1, 1}}}, far);
   CHECK(r.force == 128.0 / 7);
@@ -71,7 +71,7 @@ TEST_CASE("point loads at one dof add up") {
   CHECK(f == std::vector<double>{1, 0, 6, 1, 1, 1});
 }
 
-TEST_CASE("the reaction of a fixed dof that settles also balances the force of its spring") {
+TEST_CASE("if a fixed dof has a spring and settles, its reaction also balances the force of the spring") {
   const std::vector<support> supports = {{1, 0, true}, {1, 0, false, 4.0}, {1, 0, true}};
   const load l{{{1, 0, -3.0}}, {}, {{1, 0, 0.5}}};
   const std::vector<double> all_up = {0.5, 0, 0.5, 0, 0.5, 0};  // no element is bent

@@ -22,7 +22,7 @@ int rank_of(const std::vector<rigid_row>& rows) {
 
 }  // namespace
 
-TEST_CASE("two deflections at different places hold a beam, but two at one place or two rotations do not") {
+TEST_CASE("deflections at two places hold a beam, but two deflections at one place or two rotations do not") {
   CHECK(rank_of({{1, 0.5, 0}, {1, 0.5, 0}}) == 1);
   CHECK(rank_of({{1, 0.5, 0}, {1, 0.5000001, 0}}) == 2);
   CHECK(rank_of({{0, 1, 0}, {0, 1, 0}}) == 1);
@@ -30,7 +30,7 @@ TEST_CASE("two deflections at different places hold a beam, but two at one place
 }
 
 TEST_CASE(
-    "three points on a line do not hold a plate, but they hold it together with points outside the line") {
+    "three points on one line do not hold a plate, but together with a point outside the line they do") {
   const std::vector<rigid_row> on_a_line = {{1, -0.3, -0.1}, {1, 0.1, 0.3}, {1, 0.5, 0.7}};
   CHECK(rank_of(on_a_line) == 2);
   std::vector<rigid_row> all = on_a_line;
@@ -39,7 +39,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "for the rank of supports only the direction of a row counts, not its length from 1e-200 to 1e200") {
+    "the rank of supports depends on the directions of their rows, and not on lengths from 1e-200 to 1e200") {
   for (const double size : {1e-200, 1.0, 1e200}) {
     CHECK(rank_of({{0, size, 0}, {0, 2 * size, 0}}) == 1);
     CHECK(rank_of({{0, size, 0}, {1, 1, 0}, {0, 0, size}}) == 3);
@@ -62,7 +62,7 @@ band_matrix chain(int points) {
 
 }  // namespace
 
-TEST_CASE("a chain of springs has one rigid-body motion, in which all points move by the same length") {
+TEST_CASE("a free chain of springs has one rigid-body motion, in which all points move by the same length") {
   const free_motions f = find_free_motions(chain(9), {});
   REQUIRE(f.count == 1);
   REQUIRE(f.rows.size() == 9);
@@ -89,7 +89,8 @@ TEST_CASE("scaling the matrix or single dofs does not change the number of rigid
 }
 
 TEST_CASE(
-    "a dof with the smallest positive stiffness in doubles does not change the other rigid-body motions") {
+    "a dof with the smallest positive stiffness in doubles does not change the rigid-body motions of other "
+    "dofs") {
   band_matrix k(10, 1);
   for (int i = 0; i < 9; ++i)
     for (int j = std::max(i - 1, 0); j <= i; ++j) k.at(i, j) = chain(9).at(i, j);
@@ -108,7 +109,7 @@ TEST_CASE("a wrong number of rigid-body motions and an indefinite matrix are ref
   CHECK_THROWS_AS(find_free_motions(negative, {}), std::invalid_argument);
 }
 
-TEST_CASE("a matrix has the same rigid-body motions in sparse storage as in a band") {
+TEST_CASE("a matrix in sparse storage has the same rigid-body motions as a band") {
   if (!sparse_factor::available()) return;
   assembled body;
   body.name = "K";
@@ -133,7 +134,7 @@ TEST_CASE("a matrix has the same rigid-body motions in sparse storage as in a ba
 }
 
 TEST_CASE(
-    "a rigid-body motion of a chain includes a point on a spring that is 1e22 times softer than the others") {
+    "in a rigid-body motion of a chain, a point on a spring 1e22 times softer than the others moves too") {
   const int n = 100;
   band_matrix k = chain(n);
   const double soft = 1e-22;

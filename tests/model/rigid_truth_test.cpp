@@ -69,15 +69,16 @@ bool by_every_choice(const numbers& sum, const std::vector<numbers>& parts) {
 
 }  // namespace
 
-TEST_CASE("The work of loads on a hinged beam's motions is the same from decimals as from condensed loads") {
+TEST_CASE(
+    "the work of loads on the rigid-body motions of a hinged beam is the same with and without "
+    "condensation") {
   beam b = beam_at({0, 1, 2, 2.5, 4, 5.5, 6});
   b.hinges = {2, 5};
   agree(b, {{{1, 0, -1.0}, {3, 1, 0.75}}, {{{-2.0}, {1, 2, 3}}, {{0.5, -1.0, 0.25}, {}}}});
   agree(b, {{}, {{{-2.0, 1.0}, {5}}, {{3.0}, {0, 1}}}});
 }
 
-TEST_CASE(
-    "loads of 0.1, 0.2 and -0.3 do no work on a free beam, but loads of 1e12, -1e12 and 1e-300 do work") {
+TEST_CASE("loads 0.1, 0.2 and -0.3 do no work on a free beam, but loads 1e12, -1e12 and 1e-300 do work") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}})));
   CHECK(driven(s, points({{1, 0, 0.1}, {1, 0, 0.2}, {1, 0, -0.3}, {1, 0, 1e-300}})));
@@ -88,7 +89,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a load over the only support of a beam drives a rotation only together with a moment, however small") {
+    "a load over a beam's only support rotates the beam only together with a moment, even one of 4e-13") {
   const linear_structure s = build(beam_at({0, 0.7, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, -1.0}}), {2}));
   const auto turn = driven(s, points({{1, 0, -1.0}, {1, 1, -4e-13}}), {2});
@@ -99,7 +100,7 @@ TEST_CASE(
   CHECK(turn->at(1) < 0.0);  // the slope has the sign of the moment
 }
 
-TEST_CASE("the driven rigid-body motion is that on which the load does most work") {
+TEST_CASE("of all rigid-body motions, the load drives the motion on which it does most work") {
   load l = points({{0, 0, 3.0}, {2, 1, -0.5}});
   l.distributed = {{{1.0, -0.25, 0.125}, {}}, {{2.0}, {0, 2}}, {{-1.0, 1.0}, {1, 2}}};
   agree(beam_at({0, 1, 3, 4}), l);
@@ -124,7 +125,7 @@ TEST_CASE("the work of a plate's pressures and forces on its rigid-body motions 
   CHECK(driven(even, balanced));
 }
 
-TEST_CASE("loads at exact thirds of a beam that balance each other drive no rigid-body motion") {
+TEST_CASE("loads at exact thirds of a beam that are in balance drive no rigid-body motion") {
   beam b = beam_at({0, 1.0 / 3, 2.0 / 3, 1});
   b.runs = {{1.0, 3}};
   const linear_structure s = build(b, {}, {});
@@ -133,7 +134,9 @@ TEST_CASE("loads at exact thirds of a beam that balance each other drive no rigi
   CHECK(driven(by_decimals, points({{0, 0, 2.0}, {1, 0, -3.0}, {3, 0, 1.0}})));
 }
 
-TEST_CASE("two supports hold a beam however close they are, and three a plate unless they lie on one line") {
+TEST_CASE(
+    "two supports hold a beam even if they are 1e-14 apart, and three hold a plate unless they are on one "
+    "line") {
   const linear_structure s = build(beam_at({0, 1e-14, 1}), {}, {});
   CHECK(s.truth->is_independent(std::vector<int>{0}, 2));
   CHECK_FALSE(s.truth->is_independent(std::vector<int>{0}, 0));
@@ -157,7 +160,7 @@ TEST_CASE("two supports hold a beam however close they are, and three a plate un
   CHECK(build(p, {}, {}).truth->is_independent(std::vector<int>{w(0, 0), w(1, 1)}, w(3, 3)));
 }
 
-TEST_CASE("the difference of the work of two loads is unknown if one of the two is unknown") {
+TEST_CASE("the difference between the work of two loads is unknown if the work of one load is unknown") {
   const linear_structure s = build(beam_at({0, 1, 2}), {}, {});
   const rigid_work large = s.truth->work_of(points({{1, 0, -1e16}, {2, 0, -0.1}}));
   const rigid_work small = s.truth->work_of(points({{1, 0, -1e16}}));
@@ -168,7 +171,7 @@ TEST_CASE("the difference of the work of two loads is unknown if one of the two 
 }
 
 TEST_CASE(
-    "two pairs carry a load between them, and a hinged support and a pair carry a load that presses the "
+    "two pairs carry a load between them, and a hinged support and a pair carry a load that compresses the "
     "pair") {
   const linear_structure bare =
       build(beam_at({0, 1, 2, 3}), {}, {{0, -1, 0, 1, false}, {2, -1, 0, 1, false}});
@@ -213,7 +216,7 @@ TEST_CASE("a plate's load has an equilibrium if and only if three of its pairs c
   CHECK(carried < 900);
 }
 
-TEST_CASE("a thousand pairs in a square carry a load at the edge of the square, but not 1e-300 beyond it") {
+TEST_CASE("a thousand pairs in a square carry a load on the edge of the square, but no load 1e-300 outside") {
   plate p;
   for (int i = -15; i <= 15; ++i) p.x.push_back(i / 10.0);
   p.y = p.x;

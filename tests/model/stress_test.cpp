@@ -27,7 +27,9 @@ const value_range* named(const std::vector<value_range>& all, std::string_view n
 
 }  // namespace
 
-TEST_CASE("The stress of a beam with two section moduli is M / W, and is largest inside its weaker part") {
+TEST_CASE(
+    "The stress of a beam with two section moduli is M / W, and the largest stress is found inside the "
+    "weaker part") {
   beam b{{0, 3, 4}, {1, 1}};
   const load l{{}, {{{-8.0}, {}}}};
   const std::vector<double> u = displaced(b, {{0, 0, true}, {2, 0, true}}, l);
@@ -45,8 +47,7 @@ TEST_CASE("The stress of a beam with two section moduli is M / W, and is largest
   CHECK(named(ranges_of({b}, l, u, {}), "stress")->most.x == Approx(2).epsilon(stress_rounding));
 }
 
-TEST_CASE(
-    "Stresses of a plate are 6 m / t^2, with principal stresses by Mohr's circle and von Mises' stress") {
+TEST_CASE("A plate has stresses 6 m / t^2, principal stresses by Mohr's circle, and von Mises' stress") {
   const element_results moments{{"mx", "my", "mxy"}, 4, {5, 0, 1, 2, -1, 0, 1, -2, 2, 0, 0, 3}};
   const element_results s = stresses_of({square(2.0)}, moments);  // 6 / t^2 = 1.5
   REQUIRE(s.values.size() == 24);
@@ -62,7 +63,8 @@ TEST_CASE(
   CHECK(stresses_of({square(0.0)}, moments).names.empty());
 }
 
-TEST_CASE("The bound on stresses is at least the change of stresses under the worst change of moments") {
+TEST_CASE(
+    "The bound on stresses is at least the largest change of stresses under a bounded change of moments") {
   const plate p = square(1.0);
   const double bound = *stress_error({p}, 1e-3, 0.0);
   double worst = 0.0;

@@ -25,7 +25,8 @@ linear_structure four_dofs() {
 
 }  // namespace
 
-TEST_CASE("gaps and forces have the same signs above and below, and tension is a negative force") {
+TEST_CASE(
+    "gap and contact force have the same signs above and below, and a pulling pair has a negative force") {
   const contact_pair below = {0, -1, -0.5, 100.0, false};  // a face below the node, at -0.5
   CHECK(gap_of(below, 0.0, false) == 0.5);
   CHECK(gap_of(below, -0.5, false) == 0.0);
@@ -38,7 +39,7 @@ TEST_CASE("gaps and forces have the same signs above and below, and tension is a
   CHECK(force_of(above, 0.75, true) == 25.0);
 }
 
-TEST_CASE("supports act in the rows of their dofs") {
+TEST_CASE("a support acts in the row of its dof") {
   linear_structure s = four_dofs();
   put_on_supports(s, std::vector<support>{{0, 1, true}, {1, 0, false, 7.0}}, {{1, 1, 0.5, 3.0, false}});
   CHECK(s.fixed == std::vector<char>{0, 1, 0, 0});
@@ -53,7 +54,8 @@ TEST_CASE("supports act in the rows of their dofs") {
   CHECK_FALSE(s.deflects(3));
 }
 
-TEST_CASE("a load within a step is the proportional mixture of two loads, with loads at one place added") {
+TEST_CASE(
+    "a load within a step is a proportional mixture of the two loads, and loads at one place are added") {
   const load before{{{2, 0, -10.0}}, {{{-4.0}, {}}}};
   const load after{{{2, 0, -60.0}, {1, 1, 5.0}}, {{{-8.0, 2.0}, {}}, {{1.0}, {0}}}};
   const load at = mix(before, after, 0.1);
@@ -73,9 +75,7 @@ TEST_CASE("the load at the end of a step equals the load of the file, to the bit
   CHECK(mix({{{0, 0, 0.7}}, {}}, after, 1.0).points[0].value == 0.1);
 }
 
-TEST_CASE(
-    "a distributed load without a list of elements acts on all elements, and otherwise on those of its "
-    "list") {
+TEST_CASE("a distributed load acts on the elements of its list, or on all elements if it has no list") {
   const load l{{}, {{{1.0}, {}}, {{2.0, 3.0}, {2, 0}}}};
   std::vector<int> elements;
   std::vector<double> constants;
@@ -87,8 +87,7 @@ TEST_CASE(
   CHECK(constants == std::vector<double>{1, 1, 1, 2, 2});
 }
 
-TEST_CASE(
-    "the Gauss rule of n points integrates every polynomial up to degree 2 n - 1, but not of degree 2 n") {
+TEST_CASE("the Gauss rule of n points is exact for polynomials of degree 2 n - 1, but not of degree 2 n") {
   for (int n = 1; n <= 13; ++n) {
     const auto integral = [&](int degree) {
       double sum = 0.0;
@@ -103,7 +102,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a settlement of a dof without a fixed support is refused, and the message counts the dof from 1") {
+TEST_CASE(
+    "add_settlements refuses a dof that was not built to settle, and the message counts the dof from 1") {
   linear_structure s = four_dofs();
   s.settles = {0, 0, 0, 1};
   std::vector<double> f(4);

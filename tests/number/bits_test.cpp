@@ -6,7 +6,7 @@
 
 using namespace contct;
 
-TEMPLATE_TEST_CASE("for equality to the bit, NaN equals NaN, but -0 differs from +0", "", float, double) {
+TEMPLATE_TEST_CASE("in a comparison to the bit, NaN equals NaN, but -0 differs from +0", "", float, double) {
   using Real = TestType;
   const Real nan = std::numeric_limits<Real>::quiet_NaN();
   CHECK(same_bits(Real(0.1), Real(0.1)));
@@ -17,8 +17,8 @@ TEMPLATE_TEST_CASE("for equality to the bit, NaN equals NaN, but -0 differs from
   CHECK_FALSE(same_bits(Real(1), std::nextafter(Real(1), Real(2))));
 }
 
-TEMPLATE_TEST_CASE("the distance in ULPs counts the representable numbers between two numbers", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("the distance of two numbers in ULPs is the number of steps between representable numbers",
+                   "", float, double) {
   using Real = TestType;
   const Real denormal = std::numeric_limits<Real>::denorm_min();
   CHECK(ulps_between(Real(1), Real(1)) == 0);
@@ -33,7 +33,7 @@ TEMPLATE_TEST_CASE("the distance in ULPs counts the representable numbers betwee
         2 * static_cast<std::uint64_t>(place_of(std::numeric_limits<Real>::infinity())) + 1);
 }
 
-TEST_CASE("a double is written as an exact hex float") {
+TEST_CASE("a double is written as a hex float with the same value") {
   CHECK(hexfloat(1.5) == "0x1.8p+0");
   CHECK(hexfloat(-0.0) == "-0x0p+0");
   CHECK(hexfloat(0.1) == "0x1.999999999999ap-4");

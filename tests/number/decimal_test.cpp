@@ -5,7 +5,8 @@
 
 using namespace contct;
 
-TEST_CASE("a literal counts as the shortest decimal regardless of its zeros, signs and form of exponent") {
+TEST_CASE(
+    "a number in a file counts as the shortest decimal whatever zeros, sign or form of exponent it has") {
   for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25",
                            "0.2500000000000000000000", "000000000000000000000.25"}) {
     INFO(same);
@@ -23,13 +24,13 @@ TEST_CASE("a literal counts as the shortest decimal regardless of its zeros, sig
   CHECK(shortest_decimal(-1000.0) == decimal{true, "1", 3});
 }
 
-TEST_CASE("text that is not a decimal is not compared with a shortest decimal") {
+TEST_CASE("is_shortest is true for text that is not a decimal, since such text has no shortest decimal") {
   for (const char* none : {"", "-", ".", "inf", "0x10", "1e", "1e+", "1 ", "1.2.3", "e5"})
     CHECK(is_shortest(none, 0x1p-1074));
 }
 
 TEST_CASE(
-    "a number with a decimal point or an exponent has a last written digit, and a whole number does not") {
+    "a number with a decimal point or an exponent has a last written digit, but a whole number has none") {
   CHECK(last_written_digit("1.250") == -3);
   CHECK(last_written_digit("-1.25e4") == 2);
   CHECK(last_written_digit("1.0000000000000D+00") == -13);
@@ -40,7 +41,7 @@ TEST_CASE(
   CHECK_FALSE(last_written_digit("x").has_value());
 }
 
-TEST_CASE("a warning quotes a literal and the shortest decimal of its double, however long they are") {
+TEST_CASE("the warning quotes the number in the file and the shortest decimal, and stays below 150 bytes") {
   const std::string used = ", is used everywhere";
   CHECK(rounding_words("0.10000000000000000555", 0.1) ==
         "found 0.10000000000000000555; the shortest decimal of its double, 0.1" + used);

@@ -5,7 +5,7 @@
 
 using namespace contct;
 
-TEST_CASE("a sum of two doubles keeps digits that one double would round away") {
+TEST_CASE("a sum in double-double keeps digits that a double would round away") {
   const double_double x = double_double(1.0) + 0x1p-80;
   CHECK(x.hi == 1.0);
   CHECK(x.lo == 0x1p-80);
@@ -13,7 +13,7 @@ TEST_CASE("a sum of two doubles keeps digits that one double would round away") 
   CHECK(((x * x) - 1.0).hi == 0x1p-79);  // 2^-160 is below the precision
 }
 
-TEST_CASE("products and quotients of double-doubles have a relative error of at most 2^-100") {
+TEST_CASE("products and quotients in double-double have a relative error of at most 2^-100") {
   const double_double third = double_double(1.0) / 3;
   CHECK(std::abs((third * 3 - 1.0).hi) <= 0x1p-100);
   CHECK(exact_product(0x1.0000001p0, 0x1.0000001p0).lo != 0.0);

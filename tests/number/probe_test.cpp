@@ -10,14 +10,14 @@
 
 using namespace contct;
 
-TEST_CASE("this build has strict floating point") {
+TEST_CASE("the floating-point probe finds this build strict") {
   const floating_point found = probe_floating_point();
   INFO(describe(found));
   CHECK(found.strict());
   CHECK(describe(found) == "strict");
 }
 
-TEST_CASE("the floating-point probe detects a rounding mode other than to nearest") {
+TEST_CASE("the floating-point probe detects any rounding mode other than to nearest") {
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
     std::fesetround(mode);
     const floating_point found = probe_floating_point();

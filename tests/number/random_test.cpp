@@ -11,7 +11,7 @@ TEST_CASE("splitmix64 gives its published first numbers for seed 1234567") {
   CHECK(r.bits() == 9817491932198370423ULL);
 }
 
-TEST_CASE("random whole numbers reach both ends of their range and do not exceed them") {
+TEST_CASE("random whole numbers reach both ends of a given range and never exceed them") {
   random_numbers r(1);
   bool least = false;
   bool most = false;

@@ -10,7 +10,7 @@
 
 using namespace contct;
 
-TEST_CASE("a double becomes the shortest decimal that is read as this double") {
+TEST_CASE("decimal_of gives the shortest decimal that is read as the given double") {
   CHECK(decimal_of(0.1) == rational(1, 10));
   CHECK(decimal_of(-2.5e-7) == rational(-1, 4000000));
   CHECK(decimal_of(1200.0) == 1200);
@@ -20,7 +20,7 @@ TEST_CASE("a double becomes the shortest decimal that is read as this double") {
   CHECK(decimal_of(5e-324) == rational(integer(5), boost::multiprecision::pow(integer(10), 324U)));
 }
 
-TEST_CASE("the binary value of a double is exact") {
+TEST_CASE("binary_value gives the exact value of a double, and refuses infinity and NaN") {
   CHECK(binary_value(0.75) == rational(3, 4));
   CHECK(binary_value(0.1) == rational(integer("3602879701896397"), integer("36028797018963968")));
   CHECK(binary_value(-8.0) == -8);
@@ -29,7 +29,7 @@ TEST_CASE("the binary value of a double is exact") {
   CHECK_THROWS_AS(binary_value(std::numeric_limits<double>::quiet_NaN()), std::domain_error);
 }
 
-TEST_CASE("a rational is rounded to a double, however long it is") {
+TEST_CASE("a rational number of any length is rounded to a double correctly") {
   CHECK(rounded(rational(1, 3)) == 1.0 / 3.0);
   CHECK(rounded(rational(-1, 10)) == -0.1);
   CHECK(rounded(0) == 0.0);
@@ -46,7 +46,7 @@ TEST_CASE("a rational is rounded to a double, however long it is") {
   CHECK(rounded(rational(integer(-1), huge)) == 0.0);
 }
 
-TEST_CASE("the low part of a decimal, found without rational numbers, is that of its rational number") {
+TEST_CASE("the low part of a decimal in double-double is the same with and without rational numbers") {
   CHECK(long_decimal_of(0.5).lo == 0.0);
   CHECK(long_decimal_of(0.1).lo == -0.4 * 0x1p-56);  // 0.1 is 0x1.999999999999ap-4 less 2/5 of 2^-56
   contct::random_numbers random(11);
@@ -61,7 +61,7 @@ TEST_CASE("the low part of a decimal, found without rational numbers, is that of
   CHECK(compared == 20'000);
 }
 
-TEST_CASE("a rational is rounded to the nearest double, and a tie to the even double") {
+TEST_CASE("a rational number is rounded to the nearest double, and in a tie to the even double") {
   // Halfway between a double and the next double up, and a tiny amount below and above it.
   const double least = std::numeric_limits<double>::denorm_min();
   const rational hair(integer(1), integer(1) << 2000U);
@@ -86,7 +86,7 @@ TEST_CASE("a rational is rounded to the nearest double, and a tie to the even do
   CHECK(rounded(binary_value(least) / 2 + hair) == least);
 }
 
-TEST_CASE("a short fraction is written as a fraction, and a longer one as a decimal") {
+TEST_CASE("a short fraction is written as a fraction, and a long one as a decimal") {
   CHECK(fraction_words(rational(-208, 58875)) == "-208/58875");
   CHECK(fraction_words(7) == "7");
   CHECK(short_words(rational(-208, 58875), 8) == "-208/58875");

@@ -18,7 +18,7 @@ path_record free_run(const beam_problem& p, const char* kernel) {
 
 }  // namespace
 
-TEST_CASE("FORTRAN and C++ end with the same bits in a free run") {
+TEST_CASE("in a free run, the paths of FORTRAN and C++ end with the same bits") {
   const path_record fortran = free_run(cantilever_over_a_stop(), "fortran");
   const path_record cpp = free_run(cantilever_over_a_stop(), "cpp");
   const free_run_difference d = compare_paths(fortran, cpp, 1e-9, 2);
@@ -30,7 +30,8 @@ TEST_CASE("FORTRAN and C++ end with the same bits in a free run") {
 }
 
 TEST_CASE(
-    "in a free run, single precision is within its own bound, but not within the bound of double precision") {
+    "in a free run, single precision is within a bound of 1e-4, but not within the 1e-9 of double "
+    "precision") {
   const path_record r8 = free_run(cantilever_over_a_stop(), "fortran");
   const path_record r4 = free_run(cantilever_over_a_stop(), "fortran-r4");
   const double bound = free_run_bound(make_kernel("cpp")->facts(), make_kernel("cpp-r4")->facts());
@@ -39,7 +40,7 @@ TEST_CASE(
   CHECK_FALSE(compare_paths(r8, r4, 1e-9, 2).within_bound());
 }
 
-TEST_CASE("in a free run, a different event, a different order and a different end are each named") {
+TEST_CASE("a free run reports a different event, a missing event, a different end and a wrong rotation") {
   const path_record leader = free_run(cantilever_over_a_stop(), "fortran");
   path_record other = leader;
   other.events[1].what.what = change::make;
@@ -62,8 +63,7 @@ TEST_CASE("in a free run, a different event, a different order and a different e
   CHECK_FALSE(d.within_bound());
 }
 
-TEST_CASE(
-    "in a free run, the difference in an unloaded step is relative to the largest D of the whole path") {
+TEST_CASE("in a free run, differences in an unloaded step are relative to the largest D of the whole path") {
   beam_problem p = cantilever_over_a_stop();
   p.steps = {tip_load(2, -60), tip_load(2, 0)};
   const path_record r8 = free_run(p, "fortran");

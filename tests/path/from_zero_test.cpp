@@ -45,7 +45,7 @@ load from_zero(load l) {
 
 }  // namespace
 
-TEST_CASE("the path of a step from zero is the same to the bit, whatever steps come before it") {
+TEST_CASE("the path of a step from zero is the same to the bit with and without a step before it") {
   for (const char* kernel : {"fortran", "cpp", "corrected"}) {
     beam_problem p = between_stops();
     const recorder both = seen(p, "refactor", kernel);
@@ -64,7 +64,7 @@ TEST_CASE("the path of a step from zero is the same to the bit, whatever steps c
   }
 }
 
-TEST_CASE("engines that keep factors also restart at a step from zero") {
+TEST_CASE("with an engine that keeps a factor, a step from zero also starts from the unloaded structure") {
   for (const char* engine : {"updated", "condensed"}) {
     beam_problem p = between_stops();
     const recorder both = seen(p, engine, "cpp");
@@ -76,7 +76,7 @@ TEST_CASE("engines that keep factors also restart at a step from zero") {
   }
 }
 
-TEST_CASE("after a mechanism, a step is followed only if it starts from zero or continues a step that does") {
+TEST_CASE("after a mechanism, only a step from zero and the steps that continue it are followed") {
   const load up = from_zero(tip_load(1, 7.0));
   const load down = tip_load(2, -8.0);
   const beam_problem p = lying({up, down, from_zero(down), tip_load(2, -4.0), up, from_zero(down)});

@@ -44,7 +44,8 @@ void call_with(observer& o, double d, double d_star, double c, double smin, int 
 
 }  // namespace
 
-TEST_CASE("every increment of PB1 is explained, and compared with the second kernel's answer") {
+TEST_CASE(
+    "every increment of a cantilever over a stop (PB1) is explained and compared with a second kernel") {
   const explained_pb1 all({"cpp"});
   REQUIRE(all.increments.size() == 6);
   CHECK(all.path.calls() == 6);
@@ -63,7 +64,7 @@ TEST_CASE("every increment of PB1 is explained, and compared with the second ker
   }
 }
 
-TEST_CASE("a single increment of a single kernel can be explained") {
+TEST_CASE("one increment of one kernel can be explained without a second kernel") {
   const explained_pb1 one({}, {2, 2});
   REQUIRE(one.increments.size() == 1);
   CHECK(one.increments[0].step == 2);
@@ -76,7 +77,7 @@ TEST_CASE("a single increment of a single kernel can be explained") {
 }
 
 TEST_CASE(
-    "a toggle before its face counts as early, and its distance is relative to the largest deflection") {
+    "a toggle before the face counts as early, and the distance is relative to the largest deflection") {
   early_toggles early;
   const event makes{0, change::make};
   const std::vector<event> events = {makes};
@@ -96,7 +97,7 @@ TEST_CASE(
   CHECK(early.all()[0].share == 0.25);
 }
 
-TEST_CASE("a kernel answers the trace of its own recorded path as it was recorded") {
+TEST_CASE("a kernel that replays the recorded trace of its own path gives the recorded answers") {
   std::string text;
   const kernel_facts leader = facts_of_kernel("fortran");
   trace_recorder recorder(header_for(leader, "a checksum"), [&text](std::string_view part) { text += part; });

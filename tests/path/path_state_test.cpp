@@ -10,7 +10,8 @@
 
 using namespace contct;
 
-TEST_CASE("a cycle of statuses of any length is found, whatever precedes it") {
+TEST_CASE(
+    "the cycle detector finds a cycle of statuses of any length, whatever statuses come before the cycle") {
   for (int lead : {0, 1, 5, 17}) {
     for (int loop : {1, 2, 3, 7, 20}) {
       cycle_detector watch;
@@ -28,14 +29,14 @@ TEST_CASE("a cycle of statuses of any length is found, whatever precedes it") {
   }
 }
 
-TEST_CASE("statuses that recur after some movement are not a cycle") {
+TEST_CASE("the cycle detector reports no cycle if statuses recur after a movement") {
   cycle_detector watch;
   for (int i = 0; i < 100; ++i) CHECK_FALSE(watch.repeats(true, std::vector<int>{1}, {}));
   CHECK_FALSE(watch.repeats(false, std::vector<int>{1}, {}));
   CHECK(watch.repeats(false, std::vector<int>{1}, {}));
 }
 
-TEST_CASE("pairs that toggled once do not belong to a cycle, and toggles 200 increments ago do not count") {
+TEST_CASE("the pairs of a cycle are those that toggled twice within 200 increments") {
   cycle_detector watch;
   const std::vector<int> status = {1, 1, 1};
   const std::vector<event> both = {{0, change::make}, {1, change::make}};
@@ -51,7 +52,7 @@ TEST_CASE("pairs that toggled once do not belong to a cycle, and toggles 200 inc
   CHECK(watch.restless_pairs().empty());
 }
 
-TEST_CASE("a response that is not finite at some pair is not passed to the kernel") {
+TEST_CASE("if the response of any pair is infinite or NaN, the kernel is not called") {
   beam_problem p{even_beam(9.0, 9, 1e4), {{0, 0, true}, {0, 1, true}}, {}, {}};
   for (int node = 1; node <= 9; ++node) p.pairs.push_back({node, face_below, -1.0, 1.0, false});
   const linear_structure s = p.structure();

@@ -9,7 +9,9 @@
 
 using namespace contct;
 
-TEST_CASE("in PB1 the stop makes contact at F = -15, and its force is that of the hand calculation") {
+TEST_CASE(
+    "the tip of a cantilever (PB1) meets the stop at F = -15, and the stop has the force of the hand "
+    "calculation") {
   for (const char* kernel : {"fortran", "cpp"}) {
     recorder r;
     const path_end end = cantilever_over_a_stop().run(kernel, {&r});
@@ -43,7 +45,7 @@ TEST_CASE("a face above stops a beam that moves up") {
   CHECK(r.events() == std::vector<event>{{0, change::make}, {0, change::break_}, {1, change::make}});
 }
 
-TEST_CASE("a pair on a fixed dof does not change the path") {
+TEST_CASE("a pair at a fixed dof does not change the path") {
   beam_problem p = cantilever_over_a_stop();
   recorder without;
   p.run("fortran", {&without});
@@ -53,7 +55,7 @@ TEST_CASE("a pair on a fixed dof does not change the path") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(with.steps[i].u == without.steps[i].u);
 }
 
-TEST_CASE("the state at a step's end is in equilibrium") {
+TEST_CASE("at the end of a step, elastic forces and contact forces of a beam on springs balance the load") {
   beam_problem p = free_beam_on_springs(6.0, 24, 1.0, 4.0);
   p.steps = {{{{10, 0, -1.0}}, {}}, {{{12, 0, -2.0}, {20, 0, -0.2}}, {}}};
   recorder r;
@@ -70,7 +72,7 @@ TEST_CASE("the state at a step's end is in equilibrium") {
   }
 }
 
-TEST_CASE("at the end of a step a support has its prescribed settlement, and the beam moves with it") {
+TEST_CASE("at the end of a step, a support has its prescribed settlement and the beam follows the support") {
   problem p;
   p.geometry = {even_beam(2.0, 2, 1e4)};
   p.supports = {{0, 0, true}, {2, 0, true}};

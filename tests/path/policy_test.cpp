@@ -37,7 +37,7 @@ full_load_state made_up_rest() {
 
 }  // namespace
 
-TEST_CASE("a free beam above its stops moves as a rigid body at constant load until it lies on them") {
+TEST_CASE("a free beam above its stops moves as a rigid body at constant load until it lies on the stops") {
   const beam_problem p = beam_above_stops();
   recorder r;
   const path_end end = p.run("corrected", {&r});
@@ -56,7 +56,7 @@ TEST_CASE("a free beam above its stops moves as a rigid body at constant load un
   CHECK_FALSE(r.steps[0].from_fallback);
 }
 
-TEST_CASE("a free beam moves from the stops below it to the stops above it, and back, as its load reverses") {
+TEST_CASE("if the load reverses, a free beam moves from the stops below to the stops above, and back") {
   beam_problem p = beam_above_stops();
   p.pairs.push_back({0, face_above, 0.2, 50.0, false});
   p.pairs.push_back({4, face_above, 0.2, 50.0, false});
@@ -79,7 +79,7 @@ TEST_CASE("a free beam moves from the stops below it to the stops above it, and 
   CHECK(std::count(snaps.begin(), snaps.end(), true) >= 4);
 }
 
-TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
+TEST_CASE("a beam that balances on one pair is in equilibrium, and bends over the pair") {
   // Both halves are cantilevers under q = 2, whose tips deflect by q l^4 / 8 EI.
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
@@ -95,8 +95,7 @@ TEST_CASE("a beam balanced on one pair is in equilibrium, and bends over it") {
   CHECK(r.steps[0].rcond > 0.0);  // K with the pair's spring
 }
 
-TEST_CASE(
-    "a beam that balances on its only pair ends early without a fallback, and is not called a mechanism") {
+TEST_CASE("the path of a beam that balances on its only pair ends early, although an equilibrium exists") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, 0.0, 50.0, true}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}};
   const path_end end = p.run("corrected", {});
@@ -105,7 +104,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a beam that falls on its only pair and rotates without limit ends at the contact, without a force") {
+    "a beam that falls on its only pair and then rotates without limit ends in a mechanism at this contact") {
   beam_problem p{even_beam(2.0, 2, 1e3), {}, {{1, face_below, -0.5, 1e4, false}}, {}};
   p.steps = {tip_load(2, -1.0)};
   recorder r;
@@ -119,7 +118,7 @@ TEST_CASE(
   CHECK(r.steps[0].u[4] == Approx(-1.0).epsilon(1e-15));
 }
 
-TEST_CASE("the last state of a beam lifted off its stops is reported with the share at which it separates") {
+TEST_CASE("if a beam is lifted off its stops, the last state is reported with the share of the separation") {
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, -8.0), tip_load(2, 8.0)};
   recorder r;
@@ -134,9 +133,7 @@ TEST_CASE("the last state of a beam lifted off its stops is reported with the sh
   CHECK(r.steps[1].u[8] == Approx(-0.3).epsilon(1e-12));
 }
 
-TEST_CASE(
-    "a balanced beam lifted off its pair ends in the state of the separation, not in the step's first "
-    "state") {
+TEST_CASE("if a balanced beam is lifted off its pair, the path ends in the state at the separation") {
   beam_problem p{
       even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
   p.steps = {{{}, {{{-2.0}, {}}}}, {{}, {{{2.0}, {}}}}};
@@ -150,7 +147,7 @@ TEST_CASE(
   CHECK(r.steps[1].u[4] == Approx(-0.1).epsilon(1e-10));
 }
 
-TEST_CASE("a free beam that its load drives away from its stops is a mechanism at share 0") {
+TEST_CASE("a free beam is a mechanism at share 0 if the load drives it away from its stops") {
   beam_problem p = beam_above_stops();
   p.steps = {tip_load(2, 8.0)};
   recorder r;
@@ -161,7 +158,7 @@ TEST_CASE("a free beam that its load drives away from its stops is a mechanism a
   CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
 }
 
-TEST_CASE("the path of the 1989 rule ends at its start if a free beam is above its stops") {
+TEST_CASE("by the 1989 rule, the path of a free beam above its stops ends at the start") {
   for (const char* name : {"fortran", "cpp"}) {
     bool asked = false;
     const path_limits limits{0, [&](int, const full_load_state*) {
@@ -213,7 +210,7 @@ beam_problem cantilever_on_two() {
 }  // namespace
 
 TEST_CASE(
-    "a pair that toggles twice without progress of the load stays in contact until the load increases") {
+    "if a pair toggles twice without progress of the load, it stays in contact until the load increases") {
   restless_first_pair restless;
   made_kernel k([&restless](call<double>& c) { restless(c); });
   const beam_problem p = cantilever_on_two();
@@ -243,9 +240,7 @@ void hasty(call<double>& c) {
 
 }  // namespace
 
-TEST_CASE(
-    "D at a step's end follows from load and pairs in contact under the corrected rule, also after early "
-    "toggles") {
+TEST_CASE("by the corrected rule, early toggles leave no error in D at the ends of steps") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty);
   recorder r;
@@ -257,7 +252,7 @@ TEST_CASE(
   CHECK(r.steps[3].u[4] == Approx(20 * f).epsilon(1e-12));
 }
 
-TEST_CASE("an early toggle under the 1989 rule leaves an error in the displacements") {
+TEST_CASE("by the 1989 rule, an early toggle leaves an error in the displacements") {
   const beam_problem p = cantilever_over_a_stop();
   made_kernel k(hasty, contact_rule::listing);
   recorder r;
@@ -284,7 +279,7 @@ made_kernel endless(contact_rule rule = contact_rule::corrected) {
 
 }  // namespace
 
-TEST_CASE("a path that cannot continue ends in the reference solution, and the state is marked as such") {
+TEST_CASE("if a path cannot continue, it ends in the reference solution, and the state is marked as such") {
   made_kernel k = endless();
   const beam_problem p = cantilever_on_two();
   full_load_state rest{{0, 0, -1, -2, -3, -4}, {in_contact, separated}};
@@ -308,7 +303,7 @@ TEST_CASE("a path that cannot continue ends in the reference solution, and the s
 }
 
 TEST_CASE(
-    "the state that a path reaches is passed to the prover, and the path continues with the proved "
+    "each state that a path reaches is passed to the prover, and the path continues with the proved "
     "statuses") {
   beam_problem p = cantilever_on_two();
   std::vector<std::vector<int>> reached;
@@ -333,9 +328,7 @@ TEST_CASE(
   CHECK(makes_again);  // pair 0 was separated in the proved state
 }
 
-TEST_CASE(
-    "a path that cannot continue is a mechanism if the reference solution shows that there is no "
-    "equilibrium") {
+TEST_CASE("if a path cannot continue and no equilibrium exists, the path ends in a mechanism") {
   made_kernel k = endless();
   const path_limits limits{0, [](int, const full_load_state*) { return found_end{std::nullopt, false}; }};
   recorder r;
@@ -349,7 +342,7 @@ TEST_CASE(
   CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule has no fallback
 }
 
-TEST_CASE("a path has no fallback under the 1989 rule or if the reference solution finds no state") {
+TEST_CASE("by the 1989 rule, or without a reference solution, a path that cannot continue has no fallback") {
   const beam_problem p = cantilever_on_two();
   int asked = 0;
   const path_limits none{0, [&](int, const full_load_state*) {
@@ -367,7 +360,7 @@ TEST_CASE("a path has no fallback under the 1989 rule or if the reference soluti
   CHECK(asked == 1);
 }
 
-TEST_CASE("a path that cannot continue in one step continues from the reference solution in the next step") {
+TEST_CASE("after a step that ends in the reference solution, the next step continues from this state") {
   // The kernel toggles without end in the first step, and then follows the corrected rule. Both pairs are in
   // contact after the first step, and separate in the second step.
   bool is_found = false;
@@ -398,7 +391,8 @@ TEST_CASE("a path that cannot continue in one step continues from the reference 
 }
 
 TEST_CASE(
-    "the reference solution replaces a path without a factor or at its limit, but not a certain mechanism") {
+    "the reference solution replaces the end of a path without a factor or at its limit, but not a sure "
+    "mechanism") {
   const path_limits any{0, [](int, const full_load_state* reached) {
                           return found_end{reached != nullptr ? *reached : made_up_rest(), true};
                         }};
@@ -419,7 +413,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("after 20 + 4 n toggles of n pairs at constant load, the pair with the least index is toggled") {
+TEST_CASE(
+    "after 20 + 4 n toggles of n pairs at constant load, the driver toggles the first pair at its face") {
   // The kernel toggles pairs 2 and 3 in turn, although pair 1 is at its face too.
   made_kernel k([calls = 0](call<double>& c) mutable {
     c.smin = 0.0;

@@ -85,7 +85,7 @@ void check_same_path(std::uint64_t seed, double factor,
 
 }  // namespace
 
-TEST_CASE("a path of several steps ends in the same state as a path of its last step alone") {
+TEST_CASE("a path of several steps ends in the same state as a path that has only the last step") {
   int compared = 0;
   for (std::uint64_t number = 0; number < problems; ++number) {
     random_problem p = make_random_problem(4, number);
@@ -102,7 +102,7 @@ TEST_CASE("a path of several steps ends in the same state as a path of its last 
   CHECK(compared > 500);
 }
 
-TEST_CASE("a structure held by supports returns to its start after loading and unloading") {
+TEST_CASE("after loading and unloading, a structure held by supports has no deflection") {
   random_problem_kind kind;
   kind.free_share = 0.0;
   int loaded = 0;
@@ -118,7 +118,7 @@ TEST_CASE("a structure held by supports returns to its start after loading and u
   CHECK(loaded > 900);  // the other problems have all loads on supports
 }
 
-TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements, to the bit") {
+TEST_CASE("if loads and faces are 2^30 times as large, displacements are 2^30 times as large to the bit") {
   const double factor = std::ldexp(1.0, 30);
   random_problem_kind held;  // without free structures, whose motion depends on decimals
   held.free_share = 0.0;
@@ -126,11 +126,11 @@ TEST_CASE("loads and faces 2^30 times as large give 2^30 times the displacements
       6, factor, [factor](const random_problem& p) { return scaled(factor, p); }, held);
 }
 
-TEST_CASE("a problem turned upside down gives the same numbers to the bit, with the other sign") {
+TEST_CASE("if a problem is turned upside down, its numbers change only their signs, to the bit") {
   check_same_path(8, -1.0, upside_down);
 }
 
-TEST_CASE("the path of a mirrored problem has mirrored deflections") {
+TEST_CASE("if a beam is mirrored, the deflections are mirrored too") {
   random_problem_kind kind;
   kind.plate_share = 0.0;
   int compared = 0;

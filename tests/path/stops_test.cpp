@@ -9,7 +9,9 @@
 
 using namespace contct;
 
-TEST_CASE("a mechanism names the pair whose separation caused it, and the share of the step") {
+TEST_CASE(
+    "a path that ends in a mechanism reports the pair whose separation caused it, and the share of the "
+    "step") {
   // A beam on two springs. An additional force beyond the second spring lifts the beam off the first.
   beam_problem p{even_beam(4.0, 4, 100.0), {}, {{1, -1, 0.0, 10.0, true}, {3, -1, 0.0, 10.0, true}}, {}};
   p.steps = {{{{2, 0, -4.0}}, {}}, {{{2, 0, -4.0}, {4, 0, -6.0}}, {}}};
@@ -28,7 +30,7 @@ TEST_CASE("a mechanism names the pair whose separation caused it, and the share 
   CHECK(r.steps[1].isep == std::vector<int>{separated, in_contact});
 }
 
-TEST_CASE("a free beam on a bed can be unloaded and loaded again, although all pairs separate at zero load") {
+TEST_CASE("a free beam on a bed can be unloaded, so that all pairs separate, and loaded again") {
   // A force lifts the middle of the beam, or presses it so that other parts lift off. Then all load is
   // removed.
   for (const double force : {4.0, -50.0, -100.0}) {
@@ -48,7 +50,7 @@ TEST_CASE("a free beam on a bed can be unloaded and loaded again, although all p
   }
 }
 
-TEST_CASE("a beam on one pair and a hinge is held, but a beam on a rotational spring is not") {
+TEST_CASE("a pair and a hinged support hold a beam, but a rotational spring alone does not") {
   beam_problem hinged{
       even_beam(2.0, 2, 10.0), {{0, 0, true}}, {{2, -1, 0.0, 5.0, true}}, {tip_load(1, -1.0)}};
   CHECK(hinged.run("fortran", {}).status == path_status::solved);
@@ -58,14 +60,14 @@ TEST_CASE("a beam on one pair and a hinge is held, but a beam on a rotational sp
   CHECK(turning.run("fortran", {}).status == path_status::path_ended);
 }
 
-TEST_CASE("a long span with a large condition number is not reported as a mechanism") {
+TEST_CASE("a long span with a condition number above 1e13 is not reported as a mechanism") {
   beam_problem p{even_beam(3000.0, 3000, 1.0), {{0, 0, true}, {3000, 0, true}}, {}, {{{}, {{{-1e-9}, {}}}}}};
   recorder r;
   CHECK(p.run("fortran", {&r}).status == path_status::solved);
   CHECK(r.steps[0].rcond < 1e-13);
 }
 
-TEST_CASE("a cycle of statuses without progress ends the path, and its pairs are named") {
+TEST_CASE("a cycle of statuses without progress ends the path, and the pairs of the cycle are reported") {
   // Toggles pairs 1 and 3 in turn without any progress.
   int calls = 0;
   made_kernel k([&calls](call<double>& c) {
@@ -113,7 +115,7 @@ class failing_engine final : public stiffness_engine {
 
 }  // namespace
 
-TEST_CASE("a path whose factorisation fails ends with the share of the step that was reached") {
+TEST_CASE("if a factorisation fails, the path ends with the share of the step that it reached") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   failing_engine engine(s, 2);
@@ -124,7 +126,7 @@ TEST_CASE("a path whose factorisation fails ends with the share of the step that
   CHECK(end.fraction == Approx(0.25).epsilon(1e-12));  // the tip reaches its stop at -15 of -60
 }
 
-TEST_CASE("after a failed solve, the next step has the springs of the pairs in contact") {
+TEST_CASE("after a failed solve, the engine has the springs of the pairs in contact in the next step") {
   // The beam balances on pair 1. The spring of pair 2 is applied only to make the matrix regular.
   const beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, -1, 0.0, 50.0, true}, {0, -1, -9.0, 1e3, false}}, {}};
   const linear_structure s = p.structure();
@@ -138,14 +140,14 @@ TEST_CASE("after a failed solve, the next step has the springs of the pairs in c
   CHECK(engine.springs == std::vector<bool>{true, true});
 }
 
-TEST_CASE("the limit of increments grows with the number of pairs, and does not overflow") {
+TEST_CASE("the limit of increments increases with the number of pairs, and does not overflow") {
   CHECK(increments_allowed({}, 0) == 1000);
   CHECK(increments_allowed({}, 200) == 11000);
   CHECK(increments_allowed({}, 50'000'000) == most_increments);  // 2.5e9 exceeds an int
   CHECK(increments_allowed({7}, 50'000'000) == 7);
 }
 
-TEST_CASE("slow progress does not count as a cycle, and ends at the limit of increments") {
+TEST_CASE("slow progress does not count as a cycle, and the path ends at the limit of increments") {
   made_kernel k([](call<double>& c) {
     c.smin = 0.001;
     c.isep[0] = -c.isep[0];
@@ -157,7 +159,7 @@ TEST_CASE("slow progress does not count as a cycle, and ends at the limit of inc
   CHECK(end.fraction == Approx(1 - std::pow(0.999, 300)).epsilon(1e-12));
 }
 
-TEST_CASE("loads beyond the range of doubles end the path, and no state has an infinite number") {
+TEST_CASE("loads beyond the range of doubles end the path, and no reported state has an infinite number") {
   beam_problem p = cantilever_over_a_stop();
   p.steps = {tip_load(2, -1e308), tip_load(2, 1e308)};
   recorder r;

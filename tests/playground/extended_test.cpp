@@ -50,7 +50,7 @@ bool same(long double expected, quad found) {
 
 }  // namespace
 
-TEST_CASE("the playground's long double rounds sums, products, quotients and roots as x86-64 does") {
+TEST_CASE("the playground rounds sums, products, quotients and roots of long double as x86-64 does") {
   static_assert(std::numeric_limits<long double>::digits == 64);
   random_numbers random(1989);
   int compared = 0, different = 0;
@@ -71,7 +71,7 @@ TEST_CASE("the playground's long double rounds sums, products, quotients and roo
   CHECK(different == 0);
 }
 
-TEST_CASE("the playground's long double rounds a literal of more than 64 bits to 64 bits before use") {
+TEST_CASE("the playground rounds a long double literal of more than 64 bits to 64 bits before use") {
   const quad tenth = static_cast<quad>(1) / 10;
   CHECK(same(0.1L * 1.0L, page_product(tenth, 1)));
   CHECK(static_cast<quad>(0.1L) != tenth);

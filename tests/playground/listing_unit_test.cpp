@@ -97,10 +97,12 @@ void check_all(const std::string& name, Function procedure) {
 
 }  // namespace
 
-TEST_CASE("the playground's listing in 8 bytes answers as gfortran's, and writes the same bytes to unit 26") {
+TEST_CASE(
+    "the playground's listing in 8-byte REAL answers as gfortran's, and writes the same bytes to unit 26") {
   check_all<double>("fortran", unit_contct_call_r8);
 }
 
-TEST_CASE("the playground's listing in 4 bytes answers as gfortran's, and writes the same bytes to unit 26") {
+TEST_CASE(
+    "the playground's listing in 4-byte REAL answers as gfortran's, and writes the same bytes to unit 26") {
   check_all<float>("fortran-r4", unit_contct_call_r4);
 }

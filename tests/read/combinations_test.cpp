@@ -25,7 +25,7 @@ const std::string two_cases =
 
 }  // namespace
 
-TEST_CASE("a combination has the loads of its cases times their factors, and starts from zero") {
+TEST_CASE("a combination has the sum of factor times load of its cases, and starts from zero") {
   const auto steps =
       steps_of(two_cases + "[[combination]]\nname = \"ULS\"\nterms = { \"crane left\" = 1.5, G = 1.35 }\n");
   REQUIRE(steps.size() == 1);
@@ -45,14 +45,15 @@ TEST_CASE("a combination has the loads of its cases times their factors, and sta
   CHECK((l.settlements[0].factor == 1.35 && l.settlements[1].factor == 1.5));
 }
 
-TEST_CASE("steps of combinations come before those of trains, each in the order of the file") {
+TEST_CASE(
+    "the steps of combinations come before the steps of trains, and both are in the order of the file") {
   const std::string train = "axles = [ { at = 0, w = 1 } ]\nfrom = 0\nto = 1\nby = 1\n";
   CHECK(names_of(steps_of(two_cases + "[[train]]\nname = \"T\"\n" + train +
                           "[[combination]]\nname = \"B\"\nterms = { G = 1 }\n[[combination]]\nname = \"A\"\n"
                           "terms = { G = 2 }\n")) == std::vector<std::string>{"B", "A", "T at 0", "T at 1"});
 }
 
-TEST_CASE("a train is placed at `from`, and then at every `by` up to `to`") {
+TEST_CASE("the places of a train are `from`, then steps of `by`, and at most `to`") {
   const auto places = [](const std::string& numbers) {
     return names_of(parse_problem("[beam]\nlength = 1\nelements = 10\nEI = 1\n[[support]]\nx = [0, 1]\n"
                                   "fix = \"w\"\n[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\n" +
@@ -66,7 +67,7 @@ TEST_CASE("a train is placed at `from`, and then at every `by` up to `to`") {
   CHECK(places("from = 0.5\nto = 0.5\nby = 2\n") == std::vector<std::string>{"T at 0.5"});
 }
 
-TEST_CASE("axles of a train act at their positions with its factor, and axles beyond the beam do not act") {
+TEST_CASE("each axle of a train has the factor of the train, and an axle beyond the beam does not act") {
   const auto steps =
       parse_problem(train_with("from = -1\nto = 3\nby = 1\nfactor = 1.5\nterms = { G = 2 }\n"), "pb.toml")
           .steps;

@@ -55,7 +55,7 @@ TEST_CASE("text that is not JSON is refused with line and column") {
       verdict_of);
 }
 
-TEST_CASE("a wrong value in a JSON file is refused with its line and column") {
+TEST_CASE("a wrong value in a JSON file is refused with line and column") {
   const std::string text = "{\n  \"a\": [ { \"n\": 1 },\n    { \"n\": 7, \"m\": 0 } ] }";
   const auto second = [](const toml_value& t) { return t["a"].entries("two", 2)[1]; };
   CHECK_THAT(refusal(text, [&](const toml_value& t) { return second(t)["n"].integer(1, 3); }),

@@ -65,7 +65,7 @@ std::string grid_text(int side) {
 }  // namespace
 
 TEST_CASE(
-    "a Matrix Market file is read with comments, blank lines, tabs, any case and any order of entries") {
+    "a Matrix Market file may have comments, blank lines, tabs, any letter case and any order of entries") {
   const std::vector<std::vector<double>> expected = {{4, -1, 0}, {-1, 4.5, -0.2}, {0, -0.2, 1}};
   CHECK(full(parse_symmetric(good_matrix, "K.mtx")) == expected);
   CHECK(full(parse_symmetric(
@@ -74,21 +74,20 @@ TEST_CASE(
             "K.mtx")) == expected);
 }
 
-TEST_CASE("a load vector is read in Matrix Market's formats array and coordinate") {
+TEST_CASE("a load vector is read in the Matrix Market formats array and coordinate") {
   CHECK(parse_vector(good_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
   CHECK(parse_vector(sparse_vector, "f.mtx", 3) == std::vector<double>{1, 0, -2.5});
   CHECK(parse_vector("%%MatrixMarket matrix coordinate real general\n3 1 0\n", "f.mtx", 3) ==
         std::vector<double>{0, 0, 0});
 }
 
-TEST_CASE("the upper triangle of CalculiX's matrix is read, and its zeros are omitted") {
+TEST_CASE("the upper triangle of CalculiX's matrix is read, and entries of 0 are omitted") {
   CHECK(full(parse_calculix_stiffness(good_job, "job.sti", 2)) ==
         std::vector<std::vector<double>>{{4, 0}, {0, 1.5}});
   CHECK(parse_calculix_stiffness(good_job, "job.sti", 2).entries.size() == 2);
 }
 
-TEST_CASE(
-    "every mistake in a Matrix Market matrix is refused with its line, what was found and what is allowed") {
+TEST_CASE("a mistake in a Matrix Market matrix is refused with line, what was found and what is allowed") {
   check_refusals(
       {
           {"", "K.mtx", "no header", "%%MatrixMarket matrix coordinate real symmetric"},
@@ -146,7 +145,7 @@ TEST_CASE("entries of a matrix file are sorted by column and row, whatever their
   CHECK(values == std::vector<double>{5, 6, 7, 8, 9});
 }
 
-TEST_CASE("every mistake in a load vector is refused with its line, what was found and what is allowed") {
+TEST_CASE("a mistake in a load vector is refused with line, what was found and what is allowed") {
   check_refusals(
       {
           {"", "f.mtx", "no header", "array (or coordinate) real general"},
@@ -166,7 +165,7 @@ TEST_CASE("every mistake in a load vector is refused with its line, what was fou
       of_vector);
 }
 
-TEST_CASE("every mistake in CalculiX's matrix is refused with its line, what was found and what is allowed") {
+TEST_CASE("a mistake in CalculiX's matrix is refused with line, what was found and what is allowed") {
   check_refusals(
       {
           {"", "job.sti", "2 rows and 0 entries", "on the diagonal"},
@@ -178,7 +177,7 @@ TEST_CASE("every mistake in CalculiX's matrix is refused with its line, what was
       of_job);
 }
 
-TEST_CASE("a Matrix Market file that is cut anywhere is refused") {
+TEST_CASE("a Matrix Market file that is cut at any byte is refused") {
   for (const std::string& text : {good_matrix, good_vector, sparse_vector}) {
     for (std::size_t length = 0; length < text.size(); ++length) {
       const std::string cut = text.substr(0, length);
@@ -188,7 +187,7 @@ TEST_CASE("a Matrix Market file that is cut anywhere is refused") {
   }
 }
 
-TEST_CASE("a matrix of a million entries is read and reordered to a band as narrow as its grid") {
+TEST_CASE("a matrix of a grid with a million entries is read, and its band is as narrow as the grid allows") {
   const std::string text = grid_text(600);
   const sparse_matrix a = parse_symmetric(text, "K.mtx");  // quadratic work would exceed the time limit
   const std::vector<int> rows = rows_for_small_band(a);
@@ -204,11 +203,11 @@ std::string of_labels(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("labels of dofs are read one a line, without blank lines and surrounding blanks") {
+TEST_CASE("a file of dof labels has one label a line, and blank lines and surrounding blanks are ignored") {
   CHECK(parse_labels("5.1\n5.2 \r\n\n185.3\n", "job.dof") == std::vector<std::string>{"5.1", "5.2", "185.3"});
 }
 
-TEST_CASE("every mistake in a list of labels is refused with its line, what was found and what is allowed") {
+TEST_CASE("a mistake in a file of dof labels is refused with line, what was found and what is allowed") {
   check_refusals(
       {
           {"", "K.dof", "no label", "one label a line"},
@@ -221,7 +220,7 @@ TEST_CASE("every mistake in a list of labels is refused with its line, what was 
 }
 
 TEST_CASE(
-    "a matrix or vector file gives one warning for all numbers that are not shortest decimals of doubles") {
+    "a matrix or vector file gives one warning for all numbers that are longer than the shortest decimal") {
   std::vector<std::string> warnings;
   const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
   const sparse_matrix m =

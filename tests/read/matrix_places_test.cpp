@@ -44,7 +44,7 @@ const std::string good_places = "# the frame\n\na 0 0 # foot\nb\t1.5 -2e-3\n";
 }  // namespace
 
 TEST_CASE(
-    "a file of coordinates may have comments, blank lines, any names, and two or three numbers a node") {
+    "a file of coordinates may have comments, blank lines, any node names, and two or three numbers a node") {
   const auto flat = parse_coordinates(good_places, "K.xyz");
   REQUIRE(flat.size() == 2);
   CHECK(flat[0].name == "a");
@@ -57,8 +57,7 @@ TEST_CASE(
   CHECK(solid[1].at == place{0, 0, -100});
 }
 
-TEST_CASE(
-    "every mistake in a file of coordinates is refused with its line, what was found and what is allowed") {
+TEST_CASE("a mistake in a file of coordinates is refused with line, what was found and what is allowed") {
   check_refusals(
       {
           {"", "K.xyz: ", "no node", "name x y"},
@@ -73,7 +72,7 @@ TEST_CASE(
   CHECK(of_coordinates(good_places) == "accepted");
 }
 
-TEST_CASE("the last dot of a dof's label separates its node and its direction") {
+TEST_CASE("in the label of a dof, the last dot separates the node from the direction") {
   const std::vector<std::pair<std::string, int>> directions = {
       {"x", 1},  {"y", 2}, {"z", 3}, {"1", 1}, {"3", 3}, {"r", 6}, {"rx", 4}, {"ry", 5},
       {"rz", 6}, {"4", 4}, {"6", 6}, {"7", 0}, {"", 0},  {"X", 0}, {"xy", 0}, {"01", 0}};
@@ -86,7 +85,9 @@ TEST_CASE("the last dot of a dof's label separates its node and its direction") 
   }
 }
 
-TEST_CASE("dofs whose labels have no known node, and rotations, are counted as not drawn") {
+TEST_CASE(
+    "notes give the number of dofs that are not drawn, because the node is unknown or the dof is a "
+    "rotation") {
   const placed_nodes places = places_by_coordinates(
       "a 0 0\nb.c 1 0\n", "K.xyz", with_labels({"a.x", "b.c.y", "b.c.rz", "d.x", "a", "a.w", "a.1", "b.x"}));
   CHECK(places.dofs[1].node == 1);
@@ -97,21 +98,20 @@ TEST_CASE("dofs whose labels have no known node, and rotations, are counted as n
   CHECK_THAT(places.notes[1], Contains("Rotations (1 of 8 dofs)"));
 }
 
-TEST_CASE("coordinates are unknown if no dof's label has a node") {
+TEST_CASE("if no label of a dof names a node with coordinates, all coordinates are unknown") {
   const placed_nodes places = places_by_coordinates("a 0 0\n", "K.xyz", with_labels({"1", "2", "a.q", ".x"}));
   CHECK_FALSE(places.known());
   CHECK(places.dofs.empty());
 }
 
-TEST_CASE("two nodes have one edge if the matrix couples them, and an entry of 0 couples no nodes") {
+TEST_CASE("two nodes have one edge if the matrix couples them by an entry that is not 0") {
   const assembled chain =
       with_labels({"a.x", "a.y", "b.x", "b.r", "c.x", "odd"},
                   {{0, 0, 1}, {1, 0, 1}, {2, 0, 1}, {4, 3, -2}, {2, 1, 1}, {4, 0, 0.0}, {5, 0, 1}});
   CHECK(edges_of(places_by_coordinates("a 0 0\nb 1 0\nc 2 0\n", "K.xyz", chain)) == "a-b b-c");
 }
 
-TEST_CASE(
-    "a matrix has no edges if it couples more than three times as many pairs of nodes as it has nodes") {
+TEST_CASE("no edges are drawn if a matrix of n nodes couples more than 3 n pairs of nodes") {
   // A full matrix couples 28 pairs of 8 nodes, of which 24 are allowed, and 21 pairs of 7 nodes.
   for (const int n : {7, 8}) {
     std::string text;
@@ -151,9 +151,7 @@ std::string element_text(const std::string& type, int nodes) {
 
 }  // namespace
 
-TEST_CASE(
-    "CalculiX's nodes are read in any case, with comments and FORTRAN's numbers, and missing coordinates as "
-    "0") {
+TEST_CASE("CalculiX's nodes are read in any letter case, and a missing coordinate is 0") {
   const placed_nodes m = by_mesh(
       "** a comment\n*HEADING\n1, 2, three\n * node , NSET = all\r\n1, 1.5 , "
       "-2.E-3,+.5\n\n2,1D1,,2d-1\n3\t,4\n"
@@ -168,7 +166,8 @@ TEST_CASE(
   CHECK(m.notes.empty());
 }
 
-TEST_CASE("nodes without dof and edge are omitted, and edges and dofs refer to the remaining nodes") {
+TEST_CASE(
+    "a node without a dof and without an edge is omitted, and edges and dofs refer to the remaining nodes") {
   const placed_nodes m =
       by_mesh(nodes_text(7) + "*ELEMENT,TYPE=C3D4\n1,3,4,5,7\n", {"7.1", "x", "6.2", "7.2"});
   REQUIRE(m.nodes.size() == 5);
@@ -178,7 +177,9 @@ TEST_CASE("nodes without dof and edge are omitted, and edges and dofs refer to t
   CHECK(m.nodes[m.dofs[2].node].name == "6");
 }
 
-TEST_CASE("each type of solid element has its edges, which go through the middle nodes") {
+TEST_CASE(
+    "each type of solid element has the edges between its corners, through the middle nodes if there are "
+    "any") {
   struct shape {
     const char* type;
     int nodes;
@@ -205,14 +206,14 @@ TEST_CASE("each type of solid element has its edges, which go through the middle
   }
 }
 
-TEST_CASE("an edge of several elements is listed once, with the number of its elements") {
+TEST_CASE("an edge of several elements is listed once, with the number of these elements") {
   const placed_nodes m = by_mesh(nodes_text(6) +
                                  "*ELEMENT,ELSET=A,TYPE=C3D4\n1,1,2,3,4\n2,2,3,4,\n** a comment\n5\n"
                                  "*ELEMENT,TYPE=C3D4,ELSET=B\n3,3,2,4,6\n");
   CHECK(edges_of(m) == "1-2 1-3 1-4 2-3*3 2-4*3 2-5 2-6 3-4*3 3-5 3-6 4-5 4-6");
 }
 
-TEST_CASE("the notes count the elements of an input file that are not drawn") {
+TEST_CASE("notes give the number of elements in CalculiX's input file that are not drawn") {
   const placed_nodes m = by_mesh(nodes_text(3) +
                                  "*INCLUDE, INPUT=more.inp\n*ELEMENT, TYPE=B31\n1,1,2\n2,2,3\n"
                                  "*element,type=s8r\n3,1,2,3,1,2,\n3,1,2\n");
@@ -222,8 +223,7 @@ TEST_CASE("the notes count the elements of an input file that are not drawn") {
   CHECK_THAT(m.notes[1], Contains("2 of type \"B31\", 1 of type \"S8R\""));
 }
 
-TEST_CASE(
-    "every mistake in CalculiX's input file is refused with its line, what was found and what is allowed") {
+TEST_CASE("a mistake in CalculiX's input file is refused with line, what was found and what is allowed") {
   const std::string nodes = nodes_text(4);  // 5 lines
   check_refusals(
       {
@@ -249,7 +249,7 @@ TEST_CASE(
   CHECK(of_mesh(nodes) == "accepted");
 }
 
-TEST_CASE("a mesh of 60,000 bricks is read completely, and its edges are those of the grid") {
+TEST_CASE("a mesh of 60,000 bricks is read, and the edges are those of the grid") {
   std::string text = "*NODE\n";
   constexpr int across = 41;
   constexpr int along = 38;

@@ -158,8 +158,8 @@ std::string small_with(const std::string& piece, const std::string& mistake) {
 }  // namespace
 
 TEST_CASE(
-    "a structure given by its matrix has the same events, displacements and certificates as the native "
-    "structure") {
+    "a beam or plate given by its matrix has the same events, displacements and certificates as without a "
+    "matrix") {
   std::size_t events = 0;
   const auto compare = [&events](const std::string& name, bool without_supports) {
     INFO(name);
@@ -187,7 +187,7 @@ TEST_CASE(
   CHECK(compare("pp03a-corner-supported-plate-n4", false));
 }
 
-TEST_CASE("a beam that is lifted off its two faces is also a mechanism if it is given by its matrix") {
+TEST_CASE("a beam given by its matrix is a mechanism too if it is lifted off both faces") {
   problem p;
   p.geometry.kind = beam{{0, 1, 2, 3}, {5, 5, 5}};
   p.pairs = {{0, face_below, 0.0, 10.0, true}, {3, face_below, 0.0, 10.0, true}};
@@ -198,7 +198,7 @@ TEST_CASE("a beam that is lifted off its two faces is also a mechanism if it is 
   check_same(native, followed(read_problem(exported(p, here))));
 }
 
-TEST_CASE("frame.py writes the files of the reference frame, whose states are all certified") {
+TEST_CASE("frame.py writes the files of the reference frame, and all states of this problem are certified") {
   const fs::path frame = reference / "structures";
   const scratch_folder here;
   const std::string command =
@@ -228,7 +228,7 @@ TEST_CASE("frame.py writes the files of the reference frame, whose states are al
   CHECK(held[1] + held[4] + pressed(0) == Approx(20000).epsilon(1e-9));
 }
 
-TEST_CASE("a frame read from CalculiX's files equals the frame read from Matrix Market files") {
+TEST_CASE("a frame read from CalculiX's files equals the same frame read from Matrix Market files") {
   const fs::path frame = reference / "structures";
   const scratch_folder here;
   const problem p = read_problem((frame / "frame.toml").string());
@@ -247,7 +247,9 @@ TEST_CASE("a frame read from CalculiX's files equals the frame read from Matrix 
   check_same(followed(p), followed(read_problem(here.write("c.toml", toml))));
 }
 
-TEST_CASE("a matrix may have springs, lists of dofs, and loads from files and points together") {
+TEST_CASE(
+    "a problem on a matrix may have springs, lists of dofs, and a load from a file together with point "
+    "loads") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
@@ -270,7 +272,7 @@ TEST_CASE("a matrix may have springs, lists of dofs, and loads from files and po
   CHECK(f == std::vector<double>{0, 5, -2});
 }
 
-TEST_CASE("the listing gets the dofs of a matrix with NDOFPN = INDOF = 1, so that ID is the dof") {
+TEST_CASE("on a matrix, the listing gets NDOFPN = INDOF = 1, so that ID is the number of the dof") {
   struct watcher final : observer {
     void called(const answered_call& c) override {
       id.assign(c.c.id.begin(), c.c.id.end());
@@ -290,7 +292,7 @@ TEST_CASE("the listing gets the dofs of a matrix with NDOFPN = INDOF = 1, so tha
   CHECK(watches.dofs == 33);
 }
 
-TEST_CASE("a result on a matrix names dofs by their labels, and its list w has all displacements") {
+TEST_CASE("the result on a matrix names dofs by labels, and the list w has all displacements") {
   const followed r(read_problem((reference / "structures" / "frame.toml").string()));
   std::string text;
   output_file file(&text);
@@ -308,8 +310,7 @@ TEST_CASE("a result on a matrix names dofs by their labels, and its list w has a
   CHECK(list_after("\"w\": [").size() > 100);
 }
 
-TEST_CASE(
-    "every mistake in a problem on a matrix is refused with its place, what was found and what is allowed") {
+TEST_CASE("a mistake in a problem on a matrix is refused with place, what was found and what is allowed") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   (void)here.write("K.dof", "a\nb\nc\n");
@@ -388,7 +389,8 @@ TEST_CASE("a label that no dof has is refused, and the message suggests the near
   CHECK_THAT(message, Catch::Matchers::Contains("found \"212.33\" (did you mean \"212.3\"?)"));
 }
 
-TEST_CASE("a matrix that is not positive semidefinite is refused, and the message names its file") {
+TEST_CASE(
+    "a matrix that is not positive semidefinite is refused, and the message names the file of the matrix") {
   const scratch_folder here;
   (void)here.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 2\n2 2 1\n");
   const std::string message = message_of_structure(here.write(
@@ -398,7 +400,7 @@ TEST_CASE("a matrix that is not positive semidefinite is refused, and the messag
 }
 
 TEST_CASE(
-    "a matrix is not certified if half a unit in the last digits of its file decides whether it is held") {
+    "if half a unit in the last digits of a matrix file decides whether it is held, no state is certified") {
   const scratch_folder to;
   const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
     (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +
@@ -424,7 +426,7 @@ TEST_CASE(
   CHECK(certificate_of("1", "").certified);  // whole numbers are not rounded
 }
 
-TEST_CASE("the last digits of a matrix's entries are those of the file, also of entries with omitted zeros") {
+TEST_CASE("the last digit of a matrix entry follows from its file, also if trailing zeros are not written") {
   const auto digits = [](const std::string& a, const std::string& b, const std::string& c) {
     return parse_symmetric("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 " + a + "\n2 1 " + b +
                                "\n2 2 " + c + "\n",

@@ -28,7 +28,8 @@ double longest(const std::vector<double>& x) {
 }  // namespace
 
 TEST_CASE(
-    "a coordinate refers to a node if the two are equal as decimals, whatever the rounding of the mesh") {
+    "a coordinate that equals a node's decimal refers to the node, although doubles of the mesh are "
+    "rounded") {
   for (const auto& [length, elements] : {std::pair(1.0, 10), {0.7, 7}, {1.1, 11}, {2.3, 23}, {12.3, 123}}) {
     std::vector<double> x;
     for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
@@ -46,12 +47,12 @@ TEST_CASE(
   CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);
 }
 
-TEST_CASE("a coordinate refers to the nearest node if nodes are closer together than rounding") {
+TEST_CASE("if several nodes are within rounding of a coordinate, the coordinate refers to the nearest one") {
   const std::vector<double> x = {0.0, 1.0 - 2e-16, 1.0, 1.0 + 4e-16};
   for (int i = 0; i < 4; ++i) CHECK(find_coordinate(x, x[i]) == i);
 }
 
-TEST_CASE("element_size divides a length into the fewest equal elements that are not longer than it") {
+TEST_CASE("a beam is divided into the fewest equal elements that are not longer than element_size") {
   const std::vector<double> x = nodes_of("length = 10\nelement_size = 0.25\nEI = 1");
   REQUIRE(x.size() == 41);
   for (int i = 0; i <= 40; ++i) CHECK(x[i] == 0.25 * i);
@@ -62,7 +63,7 @@ TEST_CASE("element_size divides a length into the fewest equal elements that are
   CHECK(nodes_of("length = 1\nelement_size = 5\nEI = 1") == std::vector<double>{0, 1});
 }
 
-TEST_CASE("element_size makes a node at every x that the problem file names, in any table") {
+TEST_CASE("with element_size, a node is made at every x in any table of the problem file") {
   const std::vector<double> x = nodes_of(
       "length = 10.0\nelement_size = 2.5\nEI = [ { to = 4.1, value = 1 }, { to = 10, value = 2 } ]",
       "[[support]]\nx = [0, 0.3]\nfix = \"w\"\n[[contact]]\nx = [7.77, 0.3]\nsurface = \"below\"\nface = "
@@ -77,18 +78,18 @@ TEST_CASE("element_size makes a node at every x that the problem file names, in 
   CHECK(x.size() == 10);  // the named nodes, and one between 0.3 and 4.1
 }
 
-TEST_CASE("element_size keeps the nodes listed in x, and divides the lengths between them") {
+TEST_CASE("with element_size, nodes listed in x are kept, and the lengths between them are divided") {
   CHECK(nodes_of("x = [-1, 0, 0.5, 3]\nelement_size = 1\nEI = 1", "[[support]]\nx = 2\nfix = \"w\"\n") ==
         std::vector<double>{-1, 0, 0.5, 1.25, 2, 3});
 }
 
-TEST_CASE("a coordinate named twice, in two spellings or with rounding, becomes one node") {
+TEST_CASE("a coordinate that occurs in two spellings, or twice up to rounding, becomes one node") {
   CHECK(nodes_of("length = 1\nelement_size = 1\nEI = 1",
                  "[[support]]\nx = [0.3, 1.0]\nfix = \"w\"\n[[support]]\nx = [0.30000000000000004, 0]\nfix = "
                  "\"theta\"\n") == std::vector<double>{0, 0.3, 1});
 }
 
-TEST_CASE("with element_size, node numbers are those of the finished mesh") {
+TEST_CASE("with element_size, a node number in the file is a number in the finished mesh") {
   const problem p =
       of("[beam]\nlength = 1\nelement_size = 0.5\nEI = 1\n[[support]]\nx = 0.7\nfix = \"w\"\n"
          "[[support]]\nnode = 3\nspring = { w = 1 }\n");
@@ -96,7 +97,7 @@ TEST_CASE("with element_size, node numbers are those of the finished mesh") {
   CHECK(p.supports[0].node == p.supports[1].node);
 }
 
-TEST_CASE("element_size makes at most 2,000,000 elements, and one more is refused") {
+TEST_CASE("with element_size, 2,000,000 elements are accepted, but not one more") {
   const auto sized = [](const std::string& size) {
     return verdict([&] { (void)nodes_of("length = 2000000\nelement_size = " + size + "\nEI = 1"); });
   };

@@ -36,7 +36,7 @@ TEST_CASE("node i of a beam of n equal elements is at length * i / n, to the bit
   CHECK(b.EI == std::vector<double>{2, 2, 2});
 }
 
-TEST_CASE("a plate's D is E t^3 / 12 (1 - nu^2), or the D of the file") {
+TEST_CASE("the stiffness D of a plate is E t^3 / 12 (1 - nu^2), or the D of the file") {
   const std::string grid = "[plate]\nsize = [2, 1]\nelements = [2, 1]\nnu = 0.5\n";
   const plate p = std::get<plate>(model_in(grid + "E = 9\nthickness = 2\n").kind);
   CHECK(p.D == Approx(8.0).epsilon(1e-15));
@@ -45,7 +45,8 @@ TEST_CASE("a plate's D is E t^3 / 12 (1 - nu^2), or the D of the file") {
   CHECK(std::get<plate>(model_in(grid + "D = 3\n").kind).D == 3.0);
 }
 
-TEST_CASE("the largest plate that is accepted has a stiffness matrix of 4 GB") {
+TEST_CASE(
+    "the largest plate that is accepted has a stiffness matrix of 4 GB, and a larger plate is refused") {
   const auto square = [](int n) {
     const std::string text = std::to_string(n);
     return refusal("[plate]\nsize = [1, 1]\nelements = [" + text + ", " + text + "]\nD = 1\nnu = 0\n");
@@ -69,7 +70,8 @@ const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
 }  // namespace
 
 TEST_CASE(
-    "a matrix without labels has its dofs' numbers as labels, and storage and free_motions of the file") {
+    "without labels, the labels of a matrix are the numbers of its dofs, and keys of the file set its "
+    "storage") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   const auto read = [&](const std::string& keys) {
@@ -87,8 +89,7 @@ TEST_CASE(
   if (sparse_factor::available()) CHECK_FALSE(read("storage = \"sparse\"\n").as_band);
 }
 
-TEST_CASE(
-    "CalculiX's mesh is read from the named file, or else from the job's .inp file next to the matrix") {
+TEST_CASE("CalculiX's mesh is read from the file of the key mesh, or else from the .inp file of the job") {
   const scratch_folder here;
   (void)here.write("job.sti", "1 1 2\n1 2 -1\n2 2 2\n");
   (void)here.write("job.dof", "2.3\n3.3\n");
@@ -125,7 +126,9 @@ TEST_CASE(
   CHECK_THAT(message_of(with_mesh("")), Catch::Matchers::Contains("job.inp:2: found \"x\" for a coordinate"));
 }
 
-TEST_CASE("a band larger than the memory is refused before it is allocated, but sparse storage is accepted") {
+TEST_CASE(
+    "a matrix whose band exceeds the memory is refused before allocation, but is accepted in sparse "
+    "storage") {
   const scratch_folder here;
   // The last row of this matrix is full in any order of rows.
   constexpr int n = 400'000;
@@ -149,7 +152,7 @@ TEST_CASE("a band larger than the memory is refused before it is allocated, but 
     is_refused("");
 }
 
-TEST_CASE("each piece of EI extends from the end of the piece before it to its own end") {
+TEST_CASE("each piece of EI extends from the end of the previous piece to the coordinate `to`") {
   const auto of = [](const std::string& lines) {
     return std::get<beam>(
         parse_problem("[beam]\n" + lines + "[[step]]\nuniform = 1\n", "pb.toml").geometry.kind);

@@ -32,8 +32,7 @@ TEST_CASE("a named file is relative to the folder of the problem file") {
 }
 
 TEST_CASE(
-    "a file outside the problem's folder is refused under any name, and the message names the option to "
-    "allow it") {
+    "a file outside the problem's folder is refused under any name, and the message names --allow-outside") {
   const scratch_folder here;
   fs::create_directories(here.path() / "own/below");
   fs::create_directories(here.path() / "own-beside");
@@ -63,7 +62,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a problem file reached through a link belongs to the folder of the link") {
+TEST_CASE("a problem file that is reached through a linked folder may name files in the target of the link") {
   const scratch_folder here;
   fs::create_directories(here.path() / "data");
   fs::create_directory_symlink("data", here.path() / "current");

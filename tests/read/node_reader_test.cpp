@@ -32,7 +32,7 @@ std::string refusal(const model& m, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("a beam's nodes are given by a number, a list, a range, one x or several x") {
+TEST_CASE("nodes of a beam are given by a number, a list, a range, one x or several x") {
   CHECK(nodes_in(a_beam, "node = 2") == std::vector<int>{1});
   CHECK(nodes_in(a_beam, "nodes = [4, 1]") == std::vector<int>{3, 0});
   CHECK(nodes_in(a_beam, "nodes = \"2..3\"") == std::vector<int>{1, 2});
@@ -40,7 +40,7 @@ TEST_CASE("a beam's nodes are given by a number, a list, a range, one x or sever
   CHECK(nodes_in(a_beam, "x = [2.0, 0.3, 0]") == std::vector<int>{3, 1, 0});
 }
 
-TEST_CASE("a plate's nodes are given by a number, a list, one point or several points") {
+TEST_CASE("nodes of a plate are given by the word all, one point or several points") {
   CHECK(nodes_in(a_plate, "nodes = \"all\"").size() == 6);
   CHECK(nodes_in(a_plate, "at = [0.5, 2]") == std::vector<int>{4});
   CHECK(nodes_in(a_plate, "at = [[1, 0], [0.0, 2.0]]") == std::vector<int>{2, 3});
@@ -53,7 +53,7 @@ TEST_CASE("a plate's nodes are given by a number, a list, one point or several p
                       "grid line along x; the nearest are 0.5 and 1"));
 }
 
-TEST_CASE("a matrix's dofs are given by one label or several labels, each once") {
+TEST_CASE("dofs of a matrix are given by one label or several labels, and no label may occur twice") {
   const model m = a_matrix();
   CHECK(nodes_in(m, "dof = \"top\"") == std::vector<int>{2});
   CHECK(nodes_in(m, "dofs = [\"top\", \"1.1\"]") == std::vector<int>{2, 0});
@@ -63,7 +63,7 @@ TEST_CASE("a matrix's dofs are given by one label or several labels, each once")
   CHECK_THAT(refusal(m, "dof = \"1\""), Contains("such as \"1.1\""));
 }
 
-TEST_CASE("a matrix without labels accepts its dofs' numbers in one spelling only") {
+TEST_CASE("dofs of a matrix without labels are given by their numbers, in one spelling only") {
   assembled a;
   a.stiffness.order = 12;
   CHECK(nodes_in({a}, "dof = \"12\"") == std::vector<int>{11});
@@ -71,7 +71,7 @@ TEST_CASE("a matrix without labels accepts its dofs' numbers in one spelling onl
     CHECK_THAT(refusal({a}, fmt::format("dof = \"{}\"", no)), Contains("a label, \"1\" to \"12\""));
 }
 
-TEST_CASE("nodes are given in exactly one way, and the message about missing nodes lists all ways") {
+TEST_CASE("a table gives nodes in exactly one way, and the message about missing nodes lists all ways") {
   CHECK_THAT(refusal(a_beam, "x = 0\nnodes = [1]"),
              Contains("f.toml:2:9: nodes: found this key together with x; allowed: either nodes or x"));
   CHECK_THAT(refusal(a_beam, ""),

@@ -19,7 +19,7 @@ const beam& beam_of(const problem& p) {
 
 }  // namespace
 
-TEST_CASE("a correct problem is accepted") {
+TEST_CASE("parse_problem accepts a correct problem") {
   const problem p = parse_problem(good_problem, "pb.toml");
   CHECK(beam_of(p).x == std::vector<double>{0, 1, 2});
   CHECK(beam_of(p).EI == std::vector<double>{1e4, 1e4});
@@ -34,7 +34,7 @@ TEST_CASE("a correct problem is accepted") {
   CHECK(p.warnings.empty());
 }
 
-TEST_CASE("every kind of bad input is refused with its place, the key, what was found and what is allowed") {
+TEST_CASE("a bad input of any kind is refused with place, key, what was found and what is allowed") {
   const auto kinds = bad_inputs();
   REQUIRE(kinds.size() >= 120);
   for (const bad_input& kind : kinds) {
@@ -48,7 +48,7 @@ TEST_CASE("every kind of bad input is refused with its place, the key, what was 
   }
 }
 
-TEST_CASE("a pair is in contact before any load if its face is at 0, except with the state separated") {
+TEST_CASE("a pair with a face at 0 is in contact before any load, unless its state is given as separated") {
   const auto state = [](const std::string& lines) {
     return parse_problem(with("face = -0.004\n", lines), "pb.toml").pairs[0].closed;
   };
@@ -58,9 +58,7 @@ TEST_CASE("a pair is in contact before any load if its face is at 0, except with
   CHECK_FALSE(state("face = -1e-12\n"));
 }
 
-TEST_CASE(
-    "a bed makes a pair at every free node with modulus times tributary length, whichever nodes it is "
-    "limited to") {
+TEST_CASE("a bed has a pair at each free node, with the stiffness modulus times tributary length") {
   const std::string head = "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n";
   const std::string tail = "[[step]]\nuniform = -1\n";
   const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
@@ -77,7 +75,7 @@ TEST_CASE(
   CHECK_FALSE(part.pairs[0].closed);
 }
 
-TEST_CASE("pairs of contact tables come before pairs of bed tables, each in the order of the file") {
+TEST_CASE("pairs of contact tables come before pairs of bed tables, and both are in the order of the file") {
   const problem p =
       parse_problem(with("[[step]]",
                          "[[bed]]\nmodulus = 1\nface = 0\n[[contact]]\nnode = 2\nsurface = \"above\"\n"
@@ -90,7 +88,7 @@ TEST_CASE("pairs of contact tables come before pairs of bed tables, each in the 
 }
 
 TEST_CASE(
-    "loads on the same elements are added to one load, and a list of all elements is the same as no list") {
+    "distributed loads on the same elements are added, and a list of all elements is the same as no list") {
   const problem p = parse_problem(
       with("point = [ { node = 3, w = -60.0 } ]",
            "uniform = [ { value = -3, elements = [2] }, { value = -1 }, { polynomial = [1, 2], elements = "
@@ -104,13 +102,13 @@ TEST_CASE(
   CHECK(l.distributed[1].polynomial == std::vector<double>{-4.5});
 }
 
-TEST_CASE("a pair on a fixed dof is accepted with a warning, because the 1989 rule may change its status") {
+TEST_CASE("a pair at a fixed dof is accepted, with a warning that the 1989 rule may change its status") {
   const problem p = parse_problem(with("node = 3\nsurface", "node = 1\nsurface"), "pb.toml");
   REQUIRE(p.warnings.size() == 1);
   CHECK_THAT(p.warnings[0], Catch::Matchers::StartsWith("pb.toml:7: contact[1]: node 1 is fixed in w"));
 }
 
-TEST_CASE("a binary, deeply nested or empty file gives an error message") {
+TEST_CASE("a binary file, a deeply nested file and an empty file are refused with a message") {
   for (const std::string& text : {std::string("\x7f"
                                               "ELF\x02\x01\x01\x00\x00\x00\x00",
                                               11),
@@ -124,9 +122,7 @@ TEST_CASE("a binary, deeply nested or empty file gives an error message") {
   }
 }
 
-TEST_CASE(
-    "a correct plate is accepted with its grid, its stiffness from E, nu and thickness, and loads on every "
-    "dof") {
+TEST_CASE("a plate is read with grid lines, a D from E, nu and thickness, and loads on every dof") {
   const problem p = parse_problem(good_plate, "pb.toml");
   const auto& it = std::get<plate>(p.geometry.kind);
   CHECK(it.x == std::vector<double>{0, 0.5, 1});
@@ -149,9 +145,7 @@ TEST_CASE(
   CHECK(l.points[2].value == -0.5);
 }
 
-TEST_CASE(
-    "a plate is accepted by its size, with D, with springs on every dof, and with nu at both ends of its "
-    "range") {
+TEST_CASE("a plate may have a size and a D, springs on every dof, and any nu from -0.999 to 0.5") {
   const problem p = parse_problem(
       "[plate]\nsize = [3, 1]\nelements = [3, 2]\nD = 2\nnu = 0.5\n[[support]]\nnode = 12\n"
       "spring = { w = 1, wx = 2, wy = 3 }\n[[step]]\nuniform = 0\n",
@@ -166,7 +160,8 @@ TEST_CASE(
   CHECK(message_of_text(plate_with("0.3", "0")) == "accepted");
 }
 
-TEST_CASE("a plate's bed makes a pair at every free node, with modulus times tributary area") {
+TEST_CASE(
+    "a bed under a plate has a pair at each free node, with the stiffness modulus times tributary area") {
   const std::string head =
       "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
       "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";
@@ -178,8 +173,7 @@ TEST_CASE("a plate's bed makes a pair at every free node, with modulus times tri
   CHECK(whole.pairs[3].node == 4);
 }
 
-TEST_CASE(
-    "a face below 0 is accepted even if its polynomial's terms cancel to a positive number in doubles") {
+TEST_CASE("a polynomial face below 0 is accepted, even if its terms add up to a positive number in doubles") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1.1, 2.2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n[[bed]]\nmodulus = "
       "1\n"
@@ -189,7 +183,7 @@ TEST_CASE(
   CHECK(p.pairs[0].face == -0.001);
 }
 
-TEST_CASE("the units of length and force are labels, and a file has both or neither") {
+TEST_CASE("a file may have labels for the units of length and force, which are empty by default") {
   CHECK(parse_problem(good_problem, "pb.toml").units.length.empty());
   const problem p =
       parse_problem("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem), "pb.toml");
@@ -197,14 +191,13 @@ TEST_CASE("the units of length and force are labels, and a file has both or neit
   CHECK(p.units.force == "kN");
 }
 
-TEST_CASE("a support with a single fixed dof needs no brackets") {
+TEST_CASE("a single fixed dof of a support may be given without brackets") {
   const problem p = parse_problem(with("[\"w\", \"theta\"]", "\"theta\""), "pb.toml");
   REQUIRE(p.supports.size() == 1);
   CHECK(p.supports[0].dof == 1);
 }
 
-TEST_CASE(
-    "one contact table makes a pair at each of its nodes, in their order, with a face and a stiffness each") {
+TEST_CASE("one contact table makes a pair at each node that it lists, in this order") {
   const auto pairs_of = [](const std::string& lines) {
     return parse_problem(with("node = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n",
                               "surface = \"below\"\n" + lines),
@@ -220,7 +213,7 @@ TEST_CASE(
   for (const contact_pair& pair : common) CHECK((pair.face == 0 && pair.stiffness == 7 && !pair.closed));
 }
 
-TEST_CASE("a bed has one face for all nodes, one for each node, or a polynomial in x") {
+TEST_CASE("the face of a bed is one number, one number for each node, or a polynomial in x") {
   const std::string head =
       "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[bed]]\nmodulus = 2\n";
   const auto bed_of = [&](const std::string& lines) {
@@ -235,7 +228,7 @@ TEST_CASE("a bed has one face for all nodes, one for each node, or a polynomial 
   CHECK(bed_of("face = [-4]\nx = 3\n").pairs.at(0).face == -4);
 }
 
-TEST_CASE("a bed keeps its modulus, its pairs and the tributary length of each pair") {
+TEST_CASE("a bed that was read has its modulus, its first pair and the tributary length of each pair") {
   const problem p = parse_problem(
       "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[contact]]\nnode = 3\nsurface = "
       "\"above\"\nface = 1\nstiffness = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[bed]]\nmodulus = 8\nface = "
@@ -250,7 +243,7 @@ TEST_CASE("a bed keeps its modulus, its pairs and the tributary length of each p
   CHECK(p.pairs[2].stiffness == 4);
 }
 
-TEST_CASE("a mesh too coarse for a bed gives one warning with a suitable element_size for each bed") {
+TEST_CASE("for each bed whose mesh is too coarse there is one warning, which suggests an element_size") {
   const auto warnings_of = [](const std::string& mesh, const std::string& beds) {
     return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
         .warnings;

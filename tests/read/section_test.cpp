@@ -21,7 +21,8 @@ const beam& beam_in(const problem& p) {
 
 }  // namespace
 
-TEST_CASE("Pieces of a section give the same EI as pieces of EI, and a node at the end of each piece") {
+TEST_CASE(
+    "EI is the same if given in pieces of a section or in pieces of EI, and each piece ends at a node") {
   const problem by_EI = on_two_supports(
       "length = 10\nelement_size = 4\nEI = [ { to = 2.5, value = 5 }, { to = 10.0, value = 7 } ]\n");
   const problem by_section = on_two_supports(
@@ -31,14 +32,14 @@ TEST_CASE("Pieces of a section give the same EI as pieces of EI, and a node at t
   CHECK(beam_in(by_section).x == beam_in(by_EI).x);
 }
 
-TEST_CASE("EI of a section is the product of the decimals of E and I, rounded once") {
+TEST_CASE("EI of a section is the product of the decimals E and I, rounded once") {
   const problem p =
       on_two_supports("x = [0, 10]\nsection = { E = 0.1, I = 0.7 }\n");  // in doubles 0.1 * 0.7 is below 0.07
   CHECK(beam_in(p).EI == std::vector<double>{0.07});
   CHECK(elements_of<rational>(beam_in(p)).EI(0) == rational(7, 100));
 }
 
-TEST_CASE("The self-weight of a beam has one load for all elements of equal weight and area") {
+TEST_CASE("The self-weight of a beam is one load for all elements with the same weight and area") {
   const problem p = on_two_supports(
       "length = 10\nelement_size = 2.5\nsection = [ { to = 5, E = 1, I = 1, A = 0.5, weight = 80 }, "
       "{ to = 7.5, E = 2, I = 1, A = 0.5, weight = 80 }, { to = 10, E = 1, I = 1, A = 0.25, weight = 80 } "
@@ -52,7 +53,9 @@ TEST_CASE("The self-weight of a beam has one load for all elements of equal weig
   CHECK(resultant_of(p.geometry, l).force == -350);
 }
 
-TEST_CASE("A self-weight of weight * A bends a simple beam like a uniform load, in addition to other loads") {
+TEST_CASE(
+    "Self-weight weight * A bends a simple beam like a uniform load of this size, and is added to other "
+    "loads") {
   const problem p =
       on_two_supports("length = 10\nelements = 2\nsection = { E = 1, I = 1, A = 0.2, weight = 40 }\n",
                       "self_weight = true\nuniform = -2\n");
@@ -76,7 +79,7 @@ TEST_CASE("The self-weight of a plate is a pressure of weight times thickness") 
   CHECK(coefficients_of<rational>(p.steps.at(0).distributed[0]) == std::vector<rational>{rational(-3, 100)});
 }
 
-TEST_CASE("Hinges are sorted by their nodes, and element_size makes a node at each hinge") {
+TEST_CASE("Hinges are sorted from left to right, and with element_size there is a node at each hinge") {
   const problem p = on_two_supports("length = 10\nelement_size = 5\nEI = 1\n[[hinge]]\nx = [7, 3]\n");
   CHECK(beam_in(p).x == std::vector<double>{0, 3, 7, 10});
   CHECK(beam_in(p).hinges == std::vector<int>{1, 2});

@@ -15,12 +15,12 @@ load step_of(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("a step may have a name, and has an empty name by default") {
+TEST_CASE("the name of a step is optional, and is empty by default") {
   CHECK(step_of("name = \"dead load\"\nuniform = -1\n").name == "dead load");
   CHECK(step_of("uniform = -1\n").name.empty());
 }
 
-TEST_CASE("a point load with several coordinates is one load at each coordinate") {
+TEST_CASE("a point load with several coordinates is a load at each of the coordinates") {
   const load l = step_of("point = [ { x = [2.0, 0.0], w = -1, theta = 3 }, { nodes = [2], w = 5 } ]\n");
   REQUIRE(l.points.size() == 5);
   CHECK((l.points[1].node == 0 && l.points[1].dof == 0 && l.points[1].value == -1));
@@ -28,7 +28,7 @@ TEST_CASE("a point load with several coordinates is one load at each coordinate"
   CHECK((l.points[4].node == 1 && l.points[4].value == 5));
 }
 
-TEST_CASE("a point load at a node's coordinate acts at the node, and between nodes at its coordinate") {
+TEST_CASE("a point load at the coordinate of a node acts at this node, and any other at its coordinate") {
   const load l = step_of("point = [ { x = [1.0, 1.25], w = -1, theta = 3 } ]\n");
   REQUIRE(l.points.size() == 2);
   CHECK((l.points[1].node == 1 && l.points[1].dof == 1 && l.points[1].value == 3));
@@ -38,8 +38,7 @@ TEST_CASE("a point load at a node's coordinate acts at the node, and between nod
   CHECK((l.placed[1].what == load_kind::moment && l.placed[1].polynomial[0] == 3));
 }
 
-TEST_CASE(
-    "a load without `from` begins at the beam's start, and a load without `to` ends at the beam's end") {
+TEST_CASE("without `from` a load begins at the start of the beam, and without `to` it ends at the end") {
   const load l = step_of(
       "uniform = [ { value = 1, from = 0.5 }, { polynomial = [2, 3], to = 1.5 } ]\n"
       "curvature = [ { value = 4 } ]\n");
@@ -49,7 +48,8 @@ TEST_CASE(
   CHECK((l.placed[2].what == load_kind::curvature && l.placed[2].from == 0 && l.placed[2].to == 2));
 }
 
-TEST_CASE("a load on a plate's rectangle is given by two corners, by default those of the plate") {
+TEST_CASE(
+    "a load on a rectangle of a plate is given by two corners, and missing corners are those of the plate") {
   const auto read = [](const std::string& keys) {
     return parse_problem(plate_with("value = -1.0", "value = -1.0, " + keys), "pb.toml")
         .steps.at(0)
@@ -62,7 +62,7 @@ TEST_CASE("a load on a plate's rectangle is given by two corners, by default tho
 }
 
 TEST_CASE(
-    "a load at a node's coordinate up to rounding acts at the node, and a load elsewhere makes no new node") {
+    "a load at the coordinate of a node up to rounding acts at the node, and other loads make no new node") {
   const problem p = parse_problem(
       "[beam]\nlength = 0.7\nelements = 7\nEI = 1\n[[support]]\nx = 0\nfix = [\"w\", \"theta\"]\n"
       "[[step]]\nuniform = [ { value = 1, from = 0.3, to = 0.33 } ]\npoint = [ { x = 0.62, w = 1 } ]\n",
@@ -83,7 +83,7 @@ TEST_CASE("a step may have only settlements of fixed dofs") {
   CHECK((l.settlements[1].dof == 1 && l.settlements[1].value == 0.5));
 }
 
-TEST_CASE("a fixed dof that also has a spring may settle, in several steps by different lengths") {
+TEST_CASE("a fixed dof with a spring may settle by different lengths in several steps") {
   const problem p = parse_problem(
       with("fix = [\"w\", \"theta\"]\n", "fix = \"w\"\nspring = { w = 7 }\n") +
           "[[step]]\nsettlement = [ { node = 1, w = 1 } ]\n[[step]]\nsettlement = [ { node = 1, w = 2 } ]\n",
@@ -93,7 +93,7 @@ TEST_CASE("a fixed dof that also has a spring may settle, in several steps by di
   CHECK(p.steps[2].settlements.at(0).value == 2);
 }
 
-TEST_CASE("the supports of a plate settle at given points, in w and in its slopes") {
+TEST_CASE("supports of a plate at given points may settle in w and in both slopes") {
   const problem p = parse_problem(
       plate_with("[[step]]\n",
                  "[[step]]\nsettlement = [ { at = [[0, 0], [0, 1.0]], w = -1 }, { node = 1, wy = 2 } ]\n"),
@@ -104,7 +104,7 @@ TEST_CASE("the supports of a plate settle at given points, in w and in its slope
   CHECK((moved[2].dof == 2 && moved[2].value == 2));
 }
 
-TEST_CASE("fixed dofs of a matrix settle by their labels") {
+TEST_CASE("fixed dofs of a matrix settle, and are named by labels") {
   const scratch_folder here;
   (void)here.write("K.mtx",
                    "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2.0\n2 1 -1.0\n2 2 2.0\n");

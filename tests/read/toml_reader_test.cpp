@@ -29,7 +29,7 @@ const auto reals = [](const toml_value& t) { return t["n"].reals(positive_real, 
 
 }  // namespace
 
-TEST_CASE("a range of reals includes or excludes each bound as declared") {
+TEST_CASE("a range of real numbers includes or excludes each of its ends as declared") {
   CHECK_FALSE(positive_real.holds(0.0));
   CHECK(positive_real.holds(5e-324));
   CHECK(any_real.holds(-1.7976931348623157e308));
@@ -39,7 +39,8 @@ TEST_CASE("a range of reals includes or excludes each bound as declared") {
   CHECK_FALSE(half.holds(0.51));
 }
 
-TEST_CASE("a whole number is accepted for a real, but a real is not accepted for a whole number") {
+TEST_CASE(
+    "a whole number is accepted as a real number, but a real number is not accepted as a whole number") {
   CHECK(value("n = 3", [](const toml_value& t) { return t["n"].real(any_real); }) == 3.0);
   CHECK(value("n = [1, 2.5]", reals) == std::vector<double>{1.0, 2.5});
   CHECK(value("n = 3", [](const toml_value& t) { return t["n"].integer(3, 3); }) == 3);
@@ -47,7 +48,8 @@ TEST_CASE("a whole number is accepted for a real, but a real is not accepted for
         "f.toml:2:6: n: found 3; allowed: a whole number from 1 to 5");
 }
 
-TEST_CASE("an array of wrong length is refused as a whole, and a number out of range at its position") {
+TEST_CASE(
+    "an array of wrong length is refused at its start, and a wrong number in an array at its own place") {
   CHECK_THAT(refusal("n = [1]", reals),
              Contains("f.toml:1:5: n: found an array of 1; allowed: an array of at"));
   CHECK_THAT(refusal("n = [1, 2, 0]", reals),
@@ -55,14 +57,14 @@ TEST_CASE("an array of wrong length is refused as a whole, and a number out of r
   CHECK_THAT(refusal("n = [1, \"2\"]", reals), Contains("f.toml:1:9: n[2]: found \"2\""));
 }
 
-TEST_CASE("a list of numbers may be written out, as a range, or as the word all") {
+TEST_CASE("a list of whole numbers may be an array, a range such as 2..4, or the word all") {
   CHECK(value("n = [5, 1, 3]", numbers_to_5) == std::vector<int>{4, 0, 2});
   CHECK(value("n = \"2..4\"", numbers_to_5) == std::vector<int>{1, 2, 3});
   CHECK(value("n = \"5..5\"", numbers_to_5) == std::vector<int>{4});
   CHECK(value("n = \"all\"", numbers_to_5) == std::vector<int>{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("a list of numbers with an error is refused, with its place") {
+TEST_CASE("an error in a list of whole numbers is refused, and the message gives the place") {
   for (const char* text :
        {"0..2", "4..6", "3..2", "..3", "2..", "2...3", "2.3", "1 ..2", "+1..2", "", "ALL"}) {
     INFO(text);
@@ -76,15 +78,14 @@ TEST_CASE("a list of numbers with an error is refused, with its place") {
   CHECK_THAT(refusal("n = [2, 1, 2]", numbers_to_5), Contains("n[3]: found 2, a second time"));
 }
 
-TEST_CASE(
-    "a word of a choice is read as its index, and the message about a wrong word suggests the nearest") {
+TEST_CASE("a word from a fixed list is read as its index in the list, and a wrong word gets a suggestion") {
   const auto surface = [](const toml_value& t) { return t["n"].choice({"below", "above"}); };
   CHECK(value("n = \"above\"", surface) == 1);
   CHECK_THAT(refusal("n = \"abvoe\"", surface),
              Contains("found \"abvoe\" (did you mean \"above\"?); allowed: \"below\" or \"above\""));
 }
 
-TEST_CASE("a message names a key in nested tables and arrays with all indices") {
+TEST_CASE("if a key is in nested tables and arrays, a message names the key with all indices") {
   const std::string text = "[[a]]\n[[a]]\nb = [ { c = 1 }, { c = 2, d = 3 } ]\n";
   const auto inner = [](const toml_value& t) {
     const std::vector<toml_value> readers = t["a"].tables()[1]["b"].tables();
@@ -101,7 +102,7 @@ TEST_CASE("a message names a key in nested tables and arrays with all indices") 
              Contains("f.toml:1:6: a[1]: found 1; allowed: a table"));
 }
 
-TEST_CASE("a key that excludes another is refused with its place") {
+TEST_CASE("if two keys exclude each other, the second is refused with its place") {
   const auto either = [](const toml_value& t) {
     t.refuse_beside({"b", "c"}, "a", "either a, or b and c");
     return 0;
@@ -111,7 +112,7 @@ TEST_CASE("a key that excludes another is refused with its place") {
         "f.toml:2:5: c: found this key together with a; allowed: either a, or b and c");
 }
 
-TEST_CASE("messages describe a value of each kind, such as an array or a date") {
+TEST_CASE("a message describes the value that was found, such as an array or a date") {
   const auto words = [](const toml_value& t) { return t["n"].found(); };
   CHECK(value("n = -5", words) == "-5");
   CHECK(value("n = 0.5", words) == "0.5");
@@ -123,8 +124,7 @@ TEST_CASE("messages describe a value of each kind, such as an array or a date") 
   CHECK(value("n = 1989-08-28", words) == "a date or time");
 }
 
-TEST_CASE(
-    "text that is not TOML is refused with line and column, and a key of over 1000 parts before parsing") {
+TEST_CASE("text that is not TOML is refused with line and column, and so is a key of more than 1000 parts") {
   CHECK_THAT(verdict([] { (void)parse_toml("a = 1\nb = = 2\n", "f.toml"); }),
              Contains("f.toml:2:5: not TOML: "));
   std::string dotted = "a";
@@ -134,12 +134,13 @@ TEST_CASE(
   CHECK(verdict([] { (void)parse_toml("a = \"" + std::string(999, '.') + "\"\n", "f.toml"); }) == "accepted");
 }
 
-TEST_CASE("a message quotes a file that is not TOML on one line") {
+TEST_CASE("if a file is not TOML, the message quotes the error of the file on one line") {
   CHECK_THAT(verdict([] { (void)parse_toml("x = f\n", "f.toml"); }),
              Contains("f.toml:1:") && Contains("\\x0a") && !Contains("\n"));
 }
 
-TEST_CASE("a single number applies to all items, and an array must have one number for each item") {
+TEST_CASE(
+    "a single number applies to all things of a kind, and an array must have one number for each thing") {
   const auto three = [](const toml_value& t) { return t["n"].reals_for(any_real, 3, "thing"); };
   CHECK(value("n = 4", three) == std::vector<double>{4});
   CHECK(value("n = [1, 2.5, 3]", three) == std::vector<double>{1, 2.5, 3});
@@ -151,7 +152,7 @@ TEST_CASE("a single number applies to all items, and an array must have one numb
   CHECK_THAT(refusal("n = []", three), Contains("found an empty array"));
 }
 
-TEST_CASE("a message about invalid TOML has a hint if a number has a decimal comma, and only then") {
+TEST_CASE("only for a number with a decimal comma, a message about invalid TOML suggests a decimal point") {
   const auto nothing = [](const toml_value&) { return 0; };
   const std::string hint = "(write a decimal point, 4.0 instead of 4,0)";
   for (const char* line : {"n = 4,0", "n = -0,004", "n=+12,5 # comment", "n = [ 0,04, 1 ]",
@@ -167,7 +168,7 @@ TEST_CASE("a message about invalid TOML has a hint if a number has a decimal com
   CHECK_THAT(refusal("n = [4,0]", [](const toml_value& t) { return t["n"].real(any_real); }), Contains(hint));
 }
 
-TEST_CASE("a message about invalid TOML has a hint if text has no quotes or a name has blanks") {
+TEST_CASE("for text without quotes or a name with blanks, a message about invalid TOML suggests quotes") {
   const auto nothing = [](const toml_value&) { return 0; };
   for (const char* line : {"n = Crane", "n = tower", "n=below", "n = { a = crane }", "n = [w, theta]"}) {
     INFO(line);

@@ -21,7 +21,7 @@ std::string warning(std::string_view place_and_key, std::string_view literal, st
 
 }  // namespace
 
-TEST_CASE("a number that is not the shortest decimal of its double gives a warning that quotes both") {
+TEST_CASE("a number that is not the shortest decimal of its double gets a warning with both numbers") {
   const auto warnings = warnings_of(
       "a = 0.1\nb = 0.3333333333333333333\n"
       "c = [1, -2.00000000000000000001e+1, { d = 1_0.000000000000000000_1 }]\n[[e]]\nf = 1e-400\n");
@@ -33,7 +33,7 @@ TEST_CASE("a number that is not the shortest decimal of its double gives a warni
                     });
 }
 
-TEST_CASE("zeros, signs, exponents and underscores in a number give no warning") {
+TEST_CASE("a number gets no warning for zeros, signs, exponents and underscores") {
   const std::string text =
       "a = [0.10, 1e3, 1.0, +1, -0, 0.0, 0e-999, 1_000.5, 1000.5e0, 0x10, 0o7, 0b1, inf, nan]\n"
       "b = [0.250000000000000000000, 10000000000000000000e-1, 1.7976931348623157e308, 5e-324]\n"
@@ -42,16 +42,14 @@ TEST_CASE("zeros, signs, exponents and underscores in a number give no warning")
   CHECK(numbers_in(parse_toml(text, "p.toml"), text).size() == 19);  // all numbers except inf and nan
 }
 
-TEST_CASE("a whole number that is not a double gives a warning, in decimal and in hexadecimal") {
+TEST_CASE("a whole number that no double equals gets a warning, in decimal and in hexadecimal form") {
   CHECK(warnings_of("a = 9007199254740993\nb = 0x20000000000003\nc = 1152921504606846976\n") ==
         std::vector<std::string>{warning("1:5: a", "9007199254740993", "9007199254740992"),
                                  warning("2:5: b", "0x20000000000003", "9007199254740996"),
                                  warning("3:5: c", "1152921504606846976", "1.152921504606847e+18")});
 }
 
-TEST_CASE(
-    "the warning about a literal has its line and column after multi-byte letters, tabs, CRLF and a byte "
-    "order mark") {
+TEST_CASE("a warning about a number has the right line and column after any letters, tabs and line ends") {
   const std::string line =
       "t = [ { name = \"\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80\",\tw = +0.30000000000000000001, "
       "a = 0.4000000000000000000001 } ]";
@@ -67,8 +65,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the first ten numbers that are not shortest decimals get a warning each, and the last warning counts "
-    "all") {
+    "only the first ten numbers that are not shortest decimals get a warning, and the tenth gives the "
+    "count") {
   std::string text = "a = [\n";
   for (int i = 0; i < 11; ++i) text += "0.10000000000000000001,\n";
   const auto warnings = warnings_of(text + "]\n");
@@ -78,7 +76,7 @@ TEST_CASE(
              StartsWith("p.toml:11:1: a[10]: ") && Contains(" (the first 10 of 11 such numbers are shown)"));
 }
 
-TEST_CASE("the warnings about 100,000 numbers in one line take linear time") {
+TEST_CASE("warnings about one line with 200,001 numbers are correct, and take linear time") {
   std::string text = "a = [";
   constexpr int count = 100'000;
   for (int i = 0; i < count; ++i) text += "{w=1.5,n=2},";
@@ -88,7 +86,8 @@ TEST_CASE("the warnings about 100,000 numbers in one line take linear time") {
 }
 
 TEST_CASE(
-    "a problem with numbers that are not shortest decimals gets a warning for each, and uses the shortest") {
+    "parse_problem warns about a number that is not the shortest decimal of its double, and uses the "
+    "shortest") {
   const std::string rest =
       "[[support]]\nnode = 1\nfix = \"w\"\n[[step]]\npoint = [ { node = 2, w = 1000000000000.00001 } ]\n";
   const auto p = parse_problem("[beam]\nx = [0, 1]\nEI = 0.10000000000000000555\n" + rest, "p.toml");

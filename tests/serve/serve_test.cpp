@@ -63,7 +63,7 @@ void late_kernel(const double dd[], const double dtest[], const double cc[], dou
 
 }  // namespace
 
-TEST_CASE("contct_run returns the result and every other requested output") {
+TEST_CASE("contct_run returns the result, and on request the report page, unit 26, a trace and a proof") {
   const json plain = run(problem_text("pb07-three-gap-supports"));
   CHECK(plain.at("exit") == 0);
   CHECK(plain.at("error").is_null());
@@ -91,7 +91,7 @@ TEST_CASE("contct_run returns the result and every other requested output") {
   CHECK(replayed.at("result").at("mismatches") == 0);
 }
 
-TEST_CASE("an error is returned as data with file, line and column") {
+TEST_CASE("contct_run returns an error as data with file, line and column") {
   std::string text = problem_text("pb07-three-gap-supports");
   text.replace(text.find("surface"), 7, "surfase");
   const json wrong = run(text, {{"file", "beam.toml"}});
@@ -102,7 +102,8 @@ TEST_CASE("an error is returned as data with file, line and column") {
   CHECK_THAT(error_of(wrong), Contains("did you mean \"surface\"?"));
 }
 
-TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the message names the option") {
+TEST_CASE(
+    "contct_run refuses unknown, mistyped or too deeply nested options, and the message names the option") {
   const std::pair<const char*, const char*> wrong[] = {
       {R"({"kernel": "cpp"})", "found the key \"kernel\""},
       {R"({"kernels": "cpp"})", "kernels: found \"cpp\""},
@@ -130,7 +131,8 @@ TEST_CASE("unknown, mistyped or too deeply nested options are refused, and the m
              Contains("more than 16 deep; allowed: at most 16"));
 }
 
-TEST_CASE("a correct external state is certified, but a state with an error of 1e-4 is not") {
+TEST_CASE(
+    "contct_certify certifies a correct state of another program, but not a state with an error of 1e-4") {
   const std::string text = problem_text("pb07-three-gap-supports");
   std::vector<json> states = displacements(run(text, {{"kernels", {"corrected"}}}).at("result"));
   const json right = certified(text, {{"displacement", states}});
@@ -157,7 +159,9 @@ TEST_CASE("a correct external state is certified, but a state with an error of 1
   }
 }
 
-TEST_CASE("contct_check returns the place of every number in the text, and the places of a pair's keys") {
+TEST_CASE(
+    "contct_check returns the place of every number in a problem's text, and the keys of each pair's "
+    "numbers") {
   const std::string text =
       "title = \"\u00e4\"  # two bytes\n[beam]\nlength = 4.0\nelements = 4\nEI = 1e3\n"
       "[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
@@ -184,7 +188,9 @@ TEST_CASE("contct_check returns the place of every number in the text, and the p
   CHECK_FALSE(taken(contct_check(text.c_str(), nullptr)).at("result").contains("numbers"));
 }
 
-TEST_CASE("contct_check, contct_exact, contct_explain and contct_about answer like the program's commands") {
+TEST_CASE(
+    "contct_check, contct_exact, contct_explain and contct_about return what the commands of the program "
+    "print") {
   const std::string text = problem_text("pb07-three-gap-supports");
   const json checked = taken(contct_check(text.c_str(), "{}"));
   CHECK(checked.at("result").at("kind") == "beam");
@@ -205,7 +211,7 @@ TEST_CASE("contct_check, contct_exact, contct_explain and contct_about answer li
   CHECK(about.at("result").at("kernels").size() >= 5);
 }
 
-TEST_CASE("contct_call returns a kernel's text of unit 26, and refuses a dof that does not exist") {
+TEST_CASE("contct_call returns the text of unit 26, and refuses a call with a dof that does not exist") {
   const double dd[] = {0.0, 0.0}, dtest[] = {-2.0, 0.0}, cc[] = {-1.0};
   const int id[] = {1}, isurf[] = {-1};
   for (const char* name : {"fortran", "cpp", "fortran-r4", "corrected"}) {
@@ -233,7 +239,7 @@ TEST_CASE("contct_call returns a kernel's text of unit 26, and refuses a dof tha
   CHECK(smin == 7.0);
 }
 
-TEST_CASE("contct_judge compares a caller's kernel, and reports its mismatches") {
+TEST_CASE("contct_judge compares the kernel of a caller with the listing, and reports mismatches") {
   const json right =
       taken(contct_judge(right_kernel, R"({"leader": "fortran", "calls": 3000, "problems": 4})"));
   CHECK(right.at("exit") == 0);
@@ -247,7 +253,8 @@ TEST_CASE("contct_judge compares a caller's kernel, and reports its mismatches")
   CHECK(taken(contct_judge(right_kernel, R"({"name": "cpp"})")).at("exit") == 2);
 }
 
-TEST_CASE("each thread that calls contct_run gets its own answers") {
+TEST_CASE(
+    "several threads may call contct_run at once, and each thread gets the answers to its own problems") {
   const std::string names[] = {"pb01-cantilever-tip-stop", "pb07-three-gap-supports",
                                "pb10-cantilever-gapped-spring"};
   std::vector<std::string> texts;

@@ -30,7 +30,8 @@ double influence_on_middle_moment(double x) {
 }  // namespace
 
 TEST_CASE(
-    "An envelope of combinations has values of the combinations only, not of states between two of them") {
+    "An envelope contains the values of combinations, but no states on a way from one combination to the "
+    "next") {
   const a_run steps(overhanging + "[[step]]\n" + at_support + "[[step]]\n" + at_end);
   CHECK(envelope_of(steps.result).reactions[1].most.value == Approx(3.6));  // when the end reaches the stop
   const a_run run(overhanging + "[[case]]\nname = \"A\"\n" + at_support + "[[case]]\nname = \"B\"\n" +
@@ -46,7 +47,7 @@ TEST_CASE(
   CHECK((all.pairs[0].step == 2 && all.pairs[0].increment == 2));
 }
 
-TEST_CASE("Moving axles give the moment over a middle support that the influence lines give") {
+TEST_CASE("Moving axles make the moment over the middle support that follows from the influence line") {
   const a_run run(two_spans +
                   "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -35 }, { at = 4, w = -145 } ]\n"
                   "from = -3\nto = 20\nby = 1\nfactor = 1.5\n");
@@ -75,7 +76,7 @@ TEST_CASE("States within a combination are computed from the unloaded structure"
   CHECK(load_path(run.what).resultant_at(2, 0.2).force == Approx(-0.6));
 }
 
-TEST_CASE("Final states of combinations are found without a path, even after a mechanism") {
+TEST_CASE("find_final_states finds the states of combinations without a path, even after a mechanism") {
   const problem p = parse_problem(
       "[beam]\nlength = 4\nelements = 4\nEI = 100\n[[contact]]\nx = [0, 4]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 1e4\n[[case]]\nname = \"down\"\nuniform = -1\n[[combination]]\nname = \"lifts\"\n"

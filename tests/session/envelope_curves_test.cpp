@@ -31,7 +31,8 @@ double deflection_at(double x, double a) {
 
 }  // namespace
 
-TEST_CASE("Envelope curves of a load in two places have the larger moment and deflection at each point") {
+TEST_CASE(
+    "Envelope curves of a load at two places have the extreme moment and deflection of both at each point") {
   const a_run run(load_in_two_places, "corrected");
   const envelope_curves all = curves_of(run.result);
   REQUIRE(all.curves.size() == 3);
@@ -49,7 +50,7 @@ TEST_CASE("Envelope curves of a load in two places have the larger moment and de
   }
 }
 
-TEST_CASE("Envelope curves have both values at a jump of the shear, each with its step") {
+TEST_CASE("Envelope curves have the shear on both sides of a jump, and each value has its step") {
   const a_run run(load_in_two_places, "corrected");
   const envelope_curves all = curves_of(run.result);
   const auto at_node = std::find(all.x.begin(), all.x.end(), 2.0);
@@ -64,7 +65,7 @@ TEST_CASE("Envelope curves have both values at a jump of the shear, each with it
   CHECK(shear[left + 1].least.value == Approx(-4.0));  // 8 - 12, of step 1
 }
 
-TEST_CASE("Envelope curves of a plate are empty") {
+TEST_CASE("A plate has no envelope curves") {
   const a_run run(std::string(good_plate), "corrected");
   CHECK(curves_of(run.result).x.empty());
 }

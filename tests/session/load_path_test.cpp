@@ -8,7 +8,7 @@
 
 using namespace contct;
 
-TEST_CASE("an event's load is described with the keys of the problem file") {
+TEST_CASE("the load at an event is described with the keys of the problem file") {
   const problem p = parse_problem(good_problem, "pb.toml");
   CHECK(load_path(p).words_at(1, 0.25, 24) == "w -15 at node 3");
   const problem uniform =
@@ -31,7 +31,7 @@ TEST_CASE("an event's load is described with the keys of the problem file") {
   CHECK(load_path(passes).words_at(2, 6.0 / 7 + 1e-12, 24) != "w 0 at node 3");
 }
 
-TEST_CASE("the description of a load between nodes has its coordinates") {
+TEST_CASE("the description of a load that is not at a node has the coordinates of the load") {
   const auto words = [](load_kind what, double from, double to, model m = beam{{0, 4}, {1.0}}) {
     problem p;
     p.geometry = std::move(m);
@@ -47,7 +47,7 @@ TEST_CASE("the description of a load between nodes has its coordinates") {
         "uniform -2.5 from (0.5, 0.25) to (1, 0.75)");
 }
 
-TEST_CASE("a plate's load is described as a force, or as wx or wy at a node") {
+TEST_CASE("the load on a plate is described as a force, or as wx or wy at a node") {
   const problem p = parse_problem(good_plate, "pb.toml");
   CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
   const std::string mistake = "uniform = [ { value = -1.0 }, { value = -2.0, elements = \"2..2\" } ]\n";
@@ -58,7 +58,9 @@ TEST_CASE("a plate's load is described as a force, or as wx or wy at a node") {
   CHECK(load_path(slope).words_at(1, 0.5, 24) == "wy -0.25 at node 6");
 }
 
-TEST_CASE("the load is linear between the loads of two steps, and starts from 0") {
+TEST_CASE(
+    "within a step, the load changes linearly from the load of the previous step, and from 0 in the first "
+    "step") {
   const problem p =
       parse_problem(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n", "pb.toml");
   const load_path loads(p);
@@ -70,7 +72,7 @@ TEST_CASE("the load is linear between the loads of two steps, and starts from 0"
   CHECK_FALSE(loads.has_many_parts(2));
 }
 
-TEST_CASE("elements with consecutive numbers are written as a range") {
+TEST_CASE("a list of loaded elements is written as a range if their numbers are consecutive") {
   CHECK(is_run({4}));
   CHECK(is_run({4, 5, 6}));
   CHECK_FALSE(is_run({4, 6}));

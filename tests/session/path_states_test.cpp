@@ -32,7 +32,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 }  // namespace
 
-TEST_CASE("a state within a step equals the final state of a path that ends at the load of this state") {
+TEST_CASE("a state within a step equals the final state of a path that ends at the same load") {
   for (const std::string leader : {"fortran", "corrected"}) {
     INFO(leader);
     const std::vector<structure_state> states = pictures_of(a_run(two_stops({-10.0, -0.3}), leader).result);
@@ -47,7 +47,8 @@ TEST_CASE("a state within a step equals the final state of a path that ends at t
   }
 }
 
-TEST_CASE("a state has the statuses after its events, and a pair at its face differs from a pressed pair") {
+TEST_CASE(
+    "a state has the statuses after its events, and distinguishes a pair at its face from a pressed pair") {
   const a_run r(two_stops({-10.0}), "cpp");
   const std::vector<structure_state> states = pictures_of(r.result);
   REQUIRE(states.size() == 4);
@@ -60,7 +61,7 @@ TEST_CASE("a state has the statuses after its events, and a pair at its face dif
   CHECK(look(2, 0) == pair_state::closed);
 }
 
-TEST_CASE("the picture of a step's end equals the path's state, to the bit") {
+TEST_CASE("the drawn state at the end of a step equals the state of the path, to the bit") {
   const a_run r(two_stops({-10.0, -0.3, -12.0}));
   std::size_t ends = 0;
   for (const path_moment& m : moments_of(r.result)) {
@@ -70,7 +71,7 @@ TEST_CASE("the picture of a step's end equals the path's state, to the bit") {
   CHECK(ends == 3);
 }
 
-TEST_CASE("pictures of a long path are thinned evenly, but keep the start and the last state") {
+TEST_CASE("of a long path only some states are drawn, in order, with the first and the last state") {
   for (int steps = 30; steps < 46; ++steps) {
     INFO(steps << " steps");
     std::vector<double> there_and_back;
@@ -90,7 +91,7 @@ TEST_CASE("pictures of a long path are thinned evenly, but keep the start and th
   }
 }
 
-TEST_CASE("a structure of many dofs keeps fewer pictures, to save memory") {
+TEST_CASE("if a structure has many dofs, fewer states of its path are drawn, to save memory") {
   const a_run r(two_stops({-10.0, -0.3, -10.0, -0.3}), "cpp");
   CHECK(pictures_of(r.result).size() == 13);
   const std::vector<structure_state> states = pictures_of(r.result, 100, 90);
@@ -98,7 +99,7 @@ TEST_CASE("a structure of many dofs keeps fewer pictures, to save memory") {
   CHECK(states.back().step == 4);
 }
 
-TEST_CASE("a structure that never moved has two equal pictures, of the start and of the end") {
+TEST_CASE("if a structure never moved, two equal states are drawn, for the start and for the end") {
   const a_run r(
       "[beam]\nlength = 1\nelements = 8\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n"
       "[[step]]\nuniform = -10\n",

@@ -46,7 +46,9 @@ const mesh_change& change_of(const std::vector<mesh_change>& all, std::string_vi
 
 }  // namespace
 
-TEST_CASE("A refined reference problem equals the reference problem with twice the elements") {
+TEST_CASE(
+    "refined gives a reference problem the deflections of the reference problem with twice as many "
+    "elements") {
   for (const auto& [coarse, fine] :
        {std::pair("pb11a-strip-footing-n20", "pb11b-strip-footing-n40"),
         {"pp01a-simply-supported-plate-n4", "pp01b-simply-supported-plate-n8"},
@@ -63,8 +65,7 @@ TEST_CASE("A refined reference problem equals the reference problem with twice t
   }
 }
 
-TEST_CASE(
-    "The reported change by refinement is the difference between the extremes of two reference problems") {
+TEST_CASE("The change by refinement is the difference between the extremes on the two meshes") {
   const a_run coarse(reference_problem("pb11a-strip-footing-n20"), "corrected");
   const a_run fine(refined(coarse.what), "corrected");
   const auto changes = changes_between(coarse.result, fine.result);
@@ -73,7 +74,7 @@ TEST_CASE(
   CHECK(change_of(changes, "pressure").change == Approx(3.327786 - 3.312101).epsilon(1e-2));
 }
 
-TEST_CASE("Refinement of a beam without a bed changes results only by rounding") {
+TEST_CASE("Refinement of a beam without a bed changes extremes only by rounding") {
   const std::string parts =
       "[beam]\nx = [0, 0.1, 0.7, 2]\nEI = [100, 200, 100]\n[[support]]\nnodes = [1, 4]\nfix = [\"w\"]\n"
       "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -0.001\nstiffness = 1e4\n[[step]]\n"
@@ -94,7 +95,8 @@ TEST_CASE("Refinement of a beam without a bed changes results only by rounding")
 }
 
 TEST_CASE(
-    "Refinement of a plate adds fixed nodes in a line of fixed nodes, with the mean of their settlements") {
+    "Refinement of a plate adds fixed nodes to a line of fixed nodes, and they settle by the mean of their "
+    "neighbours") {
   const problem coarse = reference_problem("pp06-plate-over-settling-line");
   const problem fine = refined(coarse);  // 9 by 5 nodes
   CHECK(fine.supports.size() == coarse.supports.size() + 6);
@@ -108,7 +110,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Refinement gives a new node of a bed the mean of its neighbours' faces, or the polynomial's value") {
+    "Refinement gives a new node of a bed the mean of the faces beside it, or the value of the polynomial") {
   const std::string on_bed =
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[bed]]\nmodulus = "
       "8\nface = ";
@@ -124,8 +126,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Refinement of a matrix is refused, and the message suggests a finer mesh from the program of the "
-    "matrix") {
+    "Refinement of a matrix is refused, and the message suggests a finer mesh from the program that wrote "
+    "it") {
   CHECK_THROWS_WITH(refined(parse_problem(portal_frame(), "frame.toml", reach::anywhere)),
                     Catch::Matchers::Contains("finer mesh with the program that wrote this one"));
 }

@@ -48,7 +48,7 @@ std::string square(int elements) {
 
 }  // namespace
 
-TEST_CASE("events of the 1989 rule at one share in another order count as equal events") {
+TEST_CASE("events at the same share in another order do not count as a difference of the 1989 rule") {
   const both_rules pb7(read_input(CONTCT_REFERENCE "/problems/pb07-three-gap-supports.toml"));
   CHECK(pb7.run.result.kernels == std::vector<std::string>{"corrected", "fortran", "cpp"});
   CHECK(pb7.beside().same_events);
@@ -59,7 +59,9 @@ TEST_CASE("events of the 1989 rule at one share in another order count as equal 
   CHECK_THAT(rule_1989_words(pb7.run.result).at(0), Contains("comes to the same states: every number"));
 }
 
-TEST_CASE("an error of the 1989 rule that remains after unloading is reported as a wrong step") {
+TEST_CASE(
+    "an error of the 1989 rule that remains after unloading is reported, with the wrong and the right "
+    "value") {
   const both_rules near(divergence("near-tie"));
   REQUIRE(near.wrong().size() == 2);
   const state_difference& unloaded = near.wrong()[1];
@@ -72,7 +74,7 @@ TEST_CASE("an error of the 1989 rule that remains after unloading is reported as
   CHECK(near.run.exit() == exit_status::solved);
 }
 
-TEST_CASE("an event that the 1989 rule has at a different share is reported with this share") {
+TEST_CASE("if the 1989 rule has an event at another share, the report gives the share of this event") {
   const both_rules near(divergence("near-tie"));
   const std::vector<row_of_1989>& first = near.beside().rows.at(0);
   CHECK(first.at(0).otherwise.empty());
@@ -83,7 +85,9 @@ TEST_CASE("an event that the 1989 rule has at a different share is reported with
   CHECK_FALSE(near.beside().same_events);
 }
 
-TEST_CASE("an event that only the 1989 rule has is reported in the increment that follows it") {
+TEST_CASE(
+    "if only the 1989 rule has an event, the report gives the event with the next increment of the corrected "
+    "rule") {
   const both_rules marked(divergence("mark-toggled"));
   const row_of_1989& first = marked.beside().rows.at(0).at(0);
   REQUIRE(first.otherwise.size() == 1);
@@ -94,7 +98,8 @@ TEST_CASE("an event that only the 1989 rule has is reported in the increment tha
   CHECK(marked.wrong()[0].right == 0.0);
 }
 
-TEST_CASE("a lost path of the 1989 rule does not change the answer, and is reported") {
+TEST_CASE(
+    "if the path of the 1989 rule ends early, the report says so, and the corrected answer does not change") {
   const both_rules lost(divergence("standstill"));
   CHECK(lost.run.exit() == exit_status::solved);
   CHECK(lost.beside().end.status == path_status::path_ended);
@@ -105,7 +110,9 @@ TEST_CASE("a lost path of the 1989 rule does not change the answer, and is repor
                         !Contains("--kernels"));
 }
 
-TEST_CASE("the 1989 rule uses the engine refactor, except on a large problem whose calls are not kept") {
+TEST_CASE(
+    "the 1989 rule uses the engine refactor, or a faster engine on a large problem if its calls are not "
+    "kept") {
   CHECK(both_rules(square(4)).beside().engine == "refactor");
   const std::string large = square(40);
   CHECK(both_rules(large).beside().engine == "updated");

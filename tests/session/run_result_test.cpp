@@ -19,7 +19,7 @@ void tell_call(run_recorder& r, std::vector<double> ss, std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("the first calls of a run are kept with the s of their first pairs, and all calls are counted") {
+TEST_CASE("a run keeps its first calls, each with the s of the first pairs, and counts all calls") {
   run_recorder r(nullptr, {.calls = true});
   for (int i = 0; i < 1205; ++i) tell_call(r, std::vector<double>(10, i), "x");
   CHECK(r.all_calls == 1205);
@@ -29,7 +29,7 @@ TEST_CASE("the first calls of a run are kept with the s of their first pairs, an
   CHECK(r.calls[7].followers.empty());
 }
 
-TEST_CASE("the text of unit 26 is kept up to the first call that exceeds the limit") {
+TEST_CASE("a run keeps the text of unit 26 up to a limit of characters, and counts all characters") {
   run_recorder r(nullptr, {.calls = true});
   const std::string most(150'000, 'a');
   tell_call(r, {1.0}, most);
@@ -39,7 +39,8 @@ TEST_CASE("the text of unit 26 is kept up to the first call that exceeds the lim
   CHECK(r.all_log == 300'005);
 }
 
-TEST_CASE("a recorded call has the increment that follows it, or the step 0 if another call follows it") {
+TEST_CASE(
+    "a recorded call has the number of the step that follows it, or step 0 if another call comes first") {
   run_recorder r(nullptr, {.calls = true});
   tell_call(r, {1.0}, "");
   r.incremented({1, 1, 0.5, 0.5, {}});
@@ -60,7 +61,7 @@ TEST_CASE("calls of a run are recorded only on request") {
   CHECK(r.log.empty());
 }
 
-TEST_CASE("a recorded step has its increments with their events, and its end as the path reported it") {
+TEST_CASE("a recorded step has its increments with events, and the final state that the path reported") {
   run_recorder r;
   const event make{3, change::make};
   const std::vector<double> u = {0.0, 1.0};
@@ -79,7 +80,7 @@ TEST_CASE("a recorded step has its increments with their events, and its end as 
   CHECK(r.steps[1].from_fallback);
 }
 
-TEST_CASE("the title of a run without a title is the name of its file") {
+TEST_CASE("if a problem has no title, the title of the run is the file name") {
   const auto title = [](const std::string& text, const std::string& file) {
     return title_of(parse_problem(text, "pb.toml"), file);
   };

@@ -43,7 +43,7 @@ struct ended {
 
 }  // namespace
 
-TEST_CASE("The hardest pressed pair and support have the largest force, and of two equal forces the first") {
+TEST_CASE("hardest_pair and hardest_support give the largest force, and of equal forces the first") {
   const ended e(beam_over_stops(-0.001, -10.0));
   REQUIRE(e.read.pairs.size() == 2);
   CHECK(e.read.hardest_pair() == 0);  // both forces are equal except for rounding
@@ -53,7 +53,8 @@ TEST_CASE("The hardest pressed pair and support have the largest force, and of t
   CHECK_FALSE(free.read.hardest_pair());
 }
 
-TEST_CASE("Forces, reactions and loads of a step's end balance, and its extreme moment is exact") {
+TEST_CASE(
+    "Loads, reactions and contact forces at the end of a step balance, and the extreme moment is exact") {
   const ended e(beam_over_stops(-0.001, -10.0));
   double sum = -10.0 * 12;
   for (const double r : e.read.reactions) sum += r;
@@ -66,7 +67,8 @@ TEST_CASE("Forces, reactions and loads of a step's end balance, and its extreme 
   CHECK(m.most.x == Approx(edge / 10.0).epsilon(1e-6));
 }
 
-TEST_CASE("Loads, reactions and contact forces of every reference problem add up to 0 within rounding") {
+TEST_CASE(
+    "In every reference beam and plate, loads, reactions and contact forces add up to 0 within rounding") {
   int compared = 0;
   for (const auto& file : std::filesystem::directory_iterator(CONTCT_REFERENCE "/problems")) {
     if (file.path().extension() != ".toml") continue;
@@ -89,7 +91,7 @@ TEST_CASE("Loads, reactions and contact forces of every reference problem add up
   CHECK(compared >= 60);
 }
 
-TEST_CASE("The contact force of a face above counts downwards in the balance") {
+TEST_CASE("In the balance of a step, the contact force of a face above counts downwards") {
   const a_run run(loaded_and_freed, "corrected");  // the second step presses the beam upwards
   const load& acting = run.what.steps[1];
   const auto sums =
@@ -100,7 +102,7 @@ TEST_CASE("The contact force of a face above counts downwards in the balance") {
   CHECK(sums->reactions == Approx(-60.0 - sums->contact).epsilon(1e-12));
 }
 
-TEST_CASE("The bearing pressure of a half-lifted footing is that of a rigid body on the springs in contact") {
+TEST_CASE("The pressure under a half-lifted footing is that of a rigid body on the springs in contact") {
   const a_run run(read_problem(CONTCT_REFERENCE "/problems/pb11a-strip-footing-n20.toml"), "corrected");
   const structure_state& end = run.result.record.steps[0].end;
   const std::vector<bed_reading> beds = beds_in(run.what, results_of(run.what, run.what.steps[0], end), end);
@@ -125,7 +127,8 @@ TEST_CASE("The bearing pressure of a half-lifted footing is that of a rigid body
   CHECK(beds[0].force == Approx(1.0).epsilon(1e-12));  // the load
 }
 
-TEST_CASE("A beam that sags through a face between two pairs is reported, but a flatter beam is not") {
+TEST_CASE(
+    "A beam that sags through the face between two pairs is reported, but a beam above the face is not") {
   const ended soft(beam_over_stops(0.0, -500.0));
   REQUIRE(soft.through);
   CHECK(soft.through->first == 0);
@@ -145,7 +148,8 @@ TEST_CASE("A beam that sags through a face between two pairs is reported, but a 
   CHECK_FALSE(ended(other_face).through);
 }
 
-TEST_CASE("An envelope has the largest value of each quantity over all increments, and its increment") {
+TEST_CASE(
+    "An envelope has the largest value of each quantity over all increments, and the step of this value") {
   const a_run run(loaded_and_freed, "corrected");
   const envelope all = envelope_of(run.result);
   const std::vector<structure_state> states = pictures_of(run.result);
@@ -170,7 +174,7 @@ TEST_CASE("An envelope has the largest value of each quantity over all increment
   CHECK(all.reactions[0].least.step == 2);
 }
 
-TEST_CASE("Places are described by nodes with coordinates or by labels, and values have units") {
+TEST_CASE("A place is described by node and coordinates, and a value has a unit if the problem has units") {
   problem p = parse_problem(good_problem, "pb.toml");
   CHECK(place_words(p.geometry, placed_value{1.0, 2.0, 0.0, 2}) == "node 3, x = 2");
   CHECK(place_words(p.geometry, placed_value{1.0, 0.5, 0.0, -1}) == "x = 0.5");
@@ -186,13 +190,13 @@ TEST_CASE("Places are described by nodes with coordinates or by labels, and valu
   CHECK(ranges_are_at(plate.geometry) == "nodes and corners of elements");
 }
 
-TEST_CASE("the warning about a beam that sags through a face names the step and both pairs, counted from 1") {
+TEST_CASE("if a beam sags through a face between two pairs, the warning names the step and both pairs") {
   const a_run run(beam_over_stops(0.0, -500.0));
   CHECK_THAT(passage_warning(run.what, run.result.record.steps),
              Catch::Matchers::StartsWith("step 1: between pairs 1 and 2 the beam passes through"));
 }
 
-TEST_CASE("a pair's deflection gives either a gap or a force") {
+TEST_CASE("the deflection at a pair gives a gap if the pair is separated, and a force if it is in contact") {
   const problem p = parse_problem(good_problem, "pb.toml");  // face -0.004, stiffness 5e4
   const pair_reading open = reading_of(p.pairs[0], -0.001, false);
   CHECK(open.gap == Approx(0.003));
@@ -205,8 +209,7 @@ TEST_CASE("a pair's deflection gives either a gap or a force") {
   CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
 }
 
-TEST_CASE(
-    "the deflections of a matrix are its dofs along axes, or its pairs' dofs if it has no coordinates") {
+TEST_CASE("the deflections of a matrix are the dofs along axes, or without coordinates the dofs of pairs") {
   const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
   const std::vector<int> dofs = deflecting_nodes(placed);
   CHECK(dofs.size() == 22);
@@ -217,7 +220,7 @@ TEST_CASE(
   CHECK(deflecting_nodes(bare).size() == 33);
 }
 
-TEST_CASE("a plate's nodes are numbered along x first, and w is the first dof of a node") {
+TEST_CASE("nodes of a plate are numbered along x first, and w is the first dof of each node") {
   const problem p = parse_problem(good_plate, "pb.toml");
   CHECK(place_of_node(p.geometry, 4).x == 0.5);
   CHECK(place_of_node(p.geometry, 4).y == 1.0);

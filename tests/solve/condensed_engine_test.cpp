@@ -7,7 +7,7 @@
 
 using namespace contct;
 
-TEST_CASE("beams with pairs can be condensed, but plates and beams without pairs cannot") {
+TEST_CASE("beams with pairs can be condensed to the pairs, but plates and beams without pairs cannot") {
   CHECK(can_be_condensed(cantilever_over_stops(3)));
   linear_structure bare = cantilever_over_stops(3);
   bare.pairs.clear();
@@ -18,7 +18,8 @@ TEST_CASE("beams with pairs can be condensed, but plates and beams without pairs
   CHECK_THROWS_AS(make_engine("condensed", p), std::invalid_argument);
 }
 
-TEST_CASE("the condensed engine responds as a factorisation does, whichever nodes have no pairs") {
+TEST_CASE(
+    "the condensed engine gives the same response as a full factorisation, whichever nodes have pairs") {
   const linear_structure all = cantilever_over_stops(12);
   for (const std::vector<int>& kept :
        std::vector<std::vector<int>>{{0, 5, 11}, {3}, {10, 11}, {0, 1, 2, 8}}) {
@@ -48,7 +49,7 @@ TEST_CASE("the condensed engine responds as a factorisation does, whichever node
   }
 }
 
-TEST_CASE("a pair at a fixed dof has no response in the condensed engine") {
+TEST_CASE("a pair at a fixed dof has the response 0 in the condensed engine") {
   linear_structure s = cantilever_over_stops(4);
   s.pairs.push_back({0, -1, 0.0, 1e6, false});
   const auto engine = make_engine("condensed", s);
@@ -62,7 +63,9 @@ TEST_CASE("a pair at a fixed dof has no response in the condensed engine") {
   CHECK(after[4] == 0.0);
 }
 
-TEST_CASE("the condensed engine adds all springs to a free beam before its first response") {
+TEST_CASE(
+    "the condensed engine adds the springs of all pairs in contact before the first response of a free "
+    "beam") {
   const linear_structure s =
       build(beam{{0, 1, 2}, {605, 605}}, {}, {{0, -1, -1e-4, 300.0, false}, {2, -1, -5e-5, 250.0, false}});
   const auto engine = make_engine("condensed", s);
@@ -75,7 +78,9 @@ TEST_CASE("the condensed engine adds all springs to a free beam before its first
   CHECK(d_star[1] == Approx(-1.0 / 250).epsilon(1e-12));
 }
 
-TEST_CASE("in the condensed engine, removing a spring 1e18 times as stiff restores the response before it") {
+TEST_CASE(
+    "after the removal of a spring 1e18 times as stiff, the condensed engine has the response without the "
+    "spring") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[2].stiffness = 1e18 * s.pairs[2].stiffness;
   const auto engine = make_engine("condensed", s);
@@ -94,7 +99,7 @@ TEST_CASE("in the condensed engine, removing a spring 1e18 times as stiff restor
   CHECK(counts.solves == counts.factors + counts.checks);  // one for each factor, and one for each check
 }
 
-TEST_CASE("for a beam too ill-conditioned to be condensed, an engine is made but its first response fails") {
+TEST_CASE("if a beam is too ill-conditioned, the condensed engine is made but fails at the first response") {
   // A mechanism with elements of length 1 and 1e7, whose path needs no response.
   beam b;
   b.x = {-1, 0, 1, 2, 3, 4, 10000004, 20000004, 30000004};

@@ -103,7 +103,8 @@ toggled toggle_back_and_forth(const random_problem& p, const std::string& engine
 
 }  // namespace
 
-TEST_CASE("every engine responds as refactor does while pairs toggle hundreds of times") {
+TEST_CASE(
+    "while pairs toggle hundreds of times, every engine gives the same response as the engine refactor") {
   for (const std::string& engine : engine_names()) {
     if (engine == "refactor") continue;
     random_numbers random(5);
@@ -121,7 +122,7 @@ TEST_CASE("every engine responds as refactor does while pairs toggle hundreds of
   }
 }
 
-TEST_CASE("with every engine, the corrected kernel's paths of structures with supports are certified") {
+TEST_CASE("the corrected kernel's paths of structures with supports are certified with every engine") {
   for (const std::string& engine : engine_names()) {
     const auto kernel = make_kernel("corrected");
     int certified = 0;
@@ -144,7 +145,7 @@ TEST_CASE("with every engine, the corrected kernel's paths of structures with su
   }
 }
 
-TEST_CASE("structures without supports end in the same state with every engine") {
+TEST_CASE("a structure without supports ends in the same state with every engine") {
   random_problem_kind kind;
   kind.free_share = 1.0;
   int same = 0;
@@ -162,14 +163,15 @@ TEST_CASE("structures without supports end in the same state with every engine")
   CHECK(same >= 250);
 }
 
-TEST_CASE("engines are made by name, and the message about an unknown name lists the known names") {
+TEST_CASE("an engine is made by its name, and the message about an unknown name lists the known names") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   for (const std::string& name : engine_names()) CHECK(make_engine(name, s) != nullptr);
   CHECK_THROWS_WITH(make_engine("warp", s), Catch::Matchers::Contains("refactor"));
 }
 
-TEST_CASE("the response is proportional to the residual load, and changes when springs are switched") {
+TEST_CASE(
+    "the response is proportional to the residual load, and depends on the springs of pairs in contact") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   const auto engine = make_engine("refactor", s);
@@ -189,7 +191,7 @@ TEST_CASE("the response is proportional to the residual load, and changes when s
   CHECK(d_star[0] == Approx(f).epsilon(1e-13));
 }
 
-TEST_CASE("the engine recovers the displacement of every dof from the load and the pairs' forces") {
+TEST_CASE("an engine computes the displacements of all dofs from the load and the contact forces") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   const auto engine = make_engine("refactor", s);
@@ -201,7 +203,7 @@ TEST_CASE("the engine recovers the displacement of every dof from the load and t
   CHECK(u[1] == 0.0);
 }
 
-TEST_CASE("a plate's internal numbering does not change the numbers of dofs, supports, pairs and forces") {
+TEST_CASE("the internal numbering of a plate does not affect which dofs supports, pairs and forces have") {
   // The same plate in two orientations: 5 by 2 elements, whose rows are numbered along y, and 2 by 5
   // elements.
   const plate lying{{0, 1, 2, 3, 4, 5}, {0, 0.5, 1.5}, 2.0, 0.3};

@@ -34,7 +34,7 @@ TEST_CASE("a cantilever with a spring k under its tip deflects by F / (3 EI / L^
   CHECK(u[0] == 0.0);
 }
 
-TEST_CASE("the inverse's columns at the pairs equal the solutions for unit right-hand sides") {
+TEST_CASE("the columns of the inverse at the pairs equal the solutions for unit loads at the pairs") {
   for (const factored_by how : {factored_by::storage, factored_by::cholmod}) {
     if (how == factored_by::cholmod && !sparse_factor::available()) continue;
     for (linear_structure s : {cantilever_over_stops(5), wide_plate()}) {
@@ -57,7 +57,7 @@ TEST_CASE("the inverse's columns at the pairs equal the solutions for unit right
   }
 }
 
-TEST_CASE("the residual of a refined solution is only rounding") {
+TEST_CASE("after refinement, the residual of a solution is only rounding") {
   const linear_structure s = wide_plate();
   const std::vector<char> closed = {1, 0};
   factored_stiffness k(s);
@@ -72,7 +72,7 @@ TEST_CASE("the residual of a refined solution is only rounding") {
   for (const double entry : left) CHECK(std::abs(entry) <= 2e-14);
 }
 
-TEST_CASE("a structure with supports whose matrix has no factor is refused") {
+TEST_CASE("a structure with supports is refused if its matrix cannot be factored") {
   linear_structure s = cantilever_over_stops(3);
   s.stiffness.band().at(4, 4) = -1.0;
   factored_stiffness k(s);
@@ -100,7 +100,7 @@ linear_structure three_dofs() {
 
 }  // namespace
 
-TEST_CASE("the springs of pairs in contact act at the rows of their dofs, except at fixed dofs") {
+TEST_CASE("springs of pairs in contact are added in the rows of their dofs, but not at fixed dofs") {
   const std::vector<spring_at> springs = springs_of(three_dofs(), std::vector<char>{1, 0, 1});
   REQUIRE(springs.size() == 1);
   CHECK(springs[0].row == 0);
@@ -119,7 +119,7 @@ TEST_CASE(
   CHECK(with_pair_forces(s, load, std::vector<double>{1, -1, 0.5}) == std::vector<double>{5, 5, 7.5});
 }
 
-TEST_CASE("the residual is b - K x minus the springs' forces") {
+TEST_CASE("the residual is b - K x minus the forces of the springs") {
   const linear_structure s = three_dofs();
   const std::vector<spring_at> springs = {{0, 12.0}};
   const std::vector<double> left =
@@ -128,7 +128,8 @@ TEST_CASE("the residual is b - K x minus the springs' forces") {
 }
 
 TEST_CASE(
-    "a solver with small errors is corrected to full precision, but growing corrections are not applied") {
+    "corrections make an inexact solver precise, but a correction that is larger than the one before is not "
+    "applied") {
   const linear_structure s = three_dofs();
   const std::vector<spring_at> springs = {{0, 12.0}};
   std::vector<double> u(3);

@@ -40,7 +40,7 @@ void respond(recording_engine& e) {
 
 }  // namespace
 
-TEST_CASE("an engine adds springs before it removes others, each spring once") {
+TEST_CASE("an engine adds new springs before it removes others, and changes each spring once") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(2, true);
@@ -57,7 +57,7 @@ TEST_CASE("an engine adds springs before it removes others, each spring once") {
   CHECK(e.order.empty());
 }
 
-TEST_CASE("an engine does not apply a spring that was switched on and off again") {
+TEST_CASE("if a spring is switched on and off again before a response, the engine does not change it") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(3, true);
@@ -66,7 +66,7 @@ TEST_CASE("an engine does not apply a spring that was switched on and off again"
   CHECK(e.order.empty());
 }
 
-TEST_CASE("the first factor includes the springs of pairs in contact at the start") {
+TEST_CASE("the springs of pairs in contact at the start are in the first factor of an engine") {
   const linear_structure s = with_pairs({true, false, true, false});
   recording_engine e(s);
   e.refused = 1;
@@ -98,8 +98,7 @@ drift of(double correction) {
 
 }  // namespace
 
-TEST_CASE(
-    "the interval between drift checks doubles while the drift is negligible, up to 16 times the first") {
+TEST_CASE("the interval between drift checks doubles up to 128 responses while the drift is negligible") {
   drift_monitor m(first_check);
   for (const int interval : {8, 16, 32, 64, 128, 128}) {
     CHECK(responses_until_due(m) == interval);
@@ -107,7 +106,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the interval between drift checks halves down to four when the drift is too large") {
+TEST_CASE("the interval between drift checks is halved down to four responses if the drift is too large") {
   drift_monitor m(first_check);
   for (const int interval : {8, 4, 4}) {
     CHECK(responses_until_due(m) == interval);
@@ -117,7 +116,7 @@ TEST_CASE("the interval between drift checks halves down to four when the drift 
   CHECK(responses_until_due(m) == 4);
 }
 
-TEST_CASE("a drift check can be requested, and its interval can be restarted") {
+TEST_CASE("a check of the drift can be requested for the next response, and its interval can be restarted") {
   drift_monitor m(first_check);
   m.check_next();
   CHECK(m.is_due());
@@ -125,7 +124,7 @@ TEST_CASE("a drift check can be requested, and its interval can be restarted") {
   CHECK(responses_until_due(m) == 8);
 }
 
-TEST_CASE("drift is relative to the largest response of any pair") {
+TEST_CASE("the drift of a response is relative to the largest response of any pair") {
   drift d;
   CHECK(drift_monitor(first_check).accepts(d));
   d.include(-4.0, 0.0);

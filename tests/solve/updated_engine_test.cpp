@@ -4,7 +4,7 @@
 
 using namespace contct;
 
-TEST_CASE("the updated engine toggles pairs without a new factor, and responds as with one") {
+TEST_CASE("when a pair toggles, the updated engine gives the response of a new factor without a new factor") {
   const linear_structure s = cantilever_over_stops(12);
   const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs());
@@ -24,7 +24,7 @@ TEST_CASE("the updated engine toggles pairs without a new factor, and responds a
   CHECK(engine->counts().solves == 1 + 5);  // the load, and a column for each toggle
 }
 
-TEST_CASE("the updated engine checks its response after 16 responses, and then after 32") {
+TEST_CASE("the updated engine checks the drift after 16 responses, and then after 32 more") {
   const linear_structure s = cantilever_over_stops(6);
   const auto engine = make_engine("updated", s);
   std::vector<double> load(s.dofs(), 1.0);
@@ -43,8 +43,7 @@ TEST_CASE("the updated engine checks its response after 16 responses, and then a
 }
 
 TEST_CASE(
-    "the updated engine takes a new factor after removing a much stiffer spring, since too many digits "
-    "cancel") {
+    "the updated engine takes a new factor after it removes a much stiffer spring, because digits cancel") {
   linear_structure s = cantilever_over_stops(6);
   s.pairs[5].stiffness = 1e9;
   const auto engine = make_engine("updated", s);

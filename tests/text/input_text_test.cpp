@@ -27,7 +27,7 @@ std::string refusal_of_real(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("an input file is read to its last byte, whatever its bytes are") {
+TEST_CASE("an input file is read completely, whatever its bytes are") {
   const scratch_folder here;
   CHECK(read_input(here.write("empty", "")).empty());
   std::string all;
@@ -35,7 +35,7 @@ TEST_CASE("an input file is read to its last byte, whatever its bytes are") {
   CHECK(read_input(here.write("all", all)) == all);
 }
 
-TEST_CASE("a missing file, a folder and a file that is too large are refused, with their names") {
+TEST_CASE("a missing file, a folder and a file that is too large are refused, and the message has the name") {
   const scratch_folder here;
   CHECK_THROWS_WITH(read_input(here.at("none")), Contains("none: cannot be read: No such file"));
   CHECK_THROWS_WITH(read_input(here.path().string(), "mesh"),
@@ -54,7 +54,7 @@ TEST_CASE("an error message names the file and the line, or only the file") {
   CHECK_THROWS_AS(refuse_line("K.mtx", 1, "", ""), input_error);
 }
 
-TEST_CASE("text is split at line feeds, and empty lines are counted") {
+TEST_CASE("text is split into lines at line feeds, and empty lines are counted") {
   text_lines lines("one\n\n three \r\nlast", "f");
   CHECK(lines.line() == 0);
   std::vector<std::string> found;
@@ -65,7 +65,7 @@ TEST_CASE("text is split at line feeds, and empty lines are counted") {
   CHECK_FALSE(text_lines("", "f").next());
 }
 
-TEST_CASE("a last line without a line end is refused as cut") {
+TEST_CASE("if the last line has no line end, the file is refused as cut off") {
   text_lines lines("one\n2", "f");
   REQUIRE(lines.next());
   CHECK_NOTHROW(lines.refuse_unended());
@@ -73,7 +73,7 @@ TEST_CASE("a last line without a line end is refused as cut") {
   CHECK_THROWS_WITH(lines.refuse_unended(), Contains("f:2: found \"2\" without a line end"));
 }
 
-TEST_CASE("fields are separated by blanks of any kind, and blank lines are skipped but counted") {
+TEST_CASE("any blanks separate the fields of a line, and blank lines are skipped but counted") {
   field_lines lines("\n  a\tb  c\r\n \v\f\n1 2 3 4 5 6 7 8 9 10\n", "f");
   REQUIRE(lines.next());
   CHECK(lines.line() == 2);
@@ -89,7 +89,7 @@ TEST_CASE("fields are separated by blanks of any kind, and blank lines are skipp
   CHECK(lines.fields() == 0);
 }
 
-TEST_CASE("a line of fields without a line end is refused, but blanks after the last line are accepted") {
+TEST_CASE("a line of fields without a line end is refused, but blanks after the last line end are accepted") {
   field_lines cut("1 2\n3 4", "f");
   REQUIRE(cut.next());
   CHECK_THROWS_WITH(cut.next(), Contains("f:2: found \"3 4\" without a line end"));
@@ -98,7 +98,7 @@ TEST_CASE("a line of fields without a line end is refused, but blanks after the 
   CHECK_FALSE(whole.next());
 }
 
-TEST_CASE("whole numbers are read within their bounds, with or without a plus sign") {
+TEST_CASE("a whole number is read if it is in a given range, with or without a plus sign") {
   field_lines lines("+7 -3 8 7.0 7x +-7 99999999999999999999\n", "f");
   REQUIRE(lines.next());
   CHECK(lines.whole(0, -3, 7, "n") == 7);
@@ -110,7 +110,7 @@ TEST_CASE("whole numbers are read within their bounds, with or without a plus si
   }
 }
 
-TEST_CASE("a real must be a finite decimal, with FORTRAN's exponent D only if requested") {
+TEST_CASE("a real number must be a finite decimal, and FORTRAN's exponent D is accepted only on request") {
   field_lines lines("+1.5 -2e-3 .5 5.\n", "f");
   REQUIRE(lines.next());
   CHECK(lines.real(0, "x") == 1.5);
@@ -124,7 +124,7 @@ TEST_CASE("a real must be a finite decimal, with FORTRAN's exponent D only if re
   CHECK_THROWS_WITH(lines.text_lines::real("1D999", "x", true), Contains("\"1D999\" for x"));
 }
 
-TEST_CASE("a number is read only if it is the whole text") {
+TEST_CASE("a text is read as a number only if the whole text is a number") {
   CHECK(number_in<int>("-12") == -12);
   CHECK(number_in<double>("1e3") == 1000.0);
   CHECK(number_in<double>("1.8p1", std::chars_format::hex) == 3.0);

@@ -38,7 +38,7 @@ TEST_CASE("a new output file has the permissions that the umask allows") {
   umask(before);
 }
 
-TEST_CASE("an existing output file is replaced at once, so that its name always has a complete file") {
+TEST_CASE("an existing output file is replaced in one operation, so it is always complete") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   output_file out(dir.at("out.json"));
@@ -49,7 +49,7 @@ TEST_CASE("an existing output file is replaced at once, so that its name always 
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("an unfinished output file is removed, and an older file of this name stays unchanged") {
+TEST_CASE("if an output file is not finished, an older file with the same name stays unchanged") {
   const scratch_folder dir;
   dir.write("out.json", "old");
   {
@@ -60,7 +60,7 @@ TEST_CASE("an unfinished output file is removed, and an older file of this name 
   CHECK(dir.files().size() == 1);
 }
 
-TEST_CASE("no unfinished output file remains, whatever signal ends the process") {
+TEST_CASE("if a signal ends the process, no unfinished output file remains") {
   for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGKILL}) {
     const scratch_folder dir;
     const pid_t child = fork();
@@ -78,7 +78,7 @@ TEST_CASE("no unfinished output file remains, whatever signal ends the process")
   }
 }
 
-TEST_CASE("an output through a symbolic link is written to its target, whether the target exists or not") {
+TEST_CASE("an output whose name is a symbolic link is written to the target, whether this exists or not") {
   const scratch_folder dir;
   fs::create_directory(dir.path() / "there");
   fs::create_symlink("there/out.json", dir.path() / "link");  // relative to the link's folder
@@ -91,14 +91,14 @@ TEST_CASE("an output through a symbolic link is written to its target, whether t
   }
 }
 
-TEST_CASE("an output through a circle of links is refused") {
+TEST_CASE("an output is refused if its name is a symbolic link in a circle of links") {
   const scratch_folder dir;
   fs::create_symlink("b", dir.path() / "a");
   fs::create_symlink("a", dir.path() / "b");
   CHECK_THROWS_WITH(output_file(dir.at("a")), Catch::Matchers::Contains("cannot be written"));
 }
 
-TEST_CASE("two names of the same file are recognised as one file") {
+TEST_CASE("two names of one file are recognised as the same file") {
   const scratch_folder dir;
   const auto at = [&](const char* name) { return dir.at(name); };
   dir.write("old", "old");
@@ -117,21 +117,21 @@ TEST_CASE("two names of the same file are recognised as one file") {
   CHECK_FALSE(same_file("/dev/null", "/dev/null"));  // two outputs may go to a device
 }
 
-TEST_CASE("an output file that cannot be written is refused at once, with its name") {
+TEST_CASE("an output file that cannot be written is refused at once, and the message names the file") {
   CHECK_THROWS_WITH(output_file("/no/such/place/out.json"),
                     Catch::Matchers::Contains("/no/such/place/out.json"));
   const scratch_folder dir;
   CHECK_THROWS_AS(output_file(dir.path().string()), output_error);
 }
 
-TEST_CASE("output to a device is written directly") {
+TEST_CASE("an output to a device is written to the device without a temporary file") {
   output_file out("/dev/null");
   out.write("gone");
   CHECK_NOTHROW(out.finish());
   CHECK(fs::is_character_file("/dev/null"));
 }
 
-TEST_CASE("output to a full device is an error") {
+TEST_CASE("an output to a full device throws output_error") {
   output_file out("/dev/full");
   CHECK_THROWS_AS((out.write(std::string(1 << 20, 'x')), out.finish()), output_error);
 }

@@ -7,7 +7,7 @@
 
 using namespace contct;
 
-TEST_CASE("the nearest word is suggested, except if too many letters differ") {
+TEST_CASE("a message suggests the nearest known word, unless too many letters differ") {
   const std::vector<std::string> keys = {"node", "nodes", "surface", "face", "stiffness"};
   CHECK(did_you_mean("stifness", keys) == " (did you mean \"stiffness\"?)");
   CHECK(did_you_mean("Stiffness", keys) == " (did you mean \"stiffness\"?)");
@@ -22,7 +22,7 @@ TEST_CASE("the nearest word is suggested, except if too many letters differ") {
   CHECK(did_you_mean("x", one).empty());  // no letter is right
 }
 
-TEST_CASE("a list of words is joined, and characters are replaced one by one") {
+TEST_CASE("joined puts a separator between words, and escaped replaces each given character by a text") {
   CHECK(joined({}, ", ").empty());
   CHECK(joined({"one"}, ", ") == "one");
   CHECK(joined({"one", "", "three"}, ", ") == "one, , three");
@@ -30,20 +30,20 @@ TEST_CASE("a list of words is joined, and characters are replaced one by one") {
   CHECK(escaped("a-\\-", escapes) == "a\\-\\e\\-");
 }
 
-TEST_CASE("XML's special characters are escaped, and forbidden characters become U+FFFD") {
+TEST_CASE("markup_text escapes the special characters of XML, and replaces forbidden characters by U+FFFD") {
   CHECK(markup_text("a < b && \"c\" > d'") == "a &lt; b &amp;&amp; &quot;c&quot; &gt; d'");
   CHECK(markup_text("tab\t line\n return\r") == "tab\t line\n return\r");
   CHECK(markup_text(std::string("\0\x1b\x7f", 3)) == "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
   CHECK(markup_text("\xc3\xa9") == "\xc3\xa9");
 }
 
-TEST_CASE("messages escape control characters, but not UTF-8 letters") {
+TEST_CASE("printable escapes control characters, but not UTF-8 letters") {
   CHECK(printable(std::string("a\0\t\n\x1f\x7f b", 8)) == "a\\x00\\x09\\x0a\\x1f\\x7f b");
   CHECK(printable("\xc3\xa9") == "\xc3\xa9");
   CHECK(printable("").empty());
 }
 
-TEST_CASE("control characters of a terminal, marks of direction and invalid UTF-8 are escaped") {
+TEST_CASE("terminal_text escapes control characters, marks of text direction, and invalid UTF-8") {
   CHECK(terminal_text("a\x1b[31m\x07\x7f\n") == "a\\x1b[31m\\x07\\x7f\n");
   // NOLINTNEXTLINE(misc-misleading-bidirectional): these marks are what is escaped
   CHECK(terminal_text("\u009b31m\u202e\u2067x") == "\\xc2\\x9b31m\\xe2\\x80\\xae\\xe2\\x81\\xa7x");
@@ -61,7 +61,7 @@ TEST_CASE("control characters of a terminal, marks of direction and invalid UTF-
   CHECK(terminal_text("\x9b\xff") == "\\x9b\\xff");
 }
 
-TEST_CASE("a title on one line has blanks instead of line ends, and a JSON string has JSON's escapes") {
+TEST_CASE("on_one_line replaces line ends by blanks, and json_escaped uses the escapes of JSON") {
   CHECK(on_one_line("two\nlines\r\tand \x1b") == "two lines  and \\x1b");
   CHECK(json_escaped("{\"a\": \"\x7f\u0085\u202e\u00e9\"}\n") ==
         "{\"a\": \"\\u007f\\u0085\\u202e\u00e9\"}\n");
@@ -70,8 +70,7 @@ TEST_CASE("a title on one line has blanks instead of line ends, and a JSON strin
 }
 
 TEST_CASE(
-    "a message quotes a field of a file if it looks like a number or is short, and otherwise gives its "
-    "length") {
+    "a message quotes a field only if it looks like a number or is short, and otherwise gives its length") {
   for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
     CHECK(field_words(number) == std::string("\"") + number + "\"");
   CHECK(field_words("root:x:0:0") == "a word of 10 bytes");
@@ -81,7 +80,7 @@ TEST_CASE(
   CHECK(field_words(std::string(33, '1')) == "\"" + std::string(32, '1') + "...\"");
 }
 
-TEST_CASE("long text is cut between UTF-8 characters") {
+TEST_CASE("text that is too long is cut between two UTF-8 characters") {
   CHECK(printable("abcdef", 6) == "abcdef");
   CHECK(printable("abcdef", 5) == "abcde...");
   CHECK(printable("ab\u4e2d\u4e2d", 4) == "ab...");
@@ -90,7 +89,7 @@ TEST_CASE("long text is cut between UTF-8 characters") {
   CHECK(in_quotes(std::string(60, 'x')) == "\"" + std::string(60, 'x') + "\"");
 }
 
-TEST_CASE("a share in per cent has two digits or is a whole number, without an exponent") {
+TEST_CASE("a share in per cent has at most two digits or is a whole number, and has no exponent") {
   CHECK(percent_words(1e-6) == "0.0001 %");
   CHECK(percent_words(0.03) == "3 %");
   CHECK(percent_words(0.0251) == "2.5 %");

@@ -29,7 +29,7 @@ TEST_CASE("COLUMNS sets the width of a table between 40 and 160, and an invalid 
   CHECK(width_with("wide") == 80);
 }
 
-TEST_CASE("a text is coloured only if colour is requested") {
+TEST_CASE("text is coloured only if colour is requested") {
   CHECK(painted({80, false}, paint::bad, "no") == "no");
   CHECK(painted({80, true}, paint::good, "yes") == "\033[32myes\033[0m");
   CHECK(painted({80, true}, paint::bad, "no") == "\033[1;31mno\033[0m");
@@ -37,7 +37,7 @@ TEST_CASE("a text is coloured only if colour is requested") {
   CHECK(painted({80, true}, paint::strong, "so") == "\033[1mso\033[0m");
 }
 
-TEST_CASE("several items share a line, and a long text is broken only at blanks") {
+TEST_CASE("wrap puts several items on a line, and breaks a long item only at blanks") {
   CHECK(wrap({"a", "b", "c"}, 4) == lines{"a; b", "c"});
   CHECK(wrap({"one two three"}, 7) == lines{"one two", "three"});
   CHECK(wrap({"one two three"}, 6) == lines{"one", "two", "three"});

@@ -44,7 +44,7 @@ const std::string falling =
 
 }  // namespace
 
-TEST_CASE("the text of an exact path has every event with its exact share and load") {
+TEST_CASE("the printed exact path has every event with the exact share and load") {
   const std::string text =
       exact_text(followed_exactly(reference("pb07-three-gap-supports")).result(), 20, {});
   CHECK_THAT(text, Contains("\nstep 2\n  share 3/38, load -2400/19: pair 1 (node 5, below) makes contact, "
@@ -54,14 +54,15 @@ TEST_CASE("the text of an exact path has every event with its exact share and lo
   CHECK_THAT(text, Contains("  pair 2 (node 9, below): w -2/375, gap 7/1500\n"));
 }
 
-TEST_CASE("the text of an exact path has decimals for long fractions, and only counts many pairs") {
+TEST_CASE(
+    "the printed exact path has decimals in place of long fractions, and only the number of many pairs") {
   const followed_exactly run(reference("pb03a-point-load-on-bed-l4"));
   const std::string text = exact_text(run.result(), 6, {});
   CHECK_THAT(text, Contains(" of 41 pairs in contact\n") && !Contains("/"));
 }
 
 TEST_CASE(
-    "the text of an exact path has a line for each kernel with its digits and its first different event") {
+    "the printed exact path has a line for each kernel with correct digits and the first different event") {
   followed_exactly run(reference("pb01-cantilever-tip-stop"));
   run.kernels = {{"fortran", true, "", 15.4, 15.1, 14.0, 2},
                  {"mine", false, "exactly, so; here otherwise", 3, 2, 1, 1},
@@ -85,7 +86,7 @@ TEST_CASE(
   CHECK(kernels[2]["force_digits"].is_null());
 }
 
-TEST_CASE("the JSON document of an exact path has every number as a fraction") {
+TEST_CASE("the JSON output of an exact path has every number as a fraction") {
   const exact_json d = followed_exactly(reference("pb01-cantilever-tip-stop")).document();
   CHECK(d["format"] == "contct-exact-1");
   CHECK(d["status"] == "solved");
@@ -105,7 +106,7 @@ TEST_CASE("the JSON document of an exact path has every number as a fraction") {
   CHECK_FALSE(d.contains("mechanism"));
 }
 
-TEST_CASE("the output of an exact path has the motion and the work that prove a mechanism") {
+TEST_CASE("if an exact path ends in a mechanism, the output has the rigid-body motion and the work on it") {
   const followed_exactly run(contct::parse_problem(falling, "falling.toml"));
   CHECK_THAT(exact_text(run.result(), 20, {}),
              Contains("share 0, load 0: a rigid-body motion at constant load\n") &&

@@ -74,7 +74,8 @@ nlohmann::json explained_json(const std::string& text, int pair = 0) {
 }  // namespace
 
 TEST_CASE(
-    "the explanation of a pair cites the lines of the listing that it took, with the paper's equations") {
+    "the explanation of a pair cites the lines of the listing that the pair took, and the paper's "
+    "equations") {
   const nlohmann::json calls = explained_json(two_pairs)["increments"];
   REQUIRE(calls.size() == 2);
   const nlohmann::json& pairs = calls[0]["pairs"];
@@ -88,7 +89,9 @@ TEST_CASE(
   CHECK(pairs[1]["why"] == "not toggled");
 }
 
-TEST_CASE("two kernels' numbers are described as equal to the bit, as ULPs apart, or as different with NaN") {
+TEST_CASE(
+    "numbers of two kernels are described as equal to the bit, as some ULPs apart, or as different if one is "
+    "NaN") {
   const double next = std::nextafter(0.25, 1.0);
   const problem p = parse_problem(two_pairs, "pb.toml");
   const explained_kernels of{p, {"a", "b"}, 8, 0};
@@ -100,9 +103,7 @@ TEST_CASE("two kernels' numbers are described as equal to the bit, as ULPs apart
   CHECK(ulps_apart(0.25, std::nextafter(0.25F, 1.0F), 4) == 1);
 }
 
-TEST_CASE(
-    "an explanation of more than 20 increments has one line for each, unless the full explanation is "
-    "requested") {
+TEST_CASE("contct explain prints one line for each of more than 20 increments, unless --all is given") {
   const std::string few = explained_text(0, 80, two_pairs_and(18), false);
   CHECK(few == explained_text(0, 80, two_pairs_and(18)));
   CHECK_THAT(few, Contains("Step 19, increment 1\n"));
@@ -117,8 +118,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the summary of an explanation has the title once, names early toggles, and counts events beyond "
-    "twelve") {
+    "the short explanation of a run names early toggles, and shortens a list of more than twelve events") {
   std::string toml = "title = \"Stops\"\n" + two_pairs_and(20);
   const std::string stop = "[[contact]]\nnode = 2\nsurface = \"below\"\nface = -0.25\nstiffness = 1\n";
   for (int i = 0; i < 13; ++i) toml += stop;
@@ -129,7 +129,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the JSON explanation of an increment has its numbers, its winner, and every pair with its reasons") {
+    "the JSON explanation of an increment has s, the load, the winner, and each pair with its branches") {
   const nlohmann::json j = explained_json(two_pairs);
   CHECK(j["format"] == "contct-explain-1");
   CHECK(j["real_bytes"] == 8);
@@ -161,7 +161,7 @@ TEST_CASE(
   CHECK(j["status"] == "solved");
 }
 
-TEST_CASE("the explanation has a single pair if only this pair is requested") {
+TEST_CASE("if one pair is requested, every increment in the explanation has only this pair") {
   const nlohmann::json j = explained_json(two_pairs, 2);
   for (const auto& i : j["increments"]) {
     REQUIRE(i["pairs"].size() == 1);
@@ -169,7 +169,9 @@ TEST_CASE("the explanation has a single pair if only this pair is requested") {
   }
 }
 
-TEST_CASE("the explanation says that an event exactly at full load does not count for the listing") {
+TEST_CASE(
+    "the explanation says if a pair reaches its face exactly at full load, which is no event for the "
+    "listing") {
   // The face is exactly where the tip is at full load.
   problem p = parse_problem(two_pairs, "pb.toml");
   p.pairs[0].face = -10.0;
@@ -188,8 +190,7 @@ TEST_CASE("the explanation says that an event exactly at full load does not coun
 }
 
 TEST_CASE(
-    "the explanation shows the second kernel's different value under its name, and a differing line in "
-    "full") {
+    "if two kernels differ, the explanation gives the second kernel's value, or its whole line of text") {
   const problem p = parse_problem(two_pairs, "pb.toml");
   const auto told = [&](const mismatch& apart) {
     std::string written;

@@ -32,7 +32,7 @@ constexpr const char* stopped_beam =
 
 }  // namespace
 
-TEST_CASE("a proof file has the state, the pairs in contact, the factor and the bounds of each step") {
+TEST_CASE("a proof file has state, pairs in contact, factor and error bounds of each step") {
   const nlohmann::json proof = proof_of(stopped_beam);
   CHECK(proof["format"] == "contct-proof-2");
   REQUIRE(proof["steps"].size() == 2);
@@ -58,7 +58,7 @@ TEST_CASE("a proof file has the state, the pairs in contact, the factor and the 
   CHECK(unloaded["state"] == nlohmann::json::array({"separated"}));
 }
 
-TEST_CASE("a proof file has L as a sum of two matrices if doubles cannot factor the matrix") {
+TEST_CASE("if doubles cannot factor a matrix, the proof file has the factor L as a sum of two matrices") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 0.008, 7.008, 7.00802, 7.02802, 12.02802]\nEI = 92\n[[support]]\nnode = 1\n"
       "fix = [\"w\", \"theta\"]\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = 0\nstiffness = 1e5\n"
@@ -69,7 +69,7 @@ TEST_CASE("a proof file has L as a sum of two matrices if doubles cannot factor 
   CHECK(step["L_low"][11].size() == step["L"][11].size());
 }
 
-TEST_CASE("a proof file without bounds gives the reason") {
+TEST_CASE("if a step has no error bounds, the proof file gives the reason") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 2]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 1e6\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n");  // node 1 is not held
@@ -79,7 +79,7 @@ TEST_CASE("a proof file without bounds gives the reason") {
   CHECK_FALSE(step.contains("L"));
 }
 
-TEST_CASE("a proof file of a free beam without load has forces, but no displacements and no statuses") {
+TEST_CASE("for a free beam without load, a proof file has forces, but no displacements and no statuses") {
   const nlohmann::json proof = proof_of(
       "[beam]\nx = [0, 1, 2]\nEI = 1e4\n[[contact]]\nnodes = [1, 3]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 1e6\n[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n");

@@ -46,7 +46,7 @@ nlohmann::json result_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the JSON writer puts members and elements on separate lines, indented by their depth") {
+TEST_CASE("the JSON writer puts each member and element on a line, indented by depth") {
   const std::string text = written([](json_document& d) {
     d.add({{"s", 0.25}, {"none", nullptr}, {"pairs", nullptr}},
           {{"none", 0, {}}, {"pairs", 2, [](std::size_t i) {
@@ -64,7 +64,7 @@ TEST_CASE("the JSON writer puts members and elements on separate lines, indented
       "[1,2]\n    }\n  ],\n  \"free\": [\n    {\"a\":1}\n  ],\n  \"end\": null\n}\n");
 }
 
-TEST_CASE("numbers of a JSON document keep their bits, and NaN is written as null") {
+TEST_CASE("a number written to JSON is read back with the same bits, and NaN is written as null") {
   const double third = 1.0 / 3;
   const auto read = nlohmann::json::parse(written([&](json_document& d) {
     d.add({{"x", third}, {"nan", std::numeric_limits<double>::quiet_NaN()}}, {});
@@ -74,15 +74,13 @@ TEST_CASE("numbers of a JSON document keep their bits, and NaN is written as nul
   CHECK(read["steps"][0]["nan"].is_null());
 }
 
-TEST_CASE("an array without entries is written to JSON as an empty array") {
+TEST_CASE("an empty array is written to JSON as an opening and a closing bracket on one line") {
   CHECK(written([](json_document& d) {
           d.finish({{"end", 1}});
         }) == "{\n  \"title\": \"a \\\"b\\\"\\n\",\n  \"steps\": [],\n  \"end\": 1\n}\n");
 }
 
-TEST_CASE(
-    "a certificate in JSON has no displacement error if the state is not unique, and a problem only if there "
-    "is one") {
+TEST_CASE("in JSON, a certificate of a state that is not unique has no displacement error") {
   CHECK(certificate_json({}).is_null());
   certificate c;
   c.certified = true;
@@ -98,7 +96,7 @@ TEST_CASE(
   CHECK(other["problem"] == "tension");
 }
 
-TEST_CASE("a result in JSON has the format's keys, with the numbers of PB1's second step") {
+TEST_CASE("the JSON result has the documented keys, with the numbers of a cantilever on a stop (PB1)") {
   const auto r = result_of(good_problem);
   CHECK(r["format"] == "contct-result-1");
   CHECK(r["kernels"] == nlohmann::json({"fortran", "cpp"}));
@@ -124,7 +122,7 @@ TEST_CASE("a result in JSON has the format's keys, with the numbers of PB1's sec
   CHECK(judged["tension"] == 0.0);
 }
 
-TEST_CASE("events in JSON have pair, node, side and change, and their increment has its load") {
+TEST_CASE("an event in the JSON result has pair, node, side and change, and an increment has the load") {
   const auto r = result_of(good_problem);
   const auto& i = r["steps"][0]["increments"][0];
   CHECK(i["increment"] == 1);
@@ -137,7 +135,9 @@ TEST_CASE("events in JSON have pair, node, side and change, and their increment 
   CHECK(i["fraction"].get<double>() == Approx(0.25).epsilon(1e-12));
 }
 
-TEST_CASE("the load of an increment in JSON omits its parts if the parts or their elements are many") {
+TEST_CASE(
+    "in the JSON result, the load of an increment omits distributed loads on more than 32 separate "
+    "elements") {
   const auto load_on = [](const std::string& elements) {
     const auto r = result_of(
         "[beam]\nlength = 80\nelements = 80\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", "
@@ -158,7 +158,7 @@ TEST_CASE("the load of an increment in JSON omits its parts if the parts or thei
   CHECK(many["force"].get<double>() == Approx(-33.0));
 }
 
-TEST_CASE("loads, contact forces and reactions of a result in JSON add up to 0") {
+TEST_CASE("in the JSON result, loads, contact forces and reactions add up to 0") {
   const auto r = result_of(good_problem);
   const auto& step = r["steps"][0];
   const double pair = step["pairs"][0]["force"];
@@ -170,7 +170,7 @@ TEST_CASE("loads, contact forces and reactions of a result in JSON add up to 0")
   CHECK(step["elements"][1]["shear"][1].get<double>() == Approx(60.0 - pair).epsilon(1e-11));
 }
 
-TEST_CASE("in JSON a separated pair has a gap and no force, and a mechanism has the state that it reached") {
+TEST_CASE("in the JSON result, a separated pair has a gap and no force, and a mechanism has the last state") {
   const auto r = result_of(
       "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
       "0\nstiffness = 10\n"
@@ -187,7 +187,7 @@ TEST_CASE("in JSON a separated pair has a gap and no force, and a mechanism has 
   CHECK(r["steps"][1]["pairs"][1]["force"].get<double>() == Approx(8.0).epsilon(1e-9));
 }
 
-TEST_CASE("a plate's result in JSON has slopes and moments, with corners listed counter-clockwise") {
+TEST_CASE("the JSON result of a plate has slopes and moments, and lists corners counter-clockwise") {
   const auto r = result_of(good_plate);
   CHECK(r["status"] == "solved");
   const auto& step = r["steps"][0];
@@ -211,7 +211,8 @@ TEST_CASE("a plate's result in JSON has slopes and moments, with corners listed 
 }
 
 TEST_CASE(
-    "a result in JSON has bounds of contact forces only with pairs, and of reactions only with supports") {
+    "the JSON result has bounds of contact forces only if there are pairs, and of reactions only with "
+    "supports") {
   const auto keys_of = [](const nlohmann::json& result) {
     std::set<std::string> keys;
     for (const auto& [key, value] : result["steps"][0]["error"].items()) keys.insert(key);
@@ -226,7 +227,7 @@ TEST_CASE(
         std::set<std::string>{"w", "slope", "force", "gap", "moment", "shear"});
 }
 
-TEST_CASE("the envelope in JSON counts pairs from 1") {
+TEST_CASE("in the JSON result, an envelope numbers the pairs from 1") {
   a_run r(loaded_and_freed);
   r.result.envelope = true;
   const nlohmann::json envelope_of = json_of(r.result)["envelope"];
@@ -235,7 +236,9 @@ TEST_CASE("the envelope in JSON counts pairs from 1") {
   CHECK(envelope_of["pairs"][1]["pair"] == 2);
 }
 
-TEST_CASE("a result with states has states within steps with the same keys as at the ends of steps") {
+TEST_CASE(
+    "on request, the JSON result has the states within steps, with the keys of the states at the ends of "
+    "steps") {
   const a_run r(loaded_and_freed);
   const nlohmann::json result = json_of(r.result, result_parts::states);
   std::size_t within = 0;
@@ -256,7 +259,8 @@ TEST_CASE("a result with states has states within steps with the same keys as at
   CHECK_FALSE(result.contains("calls"));
 }
 
-TEST_CASE("the result of a large problem has at most four states within steps, including the first") {
+TEST_CASE(
+    "the JSON result of a large problem has at most four states within steps, and the first is one of them") {
   std::string text =
       "[beam]\nlength = 50\nelements = 5000\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n";
   for (int i = 1; i <= 20; ++i)
@@ -269,7 +273,8 @@ TEST_CASE("the result of a large problem has at most four states within steps, i
   CHECK(std::ranges::count_if(all, [](const auto& i) { return i.contains("displacement"); }) <= 4);
 }
 
-TEST_CASE("the data of the report page have every call with its differences in ULPs, and unit 26") {
+TEST_CASE(
+    "the data of the report page have every call with the differences in ULPs, and the text of unit 26") {
   const a_run r(good_problem);
   const nlohmann::json result = json_of(r.result, result_parts::report);
   REQUIRE(result["calls"].size() == 2);
@@ -285,7 +290,8 @@ TEST_CASE("the data of the report page have every call with its differences in U
   CHECK(result["words"]["comparison"] == "all equal");
 }
 
-TEST_CASE("The result of a beam with a section modulus has stresses, their extremes and a proved bound") {
+TEST_CASE(
+    "The JSON result of a beam with a section modulus has stresses, extreme stresses and an error bound") {
   const nlohmann::json step = result_of(
       "[beam]\nx = [0, 2, 4]\nsection = { E = 1e6, I = 0.5, W = 0.25 }\n"
       "[[support]]\nx = [0, 4]\nfix = \"w\"\n[[step]]\nuniform = -3\n")["steps"][0];
@@ -297,8 +303,8 @@ TEST_CASE("The result of a beam with a section modulus has stresses, their extre
 }
 
 TEST_CASE(
-    "The result of a plate with a thickness has stresses at corners, but a plate given by D has no "
-    "stresses") {
+    "The JSON result of a plate with a thickness has stresses at corners, but with D in place of a thickness "
+    "none") {
   const nlohmann::json thick = result_of(good_plate)["steps"][0];
   const nlohmann::json& corner = thick["elements"][1];
   CHECK(corner["sx"][2].get<double>() == Approx(6 * corner["mx"][2].get<double>()));
@@ -311,13 +317,13 @@ TEST_CASE(
   CHECK_FALSE(by_D["error"].contains("stress"));
 }
 
-TEST_CASE("The page's structure of a beam with hinges has their nodes") {
+TEST_CASE("In the data of the report page, a beam with hinges has the nodes of the hinges") {
   const nlohmann::json s =
       structure_json(parse_problem(good_problem + std::string("[[hinge]]\nnode = 2\n"), "pb.toml"));
   CHECK(s["hinges"] == std::vector<int>{2});
 }
 
-TEST_CASE("the page's structure of a beam has coordinates, stiffnesses, supports and pairs") {
+TEST_CASE("in the data of the report page, a beam has coordinates, stiffnesses, supports and pairs") {
   const nlohmann::json s = structure_json(parse_problem(good_problem, "pb.toml"));
   CHECK(s["kind"] == "beam");
   CHECK(s["nodes"][2] == nlohmann::json({{"node", 3}, {"x", 2.0}}));
@@ -329,8 +335,7 @@ TEST_CASE("the page's structure of a beam has coordinates, stiffnesses, supports
 }
 
 TEST_CASE(
-    "the page's structure of a plate has its nodes row by row, and the tributary area of each pair of a "
-    "bed") {
+    "in the data of the report page, a plate has nodes row by row, and pairs of a bed have tributary areas") {
   problem p = parse_problem(good_plate, "pb.toml");
   p.beds = {{4.0, {0.5}, 0}};
   const nlohmann::json s = structure_json(p);
@@ -339,7 +344,7 @@ TEST_CASE(
   CHECK(s["pairs"][0]["bed"] == 0.5);
 }
 
-TEST_CASE("the page's structure of a matrix has labels, and coordinates and edges if they are known") {
+TEST_CASE("in the data of the report page, a matrix has labels, and if possible coordinates and edges") {
   const nlohmann::json placed = structure_json(parse_problem(portal_frame(), "p.toml", reach::anywhere));
   CHECK(placed["nodes"].size() == 11);
   CHECK(placed["nodes"][7] == nlohmann::json({{"node", "8"}, {"x", 4.0}, {"y", 3.0}, {"z", 0.0}}));
@@ -371,8 +376,8 @@ TEST_CASE("a result says which distributed load is self-weight, and the resultan
 }
 
 TEST_CASE(
-    "a result marks a combination as starting from zero, and lists every combination without an "
-    "equilibrium") {
+    "in the JSON result, a combination starts from zero, and all combinations without equilibrium are "
+    "listed") {
   const std::string beam =
       "[beam]\nlength = 2\nelements = 2\nEI = 100\n[[contact]]\nx = [0, 2]\nsurface = \"below\"\nface = 0\n"
       "stiffness = 10\n[[case]]\nname = \"down\"\nuniform = -1\n";
@@ -394,8 +399,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the page of many combinations has the states of some, including those with the least and largest "
-    "values") {
+    "of many combinations, the report page has only some states, and the largest moment is among them") {
   const a_run r(
       "[beam]\nlength = 200\nelements = 200\nEI = 1e4\n[[support]]\nx = [0, 100, 200]\nfix = \"w\"\n"
       "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\nfrom = 1\nto = 199\nby = 1\n");
@@ -414,7 +418,7 @@ TEST_CASE(
   CHECK(most == Approx(100 * 0.207414).epsilon(2e-4));  // largest moment of two spans under a moving load
 }
 
-TEST_CASE("nodes and ends of elements in a result have the coordinates written in the problem file") {
+TEST_CASE("in the JSON result, nodes and ends of elements have the coordinates of the problem file") {
   const auto result =
       json_of(a_run("[beam]\nlength = 0.7\nelement_size = 0.1\nEI = 1\n[[support]]\nx = [0, 0.7]\nfix = "
                     "\"w\"\n[[step]]\nuniform = -1\n")
@@ -429,8 +433,7 @@ TEST_CASE("nodes and ends of elements in a result have the coordinates written i
 }
 
 TEST_CASE(
-    "nodes and corners in a plate's result have x and y, and nodes of a matrix have their known "
-    "coordinates") {
+    "in the JSON result, nodes of a plate have x and y, and nodes of a matrix have coordinates if known") {
   const auto result = json_of(a_run(std::string(good_plate)).result);  // 3 by 2 nodes on a square of side 1
   CHECK(result["nodes"][4] == nlohmann::json({{"node", 5}, {"x", 0.5}, {"y", 1.0}}));
   const auto& second = result["steps"][0]["elements"][1];
@@ -440,7 +443,7 @@ TEST_CASE(
   CHECK_FALSE(json_of(a_run(frame_without_coordinates(), "cpp").result).contains("nodes"));
 }
 
-TEST_CASE("a result has the warnings about its problem and about its states") {
+TEST_CASE("the JSON result has the warnings about the problem and about the states") {
   CHECK(result_of(good_problem)["warnings"].empty());
   const auto coarse = result_of(
       "[beam]\nlength = 4\nelements = 2\nEI = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[step]]\nuniform = -1\n");
@@ -455,7 +458,8 @@ TEST_CASE("a result has the warnings about its problem and about its states") {
   CHECK_THAT(plate["warnings"][0].get<std::string>(), Catch::Matchers::Contains("under a point load"));
 }
 
-TEST_CASE("a combination's result has the factors of its cases, and a train's result also its place") {
+TEST_CASE(
+    "the JSON result of a combination has the factors of the cases, and that of a train also the place") {
   const auto steps = result_of(
       "[beam]\nlength = 2\nelements = 2\nEI = 1\n[[support]]\nx = [0, 2]\nfix = \"w\"\n[[case]]\nname = "
       "\"G\"\n"

@@ -30,7 +30,9 @@ const std::string nasty = "</script><script>alert(1)</script> <b>& \\\"{{data}}\
 
 }  // namespace
 
-TEST_CASE("a title with markup adds no element to the page, and the page's data have the title unchanged") {
+TEST_CASE(
+    "markup in a title adds no element to the report page, and the data of the page have the title "
+    "unchanged") {
   const a_run plain(good_problem);
   const a_run titled("title = \"" + nasty + "\"\n" + good_problem);
   const std::string page = run_page(titled.result);
@@ -40,7 +42,7 @@ TEST_CASE("a title with markup adds no element to the page, and the page's data 
   CHECK(embedded_in(page)["title"] == "</script><script>alert(1)</script> <b>& \"{{data}}\" <!--");
 }
 
-TEST_CASE("the page refers to no other file and to no network address") {
+TEST_CASE("the report page refers to no other file and to no network address") {
   const std::string page = run_page(a_run(good_problem).result);
   for (const char* way : {"src=", "@import", "fetch(", "<link", "<img", "XMLHttp", "url("}) {
     INFO(way);
@@ -50,7 +52,7 @@ TEST_CASE("the page refers to no other file and to no network address") {
   CHECK_THAT(page, Contains("default-src 'none'"));
 }
 
-TEST_CASE("the page contains the parallel edition of reference/ in a folded section") {
+TEST_CASE("the report page contains the parallel edition of paper and listing in a folded section") {
   std::ifstream file(CONTCT_REFERENCE "/parallel-edition.html");
   const std::string whole(std::istreambuf_iterator<char>(file), {});
   const std::string edition =

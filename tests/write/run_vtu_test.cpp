@@ -15,7 +15,7 @@
 using namespace contct;
 using Catch::Matchers::Contains;
 
-TEST_CASE("a VTU grid has as many points and cells as the structure and its pairs") {
+TEST_CASE("a VTU grid has a point for each node, and a cell for each element and each pair") {
   for (const std::string& text : {loaded_and_freed, std::string(good_plate)}) {
     const a_run r(text);
     const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
@@ -25,13 +25,15 @@ TEST_CASE("a VTU grid has as many points and cells as the structure and its pair
   }
 }
 
-TEST_CASE("a collection of VTU files names its files in their order, relative to itself") {
+TEST_CASE("the collection of VTU files lists the files in order, by names relative to the collection") {
   const std::string pvd = pvd_of_states("a&b", 11);
   CHECK_THAT(pvd, Contains("timestep=\"0\" part=\"0\" file=\"a&amp;b.000.vtu\""));
   CHECK_THAT(pvd, Contains("timestep=\"10\" part=\"0\" file=\"a&amp;b.010.vtu\""));
 }
 
-TEST_CASE("the VTU grid of a matrix has points at nodes, and cells for edges and for pairs with a node") {
+TEST_CASE(
+    "the VTU grid of a matrix has points at nodes, and a cell for each edge and for each pair at a known "
+    "node") {
   const a_run r(structure_problem("", "frame", {{"dof       = \"8.x\"", "dof = \"8.r\""}}));
   const std::string vtu = vtu_of_state(r.what, pictures_of(r.result).back());
   CHECK_THAT(vtu, Contains("NumberOfPoints=\"11\" NumberOfCells=\"12\""));
@@ -44,7 +46,7 @@ TEST_CASE("the VTU grid of a matrix has points at nodes, and cells for edges and
   CHECK_THAT(bricks, Contains("NumberOfPoints=\"54\" NumberOfCells=\"114\"") && !Contains("rotation"));
 }
 
-TEST_CASE("the points of a VTU grid have the reactions of supports and a bed's pressure") {
+TEST_CASE("the points of a VTU grid have the reactions of supports and the pressure of a bed") {
   problem p = parse_problem(good_problem, "pb.toml");
   p.beds = {{4.0, {0.5}, 0}};
   const a_run r(p);
@@ -59,7 +61,7 @@ TEST_CASE("the points of a VTU grid have the reactions of supports and a bed's p
                                   results_of(r.what, r.what.steps[0], s).pairs[0].force / 0.5)));
 }
 
-TEST_CASE("several states at the very start of a step's load become a single picture") {
+TEST_CASE("of several states at the very start of a load, only one is drawn") {
   // Each end of a beam on springs separates at the start of the load.
   const a_run r(
       "[beam]\nlength = 10.0\nelements = 40\nEI = 1.0\n[[contact]]\nnodes = \"all\"\nsurface = \"below\"\n"

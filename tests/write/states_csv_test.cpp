@@ -39,7 +39,7 @@ double value_in(const std::string& field) {
 
 }  // namespace
 
-TEST_CASE("the table of states has a row inside an element for the extreme moment 9 q L^2 / 128") {
+TEST_CASE("the table of states has a row inside an element with the extreme moment, 9 q L^2 / 128") {
   const a_run r(propped_cantilever, "corrected");
   const csv_rows rows = csv_table(r, write_states_csv);
   const step_results read = results_of(r.what, r.what.steps[0], r.result.record.steps[0].end);
@@ -60,7 +60,7 @@ TEST_CASE("the table of states has a row inside an element for the extreme momen
   CHECK(value_in(rows.back()[8]) == Approx(-6.0).epsilon(1e-12));  // 3 q L / 8
 }
 
-TEST_CASE("the table of states has two rows for a node with a point load, between which the shear jumps") {
+TEST_CASE("at a node with a point load, the table of states has two rows with the shear on either side") {
   const a_run r(
       "[beam]\nlength = 4\nelements = 2\nEI = 10\n[[support]]\nnodes = [1, 3]\nfix = \"w\"\n[[step]]\nname = "
       "\"load\"\npoint = [ { node = 2, w = -6 } ]\n",
@@ -73,7 +73,7 @@ TEST_CASE("the table of states has two rows for a node with a point load, betwee
   CHECK(value_in(rows[1][6]) == Approx(-6.0 * 16 / (16 * 10)).epsilon(1e-14));  // P L^2 / 16 EI
 }
 
-TEST_CASE("the table of states has a bed's pressure at its nodes, modulus times settlement") {
+TEST_CASE("at the nodes of a bed, the table of states has the pressure, which is modulus times settlement") {
   const a_run r(
       "[beam]\nlength = 2\nelements = 2\nEI = 1e3\n[[bed]]\nmodulus = 50\nface = 0\n[[step]]\nuniform = "
       "-10\n",
@@ -85,8 +85,7 @@ TEST_CASE("the table of states has a bed's pressure at its nodes, modulus times 
       CHECK(value_in(row[9]) == Approx(-50 * value_in(row[5])).epsilon(1e-12));
 }
 
-TEST_CASE(
-    "the table of states has a row for each node of a plate with its slopes, and for each dof of a matrix") {
+TEST_CASE("the table of states of a plate has a row for each node, and that of a matrix a row for each dof") {
   const a_run r(std::string(good_plate), "corrected");
   const csv_rows rows = csv_table(r, write_states_csv);
   REQUIRE(rows.size() == 1 + 6);
@@ -102,7 +101,7 @@ TEST_CASE(
   CHECK(of_frame[0][2] == "dof");
 }
 
-TEST_CASE("the table of states has a beam's stress M / W in each row if there is a section modulus") {
+TEST_CASE("if a beam has a section modulus W, each row of the table of states has the stress M / W") {
   const a_run r(
       "[beam]\nlength = 4\nelements = 2\nsection = { E = 10, I = 1, W = 0.5 }\n[[support]]\nnodes = [1, 3]\n"
       "fix = \"w\"\n[[step]]\npoint = [ { node = 2, w = -6 } ]\n",
@@ -114,8 +113,7 @@ TEST_CASE("the table of states has a beam's stress M / W in each row if there is
   CHECK(value_in(rows[4].back()) == Approx(0.0).margin(1e-13));
 }
 
-TEST_CASE(
-    "the table of states has the von Mises stress of a plate with a thickness, 6 m / t^2 in pure bending") {
+TEST_CASE("in pure bending, the table of states of a plate has the von Mises stress 6 m / t^2") {
   const a_run r(
       "[plate]\nsize = [2, 1]\nelements = [2, 1]\nnu = 0\nE = 1e7\nthickness = 0.1\n[[support]]\n"
       "nodes = [1, 4]\nfix = [\"w\", \"wx\"]\n[[step]]\n"
@@ -128,7 +126,7 @@ TEST_CASE(
     CHECK(value_in(rows[node].back()) == Approx(6 * 3 / 0.01).epsilon(1e-9));
 }
 
-TEST_CASE("the envelope's table has the minimum and maximum curves, one row for each place") {
+TEST_CASE("the table of an envelope has the least and the largest value of each quantity at each place") {
   const a_run r(loaded_and_freed, "corrected");
   const csv_rows rows = csv_table(r, write_envelope_csv);
   const envelope_curves curves = curves_of(r.result);

@@ -62,7 +62,7 @@ double number(const std::string& field) {
 
 }  // namespace
 
-TEST_CASE("a path that is lost before any call has a table with the reference solution's state") {
+TEST_CASE("if a path is lost before any call, the CSV table has the state of the reference solution") {
   // The stiffness of the slope at the corner is 0 in doubles.
   const a_run r(
       "[plate]\nsize = [2, 2]\nelements = [2, 2]\nnu = 0\nD = 1\n[[support]]\nnode = 8\nspring = { wy = 1 }\n"
@@ -77,7 +77,7 @@ TEST_CASE("a path that is lost before any call has a table with the reference so
   CHECK(t.pairs.size() == 2);
 }
 
-TEST_CASE("a share of the step is printed in at most nine columns, and as 1 only if it is exactly 1") {
+TEST_CASE("a share of the step takes at most nine characters, and is printed as 1 only if it is exactly 1") {
   CHECK(share_words(1.0) == "1");
   CHECK(share_words(0.25) == "0.25");
   CHECK(share_words(0.0789473684210526) == "0.0789474");
@@ -91,7 +91,7 @@ TEST_CASE("a share of the step is printed in at most nine columns, and as 1 only
   }
 }
 
-TEST_CASE("a CSV field with a comma, a quote or a line end is quoted") {
+TEST_CASE("a CSV field is quoted if it has a comma, a quote or a line end") {
   CHECK(csv_field("plain words") == "plain words");
   CHECK(csv_field("a,b") == "\"a,b\"");
   CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
@@ -99,7 +99,8 @@ TEST_CASE("a CSV field with a comma, a quote or a line end is quoted") {
   CHECK(csv_field("a\x1b[31m") == "a\\x1b[31m");
 }
 
-TEST_CASE("no text cell of a CSV file begins like a formula, with or without leading blanks") {
+TEST_CASE(
+    "no text field of a CSV file begins like a formula of a spreadsheet, with or without blanks before") {
   for (const std::string formula : {"=1+1", "+1", "-2.x", "@SUM(1)", "\t=1", "\r=1", " =1", "\n=1", "\uff1d1",
                                     "\uff0b1", "\uff0d1", "\uff20x"}) {
     const std::string field = csv_field(formula);
@@ -109,7 +110,7 @@ TEST_CASE("no text cell of a CSV file begins like a formula, with or without lea
   for (const std::string plain : {"", "185.3", "1-2", "a=b", "x+", "'=1"}) CHECK(csv_field(plain) == plain);
 }
 
-TEST_CASE("the table of increments has their numbers to the last digit, and their events") {
+TEST_CASE("the CSV table of increments has the numbers of the states to the last digit, and the events") {
   const tables t = tables_of(a_run(loaded_and_freed));
   // The table has a heading row, and the states include the start.
   REQUIRE(t.increments.size() == t.states.size());
@@ -131,7 +132,8 @@ TEST_CASE("the table of increments has their numbers to the last digit, and thei
   CHECK(number(t.increments[2][5]) == -60.0);
 }
 
-TEST_CASE("the table of pairs has a row for each pair in each increment, with the values of the states") {
+TEST_CASE(
+    "the CSV table of pairs has a row for each pair in each increment, with the numbers of the states") {
   const tables t = tables_of(a_run(loaded_and_freed));
   REQUIRE(t.pairs.size() == 1 + 2 * (t.states.size() - 1));
   bool pressed = false;
@@ -151,7 +153,7 @@ TEST_CASE("the table of pairs has a row for each pair in each increment, with th
   CHECK(pressed);
 }
 
-TEST_CASE("a step without movement has a row in the table of increments") {
+TEST_CASE("a step without movement has a row in the CSV table of increments") {
   const tables t = tables_of(a_run(with("fix = [\"w\", \"theta\"]", "fix = [\"w\"]")));
   REQUIRE(t.increments.size() == 2);
   CHECK(t.increments[1][2] == "end");
@@ -159,7 +161,7 @@ TEST_CASE("a step without movement has a row in the table of increments") {
   CHECK(t.increments[1][11].empty());
 }
 
-TEST_CASE("the table of pairs of a matrix names dofs by their labels, with or without coordinates") {
+TEST_CASE("the CSV table of pairs of a matrix names dofs by labels, with or without coordinates") {
   for (const auto& text : {portal_frame(), frame_without_coordinates()}) {
     std::string increments;
     std::string pairs;
@@ -187,13 +189,13 @@ run_table rows_for(const std::string& text, const std::string& leads = "fortran"
 }  // namespace
 
 TEST_CASE(
-    "many pairs that separate at the start of the load have one row in the table, and a few pairs one row "
-    "each") {
+    "many pairs that separate at the start of the load have one printed row in common, and a few have one "
+    "row each") {
   CHECK_THAT(rows_for(lying_beam(40)).text, Contains(" at first load"));
   CHECK_THAT(rows_for(lying_beam(3)).text, Contains("break 4: node 4 below") && !Contains(" at first load"));
 }
 
-TEST_CASE("the legend explains the column of kernels if several kernels run") {
+TEST_CASE("if several kernels run, the legend of the printed table explains the column of kernels") {
   const auto legend_of = [](const std::string& leads) {
     std::string all;
     for (const std::string& words : rows_for(good_problem, leads).legend) all += words + "\n";
@@ -203,15 +205,14 @@ TEST_CASE("the legend explains the column of kernels if several kernels run") {
   CHECK_THAT(legend_of("cpp"), !Contains("kernels:") && Contains("share:"));
 }
 
-TEST_CASE(
-    "The table's largest values have their units, and are not aligned in columns if a line is too long") {
+TEST_CASE("In the printed table, largest values have units, and a narrow table does not align them") {
   const a_run r("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem));
   CHECK_THAT(table_of(r.result, {100, false}, false).text,
              Contains("moment        -36.2791 kN m     node 1, x = 0\n"));
   CHECK_THAT(table_of(r.result, {44, false}, false).text, Contains("moment -36.2791 kN m, node 1, x = 0\n"));
 }
 
-TEST_CASE("The table gives the position of each face that moved, below the step's end") {
+TEST_CASE("The printed table gives the new position of each face that moved, below the end of the step") {
   const std::string text =
       table_of(
           a_run("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[support]]\nnode = 1\nfix = [\"w\", "
@@ -226,7 +227,7 @@ TEST_CASE("The table gives the position of each face that moved, below the step'
   CHECK(text.find("   2.1  ") < text.find(line));
 }
 
-TEST_CASE("The detailed tables have every pair, reaction and end of an element, within 80 columns") {
+TEST_CASE("The detailed printed tables have every pair, reaction and end of an element, within 80 columns") {
   const std::string text = table_of(a_run(good_problem).result, {80, false}, true).text;
   CHECK_THAT(text, Contains("       1          3  below    contact                 0       41.86047 2\n"));
   CHECK_THAT(text, Contains("               node  dof                       reaction x\n"));
@@ -237,13 +238,13 @@ TEST_CASE("The detailed tables have every pair, reaction and end of an element, 
     CHECK(end - at <= 80);
 }
 
-TEST_CASE("A value that is only rounding of earlier larger values is printed as 0, without a place") {
+TEST_CASE("A value that is only rounding of larger values before is printed as 0, without a place") {
   CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
              Contains("        moment        0\n") && Contains("        reaction      0\n"));
 }
 
 TEST_CASE(
-    "the table of more than 12 combinations has one row each with its name, and the largest values below") {
+    "more than 12 combinations are printed as one row each with a name, and then their largest values") {
   const std::string train =
       "[beam]\nlength = 24\nelements = 24\nEI = 1e4\n[[support]]\nx = [0, 24]\nfix = \"w\"\n"
       "[[train]]\nname = \"HL-93\"\naxles = [ { at = 0, w = -10 } ]\nfrom = 0\nto = 24\nby = ";
@@ -258,7 +259,7 @@ TEST_CASE(
   CHECK_THAT(few, Contains("end  HL-93 at 8;"));
 }
 
-TEST_CASE("a row of the --csv table ends with the name of its step") {
+TEST_CASE("the last column of the CSV table of increments has the name of the step") {
   std::string text;
   output_file out(&text);
   write_csv(a_run("[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
@@ -269,9 +270,7 @@ TEST_CASE("a row of the --csv table ends with the name of its step") {
   CHECK(rows_of(text).at(1).back() == "dead, live");
 }
 
-TEST_CASE(
-    "the extremes of more than six steps are printed in a table for each quantity, with one row for each "
-    "step") {
+TEST_CASE("for more than six steps, a table of extremes is printed for each quantity, with one row a step") {
   std::string text = propped_cantilever;
   for (int step = 2; step <= 7; ++step) text += "[[step]]\nuniform = -" + std::to_string(8 * step) + "\n";
   const std::string shown = rows_for(text).text;
@@ -282,7 +281,7 @@ TEST_CASE(
                  Contains("step 7             -28  node 1, x = 0                    15.75  x = 1.25\n"));
 }
 
-TEST_CASE("the table of a matrix has units for dofs that are known to be lengths") {
+TEST_CASE("in the printed table of a matrix, a value has a unit if its dof is known to be a length") {
   const a_run r(portal_frame() + "[units]\nlength = \"m\"\nforce = \"N\"\n", "cpp");
   const std::string shown = table_of(r.result, {100, false}, false).text;
   CHECK_THAT(shown, Contains("-0.00123118 m     dof 6.y") &&
@@ -298,7 +297,7 @@ TEST_CASE("the table of a matrix has units for dofs that are known to be lengths
   CHECK(unit_words(placed, "w", 2).empty());
 }
 
-TEST_CASE("the table's sums of forces have units, and are 0 if they are only rounding") {
+TEST_CASE("the printed sums of forces have units, and are 0 if they are only rounding") {
   // The reactions of the second step, up to 0.45 kN, cancel.
   const a_run r(read_problem(CONTCT_REFERENCE "/problems/pp06-plate-over-settling-line.toml"), "corrected");
   const std::string shown = table_of(r.result, {100, false}, false).text;
