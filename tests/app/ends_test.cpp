@@ -124,7 +124,7 @@ TEST_CASE("the JSON result and the CSV table of pairs have the same contact forc
 }
 
 TEST_CASE(
-    "contct exact counts the corrected kernel's correct digits from the contact forces of the run's result") {
+    "contct exact gives the corrected kernel more than 15 correct digits of the force of a very stiff stop") {
   const scratch_folder dir;
   dir.write(
       "p.toml",

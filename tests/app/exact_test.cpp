@@ -27,7 +27,7 @@ finished exactly(const std::string& problem, const std::vector<std::string>& mor
 }  // namespace
 
 TEST_CASE(
-    "contct exact prints the share at which the beam of PB7 reaches both outer stops as the fraction 3/38") {
+    "contct exact prints the share at which a beam reaches both outer stops (PB7) as the fraction 3/38") {
   const finished f =
       contct_program(root, {"exact", three_gaps, "--kernels", "fortran,cpp,fortran-r4,corrected"});
   CHECK(f.exit == 0);
@@ -83,8 +83,8 @@ TEST_CASE("contct exact refuses a structure with more than 50,000 dofs") {
 }
 
 TEST_CASE(
-    "contct run and contct exact use the shortest decimal of each double, and warn about longer numbers in a "
-    "file") {
+    "contct run and contct exact use the shortest decimal of each double, and warn if a file has a longer "
+    "number") {
   const scratch_folder dir;
   dir.write(
       "p.toml",

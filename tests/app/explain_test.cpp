@@ -107,8 +107,7 @@ TEST_CASE("contct explain wraps lines at the width of the terminal, from 40 to 1
 }
 
 TEST_CASE(
-    "contct explain --step, --increment and --pair select increments by their numbers in the table, and "
-    "pairs") {
+    "contct explain --step, --increment and --pair limit the explanation to a step, an increment or a pair") {
   const auto count = [](const std::string& text, const char* piece) {
     std::size_t n = 0;
     for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++n;
@@ -273,7 +272,9 @@ TEST_CASE(
   CHECK(compared > 10'000);
 }
 
-TEST_CASE("contct explain TRACE describes a call, and shows a differing kernel's text and faulty line") {
+TEST_CASE(
+    "contct explain TRACE describes a call of the trace, and shows the faulty line of a kernel that "
+    "differs") {
   const std::string plugin = "plugin:" + std::string(CONTCT_PLUGINS) + "/libvariant_less_equal.so";
   const finished f =
       explained({"reference/traces/ties.trace", "--increment", "4", "--kernels", "fortran," + plugin});

@@ -54,7 +54,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "contct verify --results has exit status 2 below --least numbers, but still writes the requested files") {
+    "contct verify --results has exit status 2 for fewer numbers than --least, but writes the requested "
+    "files") {
   const scratch_folder dir;
   const finished f = judged(dir, "41.8604651", "6");
   CHECK(f.exit == 2);

@@ -69,7 +69,8 @@ TEST_CASE(
   CHECK(dir.files() == before);
 }
 
-TEST_CASE("a warning gives the number of pairs that --vtu omits because their coordinates are unknown") {
+TEST_CASE(
+    "a warning gives the number of pairs that --vtu omits because the pairs have no known coordinates") {
   const scratch_folder dir;
   const std::string two = header + "2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
   dir.write("K.mtx", two);

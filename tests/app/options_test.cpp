@@ -46,7 +46,8 @@ std::string refusal(const words& line) {
 
 }  // namespace
 
-TEST_CASE("without options, contct run has no kernels and no output files in its parsed command line") {
+TEST_CASE(
+    "a command line of contct run without options is parsed as one with no kernels and no output files") {
   const auto o = parsed<run_options>({"run", "beam.toml"});
   CHECK(o.file == "beam.toml");
   CHECK(o.kernels.empty());

@@ -51,7 +51,7 @@ TEST_CASE("contct replay refuses a kernel whose precision is not that of the tra
 }
 
 TEST_CASE(
-    "if the trace has a changed answer, contct replay reports the branch margin and a failure, with exit "
+    "if a trace has a changed answer, contct replay reports a mismatch and its branch margin, with exit "
     "status 1") {
   const scratch_folder dir;
   std::string trace = recorded(dir, "pb01-cantilever-tip-stop.toml");

@@ -91,8 +91,7 @@ TEST_CASE(
              Contains(red));
 }
 
-TEST_CASE(
-    "without --kernels, --trace and --log of contct run write the calls and the text of the 1989 rule") {
+TEST_CASE("if --kernels is not given, contct run writes the trace and unit 26 of the 1989 rule") {
   const scratch_folder dir;
   const std::string pb7 = CONTCT_ROOT "/reference/problems/pb07-three-gap-supports.toml";
   const auto calls = [&](std::vector<std::string> more) {

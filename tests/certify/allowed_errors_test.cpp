@@ -100,8 +100,7 @@ TEST_CASE("larger error bounds of a state do not increase the allowed error") {
 }
 
 TEST_CASE(
-    "under couples alone, the allowed error of a beam's forces is 2^-60 times its largest moment over the "
-    "span") {
+    "under couples alone, the allowed error of a beam's forces is 2^-60 times (largest moment / span)") {
   error_bounds b = bounds(1e-9, 2.0, 1e-30, 0.0);
   b.size[quantity::moment] = 40.0;
   allowed_errors sizes;

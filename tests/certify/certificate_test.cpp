@@ -105,8 +105,8 @@ TEST_CASE("a correct state is certified, and every error in the certificate is b
 }
 
 TEST_CASE(
-    "each error of a state appears in all measures of the certificate that it affects, and the message names "
-    "one") {
+    "an error of a state changes all measures of the certificate that it affects, and the message names the "
+    "worst") {
   // A wrong status of a pair with a weak spring does not disturb equilibrium, so only penetration or
   // tension detects the wrong status.
   const beam_problem p = span_with_pairs();

@@ -102,7 +102,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A spring K and a pair k that overlap by m press on each other with the force m / (1 / K + 1 / k)") {
+    "A spring of stiffness K and a pair of stiffness k that overlap by m have the force m / (1 / K + 1 / "
+    "k)") {
   assembled a;
   a.stiffness = {1, {{0, 0, 300.0}}};
   problem p;

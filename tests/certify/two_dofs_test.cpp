@@ -98,8 +98,7 @@ TEST_CASE("Two cantilevers that meet press on each other with (F / k1 - gap) / (
 }
 
 TEST_CASE(
-    "For a pair of two dofs, the 1989 kernels get their difference in an additional row, and answer "
-    "equally") {
+    "The 1989 kernels get the difference of a pair's two dofs in an additional row, and give equal answers") {
   const problem p = two_cantilevers();
   struct : observer {
     void called(const answered_call& c) override {
@@ -121,7 +120,7 @@ TEST_CASE(
   CHECK(calls.rows[2] == Approx(-0.002 - 75.0 / 11 / 1e5).epsilon(1e-10));  // c - C / k
 }
 
-TEST_CASE("A pair that is the only hold of a body acts as a spring in series between two bodies") {
+TEST_CASE("A pair that alone holds a body acts as a spring in series with the springs of both bodies") {
   in_every_storage(chain(0.0), {"fortran", "corrected"}, [](const met& path) {
     REQUIRE(path.end.status == path_status::solved);
     CHECK(path.u(1)[3] == Approx(-9.0 / 200 - 9.0 / 100 - 9.0 / 600 - 9.0 / 50).epsilon(1e-11));
@@ -161,7 +160,7 @@ TEST_CASE("A dof may be in a pair with the ground and in a pair with a second do
   });
 }
 
-TEST_CASE("A moved face between two dofs reduces the gap of its pair") {
+TEST_CASE("A face that moves between two dofs reduces the gap of the pair") {
   problem p = on_matrix({2, {{0, 0, 300}, {1, 0, 0}, {1, 1, 200}}}, {{0, face_below, -0.01, 600.0, false, 1}},
                         {force(0, -9)});
   p.steps[0].moves = {{0, 0, 0.005}};

@@ -41,7 +41,9 @@ TEST_CASE(
   CHECK(words_of(*of_response) == "pair 3: IF (DTEST(NDOF).EQ.0.) was true, exactly on the threshold");
 }
 
-TEST_CASE("if SMIN is wrong, the nearest IF (branch margin) is at the wrong SS, or else at the smallest SS") {
+TEST_CASE(
+    "if SMIN is wrong, the nearest IF (branch margin) is that of the wrong SS, or else that of the smallest "
+    "SS") {
   const auto of_ss = named(three_pairs(), [](call_outputs& o) { o.smin = o.ss[1] = 1e-17; });
   REQUIRE(of_ss);
   CHECK(of_ss->what == branch::stationary);
@@ -51,8 +53,8 @@ TEST_CASE("if SMIN is wrong, the nearest IF (branch margin) is at the wrong SS, 
 }
 
 TEST_CASE(
-    "if an ISEP is wrong, the nearest IF (branch margin) compares the DIFF of this pair, or SMIN without "
-    "events") {
+    "if an ISEP is wrong, the nearest IF (branch margin) tests the DIFF of this pair, or SMIN if nothing was "
+    "toggled") {
   // SMIN is the number next to 1, so the decision IF (SMIN.EQ.1.) has a narrower margin than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},
                                                       {0.0, 1.0, 4.0, separated, face_above}})
@@ -75,7 +77,7 @@ TEST_CASE(
   CHECK(words_of(*of_status) == "pair 1: IF (ISEP(I).EQ.1) was false");
 }
 
-TEST_CASE("a wrong SS by EPSGAP = 1e-9 is traced to IF (ABS(GAP).LT.EPSGAP) of the pair with this SS") {
+TEST_CASE("if EPSGAP = 1e-9 makes an SS wrong, this is traced to IF (ABS(GAP).LT.EPSGAP) of the same pair") {
   made_kernel wrong(
       [](call<double>& c) {
         std::vector<event> events(c.cc.size());

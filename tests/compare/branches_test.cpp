@@ -54,8 +54,7 @@ TEST_CASE("true and false outcomes of each IF of the listing are counted separat
 }
 
 TEST_CASE(
-    "a DIFF one ULP below EPSMUL has a branch margin of one ULP, and a DIFF of exactly EPSMUL a margin of "
-    "0") {
+    "if s is one ULP inside EPSMUL, DIFF is 512 ULP from the threshold (branch margin), and at the edge 0") {
   const double edge = 0.5 + 0.5 / 256;
   for (const auto& [face, ulps] : {std::pair(edge, 0UL), {std::nextafter(edge, 0.0), 1UL}}) {
     const small_call<double> c(
@@ -66,7 +65,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "if a gap is one ULP below EPSGAP, the IF nearest to its threshold is that of the gap, at one ULP") {
+    "if a gap is one ULP below EPSGAP, the nearest IF (branch margin) is that of the gap, at a distance of "
+    "one ULP") {
   small_call<double> c({{0.0, 1.0, std::nextafter(1e-10, 0.0), separated, face_above}});
   CHECK(margin_of(c, branch::stationary, 0) == 1);
   const std::optional<decision> least = narrowest_decision(c.ask().answered(), 8, any);

@@ -84,7 +84,7 @@ TEST_CASE("if SMIN is 1e-9 below 256/257, the mark s = 1 of a pair without an ev
 }
 
 TEST_CASE(
-    "the explanation of a stationary pair has the check variable, and no pair that is farther away is within "
+    "if a stationary pair wins, its s is the check variable times DELTA, and no advancing pair is within "
     "EPSMUL") {
   const explained_call e = explained(
       small_call<double>({{0.0, 2.0, 0.0, in_contact, face_below}, {0.0, 1.0, 0.5, separated, face_above}}));

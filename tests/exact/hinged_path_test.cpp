@@ -34,7 +34,7 @@ TEST_CASE("A two-span Gerber beam has no moment at the hinge, and the exact reac
 }
 
 TEST_CASE(
-    "Two cantilevers joined by a hinge over a stop deflect equally, and the exact force of the stop is 30") {
+    "Two cantilevers joined by a hinge over a stop press on the stop with exactly 30 under a load of 120") {
   const contct::problem p = parse_problem(
       "[beam]\nlength = 2.0\nelements = 4\nEI = 1e4\n[[hinge]]\nx = 1.0\n"
       "[[support]]\nx = [0.0, 2.0]\nfix = [\"w\", \"theta\"]\n"
@@ -47,7 +47,7 @@ TEST_CASE(
   CHECK(end.force.at(0) == 30);
 }
 
-TEST_CASE("The exact path of a beam with three hinges between two supports ends in a mechanism at once") {
+TEST_CASE("The exact path of a beam with three hinges between two supports ends in a mechanism") {
   const exact_path path =
       path_of(parse_problem("[beam]\nlength = 4.0\nelements = 4\nEI = 1\n[[hinge]]\nx = [1, 2, 3]\n"
                             "[[support]]\nx = [0, 4]\nfix = \"w\"\n[[step]]\nuniform = -1\n",

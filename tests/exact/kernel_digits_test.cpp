@@ -81,7 +81,7 @@ TEST_CASE("if a kernel's path ends early, its events do not count as those of th
   CHECK_THAT(r.first_difference, Contains("ends before the full load"));
 }
 
-TEST_CASE("an event that only one of the two paths has, the kernel's or the exact one, is reported") {
+TEST_CASE("an event is reported if only the kernel's path or only the exact path has it") {
   const stop_run run;
   const kernel_digits nothing = digit_counter(run.what, run.exactly).result("k", path_status::solved, 1e-9);
   CHECK_THAT(nothing.first_difference, Contains("pair 1 makes") && Contains("no further event"));

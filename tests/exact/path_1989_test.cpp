@@ -105,7 +105,7 @@ TEST_CASE("the exact 1989 rule toggles a stationary pair after DELTA of the resi
 }
 
 TEST_CASE(
-    "for the exact 1989 rule, a gap of 1e-11 is stationary, even if it is large in the unit of length") {
+    "for the exact 1989 rule, a gap of 1e-11 is stationary, although it closes only at 1/20 of the load") {
   const exact_path path =
       listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
   // Contact is made at a share of DELTA / d*, and not at the true share of 1/20.
@@ -147,7 +147,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("for the exact 1989 rule, a beam without supports above its stops is a mechanism") {
+TEST_CASE("by the exact 1989 rule, a free beam that is above its stops is a mechanism") {
   const exact_path path = listed("[beam]\nx = [0, 1]\nEI = 1\n" + stop(1, "-1", "1") + stop(2, "-1", "1") +
                                  "[[step]]\nuniform = -1\n");
   CHECK(path.status == contct::path_status::mechanism);

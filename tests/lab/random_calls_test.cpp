@@ -33,7 +33,8 @@ std::uint64_t digest(const call_inputs<double>& in) {
 }  // namespace
 
 TEMPLATE_TEST_CASE(
-    "adversarial random calls reach the exact threshold of every IF of the listing, and one ULP beside most",
+    "adversarial random calls reach the threshold of every IF of the listing exactly, and most within one "
+    "ULP",
     "", float, double) {
   using Real = TestType;
   random_calls<Real> source(1989);

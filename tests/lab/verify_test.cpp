@@ -169,7 +169,9 @@ TEST_CASE("a difference is relative to the expected value, but absolute if the e
   CHECK(n.difference() == 1e-3);
 }
 
-TEST_CASE("contct verify compares each number on the paths of both rules, and within certified accuracy") {
+TEST_CASE(
+    "contct verify compares each number on the paths of both rules, with the expected and with the exact "
+    "value") {
   const problem p = read_problem((reference / "problems" / "pb01-cantilever-tip-stop.toml").string());
   expected_number tip;
   tip.step = 2;

@@ -94,8 +94,8 @@ TEST_CASE("supports remove the rigid-body motions of a beam that is given by its
 }
 
 TEST_CASE(
-    "pairs hold a beam given by its matrix as they hold a beam, but two pairs at rotations hold one motion "
-    "only") {
+    "two pairs at deflections hold a beam given by its matrix, but two pairs at rotations remove only one "
+    "motion") {
   const linear_structure bare = build(beam_of(12), {}, {});
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4)})) == 1);
   CHECK(rank_of(by_matrix(bare, {}, {at_dof(4), at_dof(4)})) == 1);

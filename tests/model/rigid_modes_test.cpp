@@ -39,7 +39,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the rank of supports depends on the directions of their rows, and not on lengths from 1e-200 to 1e200") {
+    "the rank of supports depends only on the directions of their rows, whose lengths may be 1e-200 to "
+    "1e200") {
   for (const double size : {1e-200, 1.0, 1e200}) {
     CHECK(rank_of({{0, size, 0}, {0, 2 * size, 0}}) == 1);
     CHECK(rank_of({{0, size, 0}, {1, 1, 0}, {0, 0, size}}) == 3);

@@ -171,8 +171,8 @@ TEST_CASE("the difference between the work of two loads is unknown if the work o
 }
 
 TEST_CASE(
-    "two pairs carry a load between them, and a hinged support and a pair carry a load that compresses the "
-    "pair") {
+    "two pairs carry a load between the pairs, and a hinged support and a pair carry a load that compresses "
+    "the pair") {
   const linear_structure bare =
       build(beam_at({0, 1, 2, 3}), {}, {{0, -1, 0, 1, false}, {2, -1, 0, 1, false}});
   const auto carried = [](const linear_structure& s, const load& l) {
@@ -216,7 +216,9 @@ TEST_CASE("a plate's load has an equilibrium if and only if three of its pairs c
   CHECK(carried < 900);
 }
 
-TEST_CASE("a thousand pairs in a square carry a load on the edge of the square, but no load 1e-300 outside") {
+TEST_CASE(
+    "a thousand pairs in a square carry a load on the edge, but not if a moment of 1e-300 tips the plate "
+    "outwards") {
   plate p;
   for (int i = -15; i <= 15; ++i) p.x.push_back(i / 10.0);
   p.y = p.x;

@@ -55,7 +55,8 @@ TEST_CASE("a support acts in the row of its dof") {
 }
 
 TEST_CASE(
-    "a load within a step is a proportional mixture of the two loads, and loads at one place are added") {
+    "a load within a step is a mixture of the loads before and after the step, and loads at one place are "
+    "added") {
   const load before{{{2, 0, -10.0}}, {{{-4.0}, {}}}};
   const load after{{{2, 0, -60.0}, {1, 1, 5.0}}, {{{-8.0, 2.0}, {}}, {{1.0}, {0}}}};
   const load at = mix(before, after, 0.1);

@@ -5,8 +5,7 @@
 
 using namespace contct;
 
-TEST_CASE(
-    "a number in a file counts as the shortest decimal whatever zeros, sign or form of exponent it has") {
+TEST_CASE("is_shortest ignores zeros, signs and the form of the exponent of a number") {
   for (const char* same : {"0.25", ".25", "25e-2", "+0.2500", "2_5E-0_2", "2.5d-1", "0.025D+01", "00.25",
                            "0.2500000000000000000000", "000000000000000000000.25"}) {
     INFO(same);
@@ -41,7 +40,8 @@ TEST_CASE(
   CHECK_FALSE(last_written_digit("x").has_value());
 }
 
-TEST_CASE("the warning quotes the number in the file and the shortest decimal, and stays below 150 bytes") {
+TEST_CASE(
+    "the warning about a long number quotes the number and the shortest decimal, in less than 150 bytes") {
   const std::string used = ", is used everywhere";
   CHECK(rounding_words("0.10000000000000000555", 0.1) ==
         "found 0.10000000000000000555; the shortest decimal of its double, 0.1" + used);

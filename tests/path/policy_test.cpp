@@ -391,8 +391,7 @@ TEST_CASE("after a step that ends in the reference solution, the next step conti
 }
 
 TEST_CASE(
-    "the reference solution replaces the end of a path without a factor or at its limit, but not a sure "
-    "mechanism") {
+    "the reference solution replaces a path without a factor or at its limit, but not a certain mechanism") {
   const path_limits any{0, [](int, const full_load_state* reached) {
                           return found_end{reached != nullptr ? *reached : made_up_rest(), true};
                         }};

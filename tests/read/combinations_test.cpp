@@ -53,7 +53,7 @@ TEST_CASE(
                           "terms = { G = 2 }\n")) == std::vector<std::string>{"B", "A", "T at 0", "T at 1"});
 }
 
-TEST_CASE("the places of a train are `from`, then steps of `by`, and at most `to`") {
+TEST_CASE("a train is placed at `from`, and then every `by` farther as long as `to` is not exceeded") {
   const auto places = [](const std::string& numbers) {
     return names_of(parse_problem("[beam]\nlength = 1\nelements = 10\nEI = 1\n[[support]]\nx = [0, 1]\n"
                                   "fix = \"w\"\n[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\n" +

@@ -249,7 +249,7 @@ TEST_CASE("a mistake in CalculiX's input file is refused with line, what was fou
   CHECK(of_mesh(nodes) == "accepted");
 }
 
-TEST_CASE("a mesh of 60,000 bricks is read, and the edges are those of the grid") {
+TEST_CASE("a CalculiX mesh of 60,000 bricks is read, and its edges are those of the grid of bricks") {
   std::string text = "*NODE\n";
   constexpr int across = 41;
   constexpr int along = 38;

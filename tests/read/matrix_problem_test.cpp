@@ -400,7 +400,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "if half a unit in the last digits of a matrix file decides whether it is held, no state is certified") {
+    "if half a unit in the last digits of a matrix file decides whether the structure is held, nothing is "
+    "certified") {
   const scratch_folder to;
   const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
     (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +

@@ -28,8 +28,7 @@ double longest(const std::vector<double>& x) {
 }  // namespace
 
 TEST_CASE(
-    "a coordinate that equals a node's decimal refers to the node, although doubles of the mesh are "
-    "rounded") {
+    "a coordinate refers to the node with the same decimal, although the doubles of the mesh are rounded") {
   for (const auto& [length, elements] : {std::pair(1.0, 10), {0.7, 7}, {1.1, 11}, {2.3, 23}, {12.3, 123}}) {
     std::vector<double> x;
     for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);

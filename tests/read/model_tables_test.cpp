@@ -70,8 +70,7 @@ const char* const a_step = "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n";
 }  // namespace
 
 TEST_CASE(
-    "without labels, the labels of a matrix are the numbers of its dofs, and keys of the file set its "
-    "storage") {
+    "dofs of a matrix without labels are named by number, and the file may set storage and free_motions") {
   const scratch_folder here;
   (void)here.write("K.mtx", small_matrix);
   const auto read = [&](const std::string& keys) {

@@ -49,7 +49,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an array of wrong length is refused at its start, and a wrong number in an array at its own place") {
+    "an array of wrong length is refused at the place of the array, and a wrong number at the place of the "
+    "number") {
   CHECK_THAT(refusal("n = [1]", reals),
              Contains("f.toml:1:5: n: found an array of 1; allowed: an array of at"));
   CHECK_THAT(refusal("n = [1, 2, 0]", reals),

@@ -170,7 +170,9 @@ TEST_CASE("in the JSON result, loads, contact forces and reactions add up to 0")
   CHECK(step["elements"][1]["shear"][1].get<double>() == Approx(60.0 - pair).epsilon(1e-11));
 }
 
-TEST_CASE("in the JSON result, a separated pair has a gap and no force, and a mechanism has the last state") {
+TEST_CASE(
+    "in the JSON result, a separated pair has a gap and no force, and a mechanism has the state that was "
+    "reached") {
   const auto r = result_of(
       "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnode = 2\nsurface = \"below\"\nface = "
       "0\nstiffness = 10\n"

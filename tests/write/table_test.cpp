@@ -205,7 +205,8 @@ TEST_CASE("if several kernels run, the legend of the printed table explains the 
   CHECK_THAT(legend_of("cpp"), !Contains("kernels:") && Contains("share:"));
 }
 
-TEST_CASE("In the printed table, largest values have units, and a narrow table does not align them") {
+TEST_CASE(
+    "In the printed table, the largest values have units, and are not aligned if the terminal is narrow") {
   const a_run r("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem));
   CHECK_THAT(table_of(r.result, {100, false}, false).text,
              Contains("moment        -36.2791 kN m     node 1, x = 0\n"));
@@ -238,7 +239,7 @@ TEST_CASE("The detailed printed tables have every pair, reaction and end of an e
     CHECK(end - at <= 80);
 }
 
-TEST_CASE("A value that is only rounding of larger values before is printed as 0, without a place") {
+TEST_CASE("A value that is only rounding of earlier larger values is printed as 0, and no place is given") {
   CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
              Contains("        moment        0\n") && Contains("        reaction      0\n"));
 }
@@ -270,7 +271,8 @@ TEST_CASE("the last column of the CSV table of increments has the name of the st
   CHECK(rows_of(text).at(1).back() == "dead, live");
 }
 
-TEST_CASE("for more than six steps, a table of extremes is printed for each quantity, with one row a step") {
+TEST_CASE(
+    "for more than six steps, a table of extremes is printed for each quantity, with one row for each step") {
   std::string text = propped_cantilever;
   for (int step = 2; step <= 7; ++step) text += "[[step]]\nuniform = -" + std::to_string(8 * step) + "\n";
   const std::string shown = rows_for(text).text;

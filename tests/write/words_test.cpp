@@ -141,7 +141,9 @@ TEST_CASE(
   CHECK(warned_of("[[step]]\nuniform = -1\npoint = [ { node = 13, w = 0 } ]\n").empty());
 }
 
-TEST_CASE("contct run does not warn of a force at a free corner of a plate, where the moment stays finite") {
+TEST_CASE(
+    "contct run does not warn of a force at a free corner of a plate, where the twisting moment is half the "
+    "force") {
   const a_run r(
       "[plate]\nsize = [1, 1]\nelements = [4, 4]\nE = 10.92\nnu = 0.3\nthickness = 1\n[[support]]\n"
       "nodes = [5, 21, 25]\nfix = \"w\"\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",
