@@ -48,7 +48,7 @@ TEST_CASE(
   CHECK_THAT(refusal(dir, "-", {"[beam]\nEI = 0\n", {}, false}), StartsWith("contct: standard input:"));
 }
 
-TEST_CASE("contct run refuses an output file that cannot be written before it solves anything") {
+TEST_CASE("before contct run solves a problem, it refuses an output file that cannot be written") {
   const scratch_folder dir;
   dir.write("good.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "good.toml", "--json", "no/such/place.json"});

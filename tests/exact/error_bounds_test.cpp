@@ -245,8 +245,8 @@ TEST_CASE("refine replaces displacements that are only rounding by 0, so that th
 }
 
 TEST_CASE(
-    "without load, displacement errors have bounds if supports hold the structure, and else only forces have "
-    "bounds") {
+    "without load, displacements have error bounds if supports hold the structure, and otherwise only forces "
+    "have") {
   const std::string freed =
       "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nnodes = [1, 5]\nfix = \"w\"\n"
       "[[contact]]\nnode = 3\nsurface = \"below\"\nface = -1e-4\nstiffness = 1e5\n[[step]]\nuniform = -10\n"

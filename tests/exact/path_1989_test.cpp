@@ -105,7 +105,8 @@ TEST_CASE("the exact 1989 rule toggles a stationary pair after DELTA of the resi
 }
 
 TEST_CASE(
-    "for the exact 1989 rule, a gap of 1e-11 is stationary, although it closes only at 1/20 of the load") {
+    "for the exact 1989 rule, a gap of 1e-11 is stationary, although the gap closes only at 1/20 of the "
+    "load") {
   const exact_path path =
       listed(one_span + stop(2, "-1e-11", "3") + "[[step]]\npoint = [ { node = 2, w = -6e-10 } ]\n");
   // Contact is made at a share of DELTA / d*, and not at the true share of 1/20.

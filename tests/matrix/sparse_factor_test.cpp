@@ -24,7 +24,8 @@ std::ptrdiff_t threads_of_this_process() {
 
 }  // namespace
 
-TEST_CASE("the sparse factor L times its transpose is the matrix with its rows in the order of the factor") {
+TEST_CASE(
+    "the product of the sparse factor L and its transpose is the matrix in the factor's order of rows") {
   const band_matrix k = random_band(unknowns, 7, 4);
   const auto f = sparse_factor::make(columns_of(k));
   REQUIRE(f->factor(diagonal_of(k)));

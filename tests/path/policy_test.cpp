@@ -210,7 +210,7 @@ beam_problem cantilever_on_two() {
 }  // namespace
 
 TEST_CASE(
-    "if a pair toggles twice without progress of the load, it stays in contact until the load increases") {
+    "a pair that toggles twice without progress of the load stays in contact until the load increases") {
   restless_first_pair restless;
   made_kernel k([&restless](call<double>& c) { restless(c); });
   const beam_problem p = cantilever_on_two();

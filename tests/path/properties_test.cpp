@@ -126,7 +126,7 @@ TEST_CASE("if loads and faces are 2^30 times as large, displacements are 2^30 ti
       6, factor, [factor](const random_problem& p) { return scaled(factor, p); }, held);
 }
 
-TEST_CASE("if a problem is turned upside down, its numbers change only their signs, to the bit") {
+TEST_CASE("if a problem is turned upside down, all numbers of the path only change sign, to the bit") {
   check_same_path(8, -1.0, upside_down);
 }
 

@@ -9,13 +9,13 @@ sys.path.append(str(ROOT / "reference"))
 import atlas  # noqa: E402
 
 
-def test_the_1989_rule_is_wrong_in_small_units_and_the_corrected_one_in_none():
+def test_the_1989_rule_is_wrong_in_small_units_of_length_and_neither_rule_in_the_unit_1():
     kernels = {"fortran": "fortran", "corrected": "corrected"}
     assert atlas.count(10, 1989, 1e-12, kernels)["fortran"] >= 5
     assert atlas.count(10, 1989, 1.0, kernels) == {"fortran": 0, "corrected": 0}
 
 
-def test_the_table_of_the_page_has_the_shares_of_the_picture():
+def test_the_table_in_divergences_md_has_the_shares_that_atlas_svg_shows():
     rows = [[float(part) for part in row] for row in re.findall(
         r"^\| (1e-?\d+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", (ROOT / "reference/DIVERGENCES.md").read_text(), re.M)]
     assert [row[0] for row in rows] == [10.0 ** decade for decade in atlas.DECADES]

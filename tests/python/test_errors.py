@@ -13,7 +13,7 @@ def refusal(problem, function=contct.check, **options):
     return caught.value
 
 
-def test_a_file_is_named_with_line_and_column(tmp_path, monkeypatch):
+def test_an_error_in_a_problem_file_has_file_line_and_column(tmp_path, monkeypatch):
     text = (PROBLEMS / "pb01-cantilever-tip-stop.toml").read_text()
     line = text.split("\n").index("stiffness = 5.0e4") + 1
     bad = tmp_path / "bad.toml"
@@ -29,7 +29,7 @@ def test_a_file_is_named_with_line_and_column(tmp_path, monkeypatch):
     assert refusal("bad.toml").file == "bad.toml"
 
 
-def test_an_error_in_a_dict_has_the_line_of_its_text(beam):
+def test_an_error_in_a_problem_given_as_a_dict_has_the_line_of_the_toml_text(beam):
     beam["contact"][0]["face"] = "low"
     error = refusal(beam)
     assert (error.file, error.column) == ("problem", 8)
@@ -37,7 +37,7 @@ def test_an_error_in_a_dict_has_the_line_of_its_text(beam):
     assert error.__notes__ == [f'line {error.line} of problem: face = "low"']
 
 
-def test_a_text_has_a_place():
+def test_an_error_in_a_problem_given_as_text_has_line_and_column():
     error = refusal("[beam]\nx = 3\n")
     assert (error.file, error.line, error.column) == ("problem", 2, 5)
     assert error.message == "beam.x: found 3; allowed: an array of at least 2 numbers, each a finite number"
@@ -48,7 +48,7 @@ def test_a_text_has_a_place():
     assert refusal("a = 1\nb = '\ud800'\n").line == 2  # a surrogate is not valid UTF-8
 
 
-def test_an_argument_that_is_not_a_problem_is_refused():
+def test_run_and_check_refuse_an_argument_that_is_not_a_problem():
     assert "found 'beam'; allowed: a path or a name that ends in \".toml\"" in refusal("beam").message
     assert refusal("").line is None
     for nothing in (None, 3, ["a"], b"[beam]\n"):
@@ -60,7 +60,7 @@ def test_an_argument_that_is_not_a_problem_is_refused():
         contct.read("no-such-file.toml")
 
 
-def test_options_and_states_are_refused(beam):
+def test_wrong_options_of_run_and_wrong_states_of_certify_are_refused(beam):
     assert refusal(beam, contct.run, engine="steam").message.startswith('options: engine: found "steam"; allowed: auto, ')
     with pytest.raises(TypeError, match="found a set as an option"):
         contct.run(beam, max_increments={1})
@@ -69,7 +69,7 @@ def test_options_and_states_are_refused(beam):
     assert "found nan in state 1, dof 2" in refusal(beam, lambda p: contct.certify(p, [0.0, float("nan"), 0, 0, 0, 0])).message
 
 
-def test_a_toml_error_of_read_has_a_place(tmp_path):
+def test_a_toml_error_in_contct_read_has_file_line_and_column(tmp_path):
     bad = tmp_path / "bad.toml"
     bad.write_text("a = 1\nb = ?\n")
     error = refusal(bad, contct.read)
@@ -93,7 +93,7 @@ point = [ { node = 2, w = 1.0 } ]
 """
 
 
-def test_other_ends_are_results(beam):
+def test_a_mechanism_and_a_reached_limit_give_a_result_and_no_exception(beam):
     found = contct.run(MECHANISM)
     assert (found.exit, found.status, found.certified) == (4, "mechanism", False)
     assert found.end.reason == "mechanism" and "no equilibrium" in found.messages[-1]
@@ -102,7 +102,7 @@ def test_other_ends_are_results(beam):
     assert contct.run(beam, kernels="fortran", max_increments=1).exit == 5
 
 
-def test_strict_raises_what_is_not_solved_equal_and_certified(beam):
+def test_run_with_strict_raises_an_exception_unless_the_result_is_solved_and_certified(beam):
     assert contct.run(beam, strict=True).certified
     for problem, options, exit, words in ((MECHANISM, {}, 4, "mechanism"), (beam, {"kernels": "fortran", "max_increments": 1}, 5, "iteration-limit"),
                                           (PROBLEMS / "divergences/near-tie.toml", {"kernels": "fortran,cpp"}, 3, "NOT certified")):
@@ -120,7 +120,7 @@ def of_matrix(folder, name):
             "step": [{"point": [{"dof": "1", "value": 3.0}]}]}
 
 
-def test_files_of_a_problem_are_looked_for_beside_it_or_in_the_folder(tmp_path, monkeypatch):
+def test_files_that_a_problem_names_are_beside_its_file_or_in_the_given_folder(tmp_path, monkeypatch):
     problem = of_matrix(tmp_path, "K.mtx")
     (tmp_path / "p.toml").write_text(contct.to_toml(problem))
     found = contct.run(tmp_path / "p.toml")
@@ -133,7 +133,7 @@ def test_files_of_a_problem_are_looked_for_beside_it_or_in_the_folder(tmp_path, 
     assert "K.mtx" in refusal(tmp_path / "p.toml", contct.run).file
 
 
-def test_a_problem_names_files_outside_its_folder_only_where_that_is_allowed(tmp_path):
+def test_a_problem_may_name_a_file_outside_its_folder_only_with_allow_outside(tmp_path):
     (tmp_path / "own").mkdir()
     problem = of_matrix(tmp_path, "../K.mtx")
     with pytest.raises(contct.InputError, match="not below the folder of the problem file.*allow_outside"):

@@ -11,7 +11,7 @@ from conftest import PROBLEMS, ROOT
 LAYOUT = dict(dd=[0.0, 9.0, 0.0, 9.0], dtest=[2.0, 0.0, 1.0, 0.0], cc=[0.5, 0.75], id=[1, 2], isep=[1, 1], isurf=[1, 1], ndofpn=2)
 
 
-def test_a_call_is_answered():
+def test_contct_call_returns_the_answer_of_a_kernel_to_one_call():
     isep = [1, 1]
     found = contct.call("fortran", [0, 0], [2, 1], [0.5, 0.75], [1, 2], isep, [1, 1])
     assert (list(found.ss), found.smin, list(found.isep)) == ([0.25, 0.75], 0.25, [-1, 1])
@@ -21,7 +21,7 @@ def test_a_call_is_answered():
     assert (list(none.ss), none.smin, list(none.isep)) == ([], 1.0, [])
 
 
-def test_a_call_takes_any_array():
+def test_contct_call_accepts_tuples_lists_arrays_and_numpy_arrays():
     expected = contct.call("fortran", **LAYOUT)
     kinds = [tuple, list, lambda x: array.array("d" if isinstance(x[0], float) else "i", x)]
     for kind in kinds + ([contct._numpy.array] if contct._numpy else []):
@@ -39,7 +39,7 @@ def test_a_call_takes_any_array():
     ({"id": [1, 2**40]}, contct.InputError, "id: .*; allowed: whole numbers of 32 bits"), ({"id": [1, 1.5]}, TypeError, "id: .*float"),
     ({"dd": ["a", 1, 1, 1]}, TypeError, "dd: "), ({"cc": 3}, TypeError, "cc: "),
     ({"indof": 3}, contct.InputError, "pair 2: found ID 2, which is dof 5 with INDOF 3 and NDOFPN 2; allowed: a dof from 1 to 4")])
-def test_a_wrong_call_is_refused(change, error, words):
+def test_contct_call_refuses_arrays_of_wrong_length_or_type(change, error, words):
     with pytest.raises(error, match=words):
         contct.call(**{"kernel": "fortran", **LAYOUT, **change})
 
@@ -62,7 +62,7 @@ def listing(call, near=0.390625e-02, s_of=scale_factor):
     return ss, smin, [(-1 if isep == 1 else 1) if t else isep for t, isep in zip(toggled, call.isep)]
 
 
-def test_a_right_kernel_is_equal():
+def test_contct_judge_finds_a_right_kernel_equal_to_the_bit():
     found = contct.judge(listing, calls=2000, problems=5)
     assert found.equal and found.exit == 0 and found.mismatches == 0 and found.level == "bits" and found.findings == []
     assert found.values_compared > 30000 and found.kernels == ["fortran", "listing"] and found.seed == 1989
@@ -72,7 +72,7 @@ def test_a_right_kernel_is_equal():
         assert arrays.equal and arrays.values_compared > 10000
 
 
-def test_the_judgement_is_the_programs(ask):
+def test_contct_judge_gives_the_numbers_of_contct_fuzz(ask):
     exit, out, _ = ask("fuzz", "--calls", 1000, "--problems", 2, "--seed", 7, "--json", "-", "--quiet", "--kernels",
                        f"fortran,pipe:{sys.executable} {ROOT}/reference/kernels/contct_kernel.py")
     expected, found = json.loads(out), contct.judge(listing, calls=1000, problems=2, seed=7).to_dict()
@@ -82,13 +82,13 @@ def test_the_judgement_is_the_programs(ask):
     assert found == expected
 
 
-def test_a_kernel_with_a_fault_is_not():
+def test_contct_judge_detects_a_kernel_with_a_fault():
     found = contct.judge(lambda call: listing(call, near=0.4e-02), calls=2000, problems=5, name="wrong")
     assert not found.equal and found.exit == 1 and found.mismatches > 0 and found.level in ("none", "certificate", "events")
     assert "wrong differs in" in found.findings[0] and "NOT equal" in repr(found)
 
 
-def test_a_judgement_and_runs_at_once(beam):
+def test_contct_judge_and_contct_run_work_in_several_threads_at_once(beam):
     expected = contct.run(beam)
     with ThreadPoolExecutor(3) as pool:
         judged = [pool.submit(contct.judge, listing, calls=1000, problems=1) for _ in range(2)]
@@ -96,7 +96,7 @@ def test_a_judgement_and_runs_at_once(beam):
         assert all(j.result().equal for j in judged) and all(r.result() == expected for r in runs)
 
 
-def test_an_exception_of_a_kernel_is_raised_with_its_call():
+def test_contct_judge_raises_the_exception_of_a_kernel_with_a_note_about_the_call():
     seen = []
 
     def fails(call):
@@ -121,12 +121,12 @@ def test_an_exception_of_a_kernel_is_raised_with_its_call():
 @pytest.mark.parametrize("answer, error, words", [
     (None, TypeError, "found None; allowed: .ss, smin, isep"), (([], 1.0, []), contct.InputError, "found 0 values of ss and 0 of isep"),
     (("x", 1.0, []), TypeError, "allowed: .ss, smin, isep")])
-def test_a_wrong_answer_is_refused(answer, error, words):
+def test_contct_judge_refuses_an_answer_of_wrong_type_or_length(answer, error, words):
     with pytest.raises(error, match=words):
         contct.judge(lambda call: answer, calls=100, problems=1)
 
 
-def test_a_trace_is_replayed(ask):
+def test_contct_replay_compares_a_kernel_with_a_trace_and_refuses_a_malformed_trace(ask):
     path = ROOT / "reference/traces/ties.trace"
     found = contct.replay(path, kernel="cpp")
     assert found.calls > 5 and found.values_compared > 30 and found.mismatches == 0 and found.first is None

@@ -23,18 +23,18 @@ def alone(tmp_path):
     return tmp_path
 
 
-def test_beside_the_module_comes_first(alone):
+def test_the_library_beside_the_module_is_loaded_first(alone):
     assert imported(BUILD, CONTCT_LIBRARY="/no/such/library.so")[:2] == (0, os.path.join(os.path.realpath(BUILD), "libcontct.so"))
     os.symlink(os.path.join(BUILD, "libcontct.so"), alone / "libcontct.so.0")
     assert imported(alone)[:2] == (0, str(alone / "libcontct.so.0"))
 
 
-def test_the_variable_comes_next(alone):
+def test_without_a_library_beside_the_module_contct_library_names_the_library(alone):
     library = os.path.join(BUILD, "libcontct.so")
     assert imported(alone, CONTCT_LIBRARY=library)[:2] == (0, library)
 
 
-def test_the_system_comes_last(alone, tmp_path):
+def test_without_contct_library_the_library_of_the_system_is_loaded(alone, tmp_path):
     there = tmp_path / "lib"
     there.mkdir()
     os.symlink(os.path.join(BUILD, "libcontct.so"), there / "libcontct.so.0")
@@ -42,7 +42,7 @@ def test_the_system_comes_last(alone, tmp_path):
     assert status == 0 and name.endswith("libcontct.so.0") or "libcontct" in name, errors
 
 
-def test_no_library_is_an_import_error_that_says_what_to_do(alone):
+def test_without_a_library_the_import_error_says_what_to_do(alone):
     status, _, errors = imported(alone)
     if status == 0:
         pytest.skip("the system has a libcontct.so.0")
@@ -51,7 +51,7 @@ def test_no_library_is_an_import_error_that_says_what_to_do(alone):
     assert "ImportError: contct.py: /no/such.so" in imported(alone, CONTCT_LIBRARY="/no/such.so")[2]
 
 
-def test_another_library_is_refused(alone):
+def test_a_library_with_another_interface_is_refused(alone):
     if not shutil.which("cc"):
         pytest.skip("there is no C compiler")
     library = alone / "libcontct.so"

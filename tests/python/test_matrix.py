@@ -30,14 +30,14 @@ LOADS = [0.0, 0.0, -3.0]
 RIGHT = [-0.00125, -0.0025, -0.00375]
 
 
-def test_the_right_state_of_a_matrix_is_certified():
+def test_contct_certify_certifies_the_right_state_of_a_matrix():
     found = contct.certify(CHAIN, RIGHT, pairs=STOP, loads=LOADS)
     assert found.certified and found.exit == 0 and found.messages == []
     assert found.steps[0].error.w < 1e-15
     assert found.steps[0].pairs[0].state == "contact" and found.steps[0].pairs[0].force == pytest.approx(1.75, rel=1e-12)
 
 
-def test_a_state_that_passes_its_stop_is_not_certified_and_the_answer_is_the_right_one():
+def test_a_state_beyond_its_stop_is_not_certified_and_contct_certify_gives_the_right_state():
     found = contct.certify(CHAIN, [-0.003, -0.006, -0.009], pairs=STOP, loads=LOADS, closed=[])
     assert not found.certified and found.exit == 3
     assert found.steps[0].certificate.penetration == pytest.approx(0.007 / 0.009, rel=1e-9)
@@ -45,7 +45,7 @@ def test_a_state_that_passes_its_stop_is_not_certified_and_the_answer_is_the_rig
     assert found.answer.certified and list(found.answer.steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
 
 
-def test_a_pair_that_the_other_program_glued_pulls():
+def test_if_a_given_state_has_a_pulling_pair_the_message_names_this_pair():
     up = [0.0, 0.0, 3.0]
     glued = [0.00025, 0.0005, 0.00075]  # 1000 / 3 u + 1000 (u + 0.002) = 3
     found = contct.certify(CHAIN, glued, pairs=STOP, loads=up, closed=[1])
@@ -53,19 +53,19 @@ def test_a_pair_that_the_other_program_glued_pulls():
     assert found.answer.steps[0].displacement[2] == pytest.approx(0.009, rel=1e-12)
 
 
-def test_an_error_is_bounded_closely():
+def test_the_error_bound_of_a_given_state_is_at_most_ten_times_the_error():
     off = [u * (1 + 1e-9) for u in RIGHT]
     found = contct.certify(CHAIN, off, pairs=STOP, loads=LOADS)
     assert found.certified and 3.75e-12 <= found.steps[0].error.w <= 3.75e-11
 
 
-def test_dofs_are_rows_from_0_or_labels():
+def test_dofs_of_a_matrix_are_rows_counted_from_0_or_labels():
     by_label = contct.certify(CHAIN, RIGHT, pairs=[("c", "below", -0.002, 1000.0)], loads={"c": -3.0}, labels=["a", "b", "c"])
     assert by_label.certified and by_label.steps[0].pairs[0].dof == "c"
     assert contct.certify(CHAIN, RIGHT, pairs=STOP, loads={2: -3.0}).certified
 
 
-def test_supports_are_fixed_or_springs():
+def test_supports_of_a_matrix_are_fixed_dofs_or_springs():
     # Without its wall the chain moves freely. A spring of 1000 at dof 1 replaces the wall.
     free = Coo(3, [(0, 0, 1000.0), (0, 1, -1000.0), (1, 0, -1000.0), (1, 1, 2000.0), (1, 2, -1000.0), (2, 1, -1000.0), (2, 2, 1000.0)])
     assert contct.certify(free, RIGHT, pairs=STOP, loads=LOADS, supports={0: 1000.0}).certified
@@ -85,7 +85,7 @@ def test_supports_are_fixed_or_springs():
     ({"supports": [-1]}, "supports: found dof -1"),
     ({"closed": [2]}, "closed: found 2; allowed: pairs from 1 to 1"),
 ])
-def test_what_is_wrong_beside_a_matrix_is_refused(wrong, words):
+def test_wrong_pairs_loads_labels_or_supports_of_a_matrix_are_refused(wrong, words):
     with pytest.raises(contct.InputError) as refused:
         contct.certify(CHAIN, RIGHT, **{"pairs": STOP, "loads": LOADS, **wrong})
     assert words in str(refused.value)
@@ -103,19 +103,19 @@ def test_a_matrix_that_is_not_a_stiffness_matrix_is_refused(matrix, words):
     assert words in str(refused.value) and "/" not in str(refused.value)
 
 
-def test_what_belongs_to_a_matrix_is_refused_beside_a_problem(beam):
+def test_contct_certify_refuses_loads_of_a_matrix_together_with_a_problem(beam):
     with pytest.raises(contct.InputError, match="with a problem, which has its own"):
         contct.certify(beam, [0.0] * 6, loads=[0.0] * 6)
 
 
-def test_any_state_that_is_given_has_its_answer_and_a_run_has_none(beam):
+def test_contct_certify_also_gives_the_right_state_and_contct_run_has_no_answer(beam):
     found = contct.certify(beam, [0.0] * 6)
     assert found.answer.certified and found.answer.steps[0].w[2] == pytest.approx(-10 * 8 / 3e4, rel=1e-12)
     with pytest.raises(contct.InputError, match="contct.certify"):
         contct.run(beam).answer
 
 
-def test_the_answer_is_certified_where_the_1989_rule_goes_wrong():
+def test_for_a_wrong_path_of_the_1989_rule_contct_certify_gives_a_certified_answer():
     near_tie = PROBLEMS / "divergences/near-tie.toml"
     path = contct.run(near_tie, kernels=["fortran", "cpp"])
     assert not path.certified

@@ -32,7 +32,7 @@ def matplotlib():
     sys.modules["matplotlib.pyplot"].close("all")
 
 
-def test_a_beam_is_drawn_exactly_between_its_nodes(simple, matplotlib):
+def test_the_curves_of_a_beam_are_exact_between_nodes(simple, matplotlib):
     result = contct.run(simple, kernels="corrected")
     closed_forms = {"w": lambda x: q * x * (L**3 - 2 * L * x**2 + x**3) / (24 * EI), "moment": lambda x: -q * x * (L - x) / 2,
                     "shear": lambda x: -q * (L / 2 - x)}
@@ -43,7 +43,7 @@ def test_a_beam_is_drawn_exactly_between_its_nodes(simple, matplotlib):
     assert result.plot().get_ylabel() == "w [m]"
 
 
-def test_a_load_inside_an_element_and_a_hinge_have_their_kinks(matplotlib):
+def test_the_curves_of_a_beam_have_kinks_at_a_load_inside_an_element_and_at_a_hinge(matplotlib):
     beam = {"beam": {"length": 10.0, "elements": 2, "EI": EI}, "hinge": [{"node": 2}],
             "support": [{"node": 1, "fix": ["w", "theta"]}, {"node": 3, "fix": "w"}], "step": [{"point": [{"x": 7.5, "w": -8.0}]}]}
     result = contct.run(beam)
@@ -55,13 +55,13 @@ def test_a_load_inside_an_element_and_a_hinge_have_their_kinks(matplotlib):
     assert {round(v, 9) for v in ys} == {4.0, -4.0}
 
 
-def test_a_step_is_chosen_by_its_index(simple, matplotlib):
+def test_plot_draws_the_step_with_the_given_index(simple, matplotlib):
     axes = contct.run(simple, kernels="corrected").plot("moment", step=0)
     assert max(drawn(axes)["moment"][1]) == pytest.approx(-q / 2 * L**2 / 8)
     assert axes.get_title() == "Step 1, half" and axes.get_ylabel() == "moment [kN m]" and axes.get_xlabel() == "x [m]"
 
 
-def test_faces_are_bars_and_pairs_in_contact_are_where_the_beam_is(simple, matplotlib):
+def test_plot_draws_a_face_at_its_place_and_a_pair_in_contact_on_the_beam(simple, matplotlib):
     assert drawn(contct.run(simple, kernels="corrected").plot())["face"] == ([3.0], [-0.3])
     simple["contact"][0]["face"] = -0.1
     pressed = contct.run(simple, kernels="corrected")
@@ -70,12 +70,12 @@ def test_faces_are_bars_and_pairs_in_contact_are_where_the_beam_is(simple, matpl
     assert lines["face"] == ([], [])
 
 
-def test_a_face_far_away_is_not_drawn(simple, matplotlib):
+def test_plot_does_not_draw_a_face_that_is_far_away(simple, matplotlib):
     simple["contact"][0]["face"] = -100.0
     assert drawn(contct.run(simple, kernels="corrected").plot())["face"] == ([], [])
 
 
-def test_extremes_between_nodes_are_dots(simple, matplotlib):
+def test_plot_draws_a_dot_at_an_extreme_between_nodes(simple, matplotlib):
     simple["beam"]["elements"] = 1
     simple["support"][0]["nodes"] = [1, 2]
     del simple["contact"]
@@ -83,7 +83,7 @@ def test_extremes_between_nodes_are_dots(simple, matplotlib):
     assert (xs[1], ys[1]) == pytest.approx((L / 2, -q * L**2 / 8))
 
 
-def test_a_plate_is_drawn_in_colours_on_axes_that_are_given(matplotlib):
+def test_plot_draws_a_plate_in_colours_on_the_given_axes(matplotlib):
     plate = {"plate": {"x": [0.0, 1.0, 3.0], "y": [0.0, 2.0], "D": 1.0, "nu": 0.3},
              "support": [{"nodes": [1, 4], "fix": ["w", "wx", "wy"]}], "step": [{"uniform": -0.01}]}
     result = contct.run(plate, kernels="corrected")
@@ -96,7 +96,7 @@ def test_a_plate_is_drawn_in_colours_on_axes_that_are_given(matplotlib):
         result.plot("moment")
 
 
-def test_what_cannot_be_drawn_is_refused(simple, monkeypatch):
+def test_plot_refuses_a_quantity_or_a_result_that_cannot_be_drawn(simple, monkeypatch):
     result = contct.run(simple, kernels="corrected")
     with pytest.raises(contct.InputError, match="found quantity 'mx' of a beam; allowed: w, moment, shear"):
         result.plot("mx")

@@ -9,7 +9,7 @@ import pytest
 from conftest import PROBLEMS
 
 @pytest.mark.parametrize("path", sorted(PROBLEMS.glob("p*-n4.toml")) + sorted(PROBLEMS.glob("pb0*.toml")), ids=lambda path: path.stem)
-def test_a_run_has_the_bits_of_the_programs_json(path, ask):
+def test_contct_run_returns_the_numbers_of_the_programs_json_to_the_bit(path, ask):
     exit, out, _ = ask("run", path, "--quiet", "--json", "-")
     expected = json.loads(out)
     found = contct.run(path)
@@ -22,7 +22,7 @@ def test_a_run_has_the_bits_of_the_programs_json(path, ask):
 
 
 @pytest.mark.parametrize("name, rule", [("pb01-cantilever-tip-stop", "corrected"), ("divergences/near-tie", "1989")])
-def test_an_exact_path_has_the_numbers_of_the_programs_json(name, rule, ask):
+def test_contct_exact_returns_the_fractions_of_the_programs_json(name, rule, ask):
     path = PROBLEMS / f"{name}.toml"
     _, out, _ = ask("exact", path, "--rule", rule, "--json", "-", "--kernels", "fortran")
     found = contct.exact(path, rule=rule, kernels="fortran")
@@ -35,7 +35,7 @@ def test_an_exact_path_has_the_numbers_of_the_programs_json(name, rule, ask):
         assert [str(r.value) for r in step.reactions] == [r["value"] for r in raw["reactions"]]
 
 
-def test_an_explanation_is_the_programs_json(ask):
+def test_contct_explain_returns_the_programs_json(ask):
     path = PROBLEMS / "pb07-three-gap-supports.toml"
     found = contct.explain(path)
     assert found.to_dict() == json.loads(ask("explain", path, "--quiet", "--json", "-")[1])
@@ -44,7 +44,7 @@ def test_an_explanation_is_the_programs_json(ask):
     assert sorted(pair.why for pair in one.increments[0].pairs) == ["not toggled", "same moment", "winner"]
 
 
-def test_keys_are_attributes_and_items(beam):
+def test_keys_of_a_result_are_attributes_and_items(beam):
     found = contct.run(beam)
     step = found.steps[1]
     assert found.rule_1989.same_events and found.rule_1989.wrong_steps == [] and found.kernels == ["corrected", "fortran", "cpp"]
@@ -62,7 +62,7 @@ def test_keys_are_attributes_and_items(beam):
         step["force"]
 
 
-def test_arrays_are_numpys_where_it_is_there_and_lists_otherwise(beam):
+def test_arrays_of_a_result_are_numpy_arrays_or_without_numpy_lists(beam):
     step = contct.run(beam).steps[1]
     if contct._numpy:
         assert all(isinstance(x, contct._numpy.ndarray) and x.dtype == "float64"
@@ -73,7 +73,7 @@ def test_arrays_are_numpys_where_it_is_there_and_lists_otherwise(beam):
     assert step.extremes.w.min.value == min(step.w)  # "w" is an object here
 
 
-def test_nodes_have_x_and_a_step_its_balance(beam):
+def test_a_result_has_the_x_of_its_nodes_and_a_step_has_sums_of_forces(beam):
     result = contct.run(beam)
     assert list(result.x) == [0.0, 1.0, 2.0] == list(contct.check(beam).x)
     if contct._numpy:
@@ -92,7 +92,7 @@ def test_results_can_be_pickled(beam):
     assert again != contct.run(beam, kernels="corrected")
 
 
-def test_reprs_are_one_line(beam):
+def test_the_repr_of_a_result_is_one_short_line(beam):
     found = contct.run(beam)
     assert repr(found) == "<contct.Result 'PB1  Cantilever with a tip stop': solved, certified; 4 steps, 2 events>"
     assert repr(found.steps[0].increments[0]).startswith('<contct.Record {"increment": 1, "s": 1.0,')
@@ -103,7 +103,7 @@ def test_reprs_are_one_line(beam):
     assert len(contct.explain(beam).increments) == 6
 
 
-def test_a_notebook_shows_the_page(beam, ask, tmp_path):
+def test_a_notebook_shows_the_report_page_of_a_result(beam, ask, tmp_path):
     found = contct.run(PROBLEMS / "pb01-cantilever-tip-stop.toml")
     shown = found._repr_html_()
     assert shown.startswith('<iframe srcdoc="') and shown.count('"') == 8  # no quote of the page ends the attribute
@@ -119,7 +119,7 @@ def calls_of(trace):
     return [line for line in trace.splitlines() if not line.startswith(("about ", "contct-trace-1 "))]
 
 
-def test_log_trace_and_proof_are_the_programs(ask, tmp_path):
+def test_log_trace_and_proof_of_a_result_are_those_that_the_program_writes(ask, tmp_path):
     path = PROBLEMS / "pb07-three-gap-supports.toml"
     log, trace, proof = tmp_path / "log", tmp_path / "trace", tmp_path / "proof"
     assert ask("run", path, "--quiet", "--log", log, "--trace", trace, "--proof", proof)[0] == 0
@@ -131,7 +131,7 @@ def test_log_trace_and_proof_are_the_programs(ask, tmp_path):
     assert "\nkernel cpp\n" in contct.run(path, kernels="cpp").trace  # options of this call only
 
 
-def test_options_of_a_run(beam, ask):
+def test_options_of_contct_run_act_as_options_of_the_program(beam, ask):
     path = PROBLEMS / "pb01-cantilever-tip-stop.toml"
     for options, arguments in (({"kernels": "corrected"}, ["--kernels", "corrected"]),
                                ({"kernels": ("cpp", "fortran"), "engine": "updated"}, ["--kernels", "cpp,fortran", "--engine", "updated"]),
@@ -143,7 +143,7 @@ def test_options_of_a_run(beam, ask):
     assert exit == 5 and found.status == "iteration-limit" and not found.certified
 
 
-def test_external_states_are_certified(beam):
+def test_contct_certify_certifies_given_states_of_a_problem_and_refuses_a_wrong_state(beam):
     found = contct.run(beam)
     states = [step.displacement for step in found.steps]
     assert contct.certify(beam, states).certified is True
@@ -159,7 +159,7 @@ def test_external_states_are_certified(beam):
     assert contct.certify(beam, states[:2], closed=[[], [1]]).certified is True
 
 
-def test_long_fractions_are_read():
+def test_fractions_longer_than_pythons_limit_of_digits_are_read():
     p, q = 3**20001, 7**20000
     limit = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)
@@ -171,7 +171,7 @@ def test_long_fractions_are_read():
     assert contct.Record({"w": [text, "0", "-7", "15/28"]}, rational=True).w == [Fraction(-p, q), 0, -7, Fraction(15, 28)]
 
 
-def test_about():
+def test_contct_about_lists_kernels_and_engines_and_the_checksum_of_the_listing():
     found = contct.about()
     assert {"fortran", "cpp", "fortran-r4", "cpp-r4", "corrected"} <= {kernel.name for kernel in found.kernels}
     assert found.listing_sha256.startswith("c9f225f0") and "refactor" in found.engines

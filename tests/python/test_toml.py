@@ -13,7 +13,7 @@ import pytest
 from conftest import ROOT
 
 
-def test_every_problem_of_the_project_survives():
+def test_to_toml_writes_every_problem_of_the_project_without_a_change():
     files = sorted((ROOT / "reference").rglob("*.toml"))
     for path in files:
         with open(path, "rb") as file:
@@ -22,7 +22,7 @@ def test_every_problem_of_the_project_survives():
     assert len(files) >= 60
 
 
-def test_random_doubles_survive():
+def test_to_toml_keeps_the_bits_of_random_doubles():
     chosen = random.Random(1989)
     numbers = [x for x in (struct.unpack("<d", chosen.randbytes(8))[0] for _ in range(20000)) if math.isfinite(x)]
     numbers += [0.0, -0.0, 5e-324, 1.7976931348623157e308, 0.1, 1e16, 1e22, 1e-5, math.inf]
@@ -32,7 +32,7 @@ def test_random_doubles_survive():
     assert math.isnan(tomllib.loads(contct.to_toml({"x": math.nan}))["x"])
 
 
-def test_kinds_stay_kinds():
+def test_to_toml_keeps_whole_numbers_truth_values_texts_and_lists():
     problem = {"i": 3, "big": [-2**63, 2**63 - 1], "yes": True, "no": [False], "text": 'a "quoted" \\ \t\n\r\x01\x7f é \U0001f600',
                "empty": [], "none": {}, "in": {"a": {"b": [1, [2.5, "x"]], "c": {}}}, "odd key.é\n": 1, "": 2,
                "list": [{"a": 1}, {"b": {"c": [{"d": 1.0}]}}], "mixed": [{"a": 1}, 2]}
@@ -43,7 +43,7 @@ def test_kinds_stay_kinds():
     assert tomllib.loads(contct.to_toml({"a": array.array("d", [1.0, 2.0])})) == {"a": [1.0, 2.0]}
 
 
-def test_decimals_are_written_as_they_are_and_mean_the_shortest_decimals_of_their_doubles():
+def test_to_toml_writes_a_decimal_unchanged_and_contct_uses_the_shortest_decimal_of_its_double():
     assert contct.to_toml({"x": Decimal("0.1000000000000000000001")}) == "x = 0.1000000000000000000001\n"
     third = {"beam": {"x": [0, 1, 2], "EI": 1}, "support": [{"node": 1, "fix": ["w", "theta"]}],
              "step": [{"point": [{"node": 3, "w": Decimal("-0.100000000000000000000003")}]}]}
@@ -56,14 +56,14 @@ def test_decimals_are_written_as_they_are_and_mean_the_shortest_decimals_of_thei
 @pytest.mark.parametrize("value, words", [
     (None, "found None"), ({1}, "found a set"), (2**63, "found 9223372036854775808"), (1j, "found a complex"),
     (Decimal("nan"), r"found Decimal\('NaN'\)"), (b"x", "found a bytes"), (object(), "found a object"), (iter([1]), "found a list_iterator")])
-def test_what_toml_has_not_is_refused_with_its_place(value, words):
+def test_a_value_that_toml_does_not_have_is_refused_with_its_place(value, words):
     with pytest.raises(contct.InputError, match=rf"contact\[2\]\.face\[3\]: {words}; allowed: "):
         contct.run({"contact": [{"face": 1}, {"face": [0, 1, value]}]})
     with pytest.raises(contct.InputError, match="found the key 1; allowed: a text"):
         contct.to_toml({"beam": {1: 2}})
 
 
-def test_numpy_may_stand_wherever_numbers_and_lists_may():
+def test_to_toml_writes_numpy_numbers_and_arrays_as_numbers_and_lists():
     numpy = pytest.importorskip("numpy")
     if not contct._numpy:
         pytest.skip("NumPy is hidden")

@@ -187,7 +187,7 @@ TEST_CASE(
   CHECK(compare("pp03a-corner-supported-plate-n4", false));
 }
 
-TEST_CASE("a beam given by its matrix is a mechanism too if it is lifted off both faces") {
+TEST_CASE("a beam that is lifted off both faces is a mechanism, also if the beam is given by its matrix") {
   problem p;
   p.geometry.kind = beam{{0, 1, 2, 3}, {5, 5, 5}};
   p.pairs = {{0, face_below, 0.0, 10.0, true}, {3, face_below, 0.0, 10.0, true}};

@@ -28,7 +28,9 @@ TEST_CASE("a point load with several coordinates is a load at each of the coordi
   CHECK((l.points[4].node == 1 && l.points[4].value == 5));
 }
 
-TEST_CASE("a point load at the coordinate of a node acts at this node, and any other at its coordinate") {
+TEST_CASE(
+    "a point load at the coordinate of a node acts at the node, and a point load between nodes at its "
+    "coordinate") {
   const load l = step_of("point = [ { x = [1.0, 1.25], w = -1, theta = 3 } ]\n");
   REQUIRE(l.points.size() == 2);
   CHECK((l.points[1].node == 1 && l.points[1].dof == 1 && l.points[1].value == 3));

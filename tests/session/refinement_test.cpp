@@ -95,8 +95,8 @@ TEST_CASE("Refinement of a beam without a bed changes extremes only by rounding"
 }
 
 TEST_CASE(
-    "Refinement of a plate adds fixed nodes to a line of fixed nodes, and they settle by the mean of their "
-    "neighbours") {
+    "Refinement of a plate adds fixed nodes to a line of fixed nodes, with the mean of the settlements "
+    "beside them") {
   const problem coarse = reference_problem("pp06-plate-over-settling-line");
   const problem fine = refined(coarse);  // 9 by 5 nodes
   CHECK(fine.supports.size() == coarse.supports.size() + 6);
