@@ -171,7 +171,7 @@ TEST_CASE("A face that moves between two dofs reduces the gap of the pair") {
   });
 }
 
-TEST_CASE("For a pair between two dofs, a relative error of 1e-4 in one of the two is not certified") {
+TEST_CASE("A state is not certified if one of the two dofs of a pair has a relative error of 1e-4") {
   const problem p = two_cantilevers();
   const linear_structure s = structure_of(p);
   const met path = follow_met(p, "refactor", "corrected");

@@ -53,7 +53,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "if an ISEP is wrong, the nearest IF (branch margin) tests the DIFF of this pair, or SMIN if nothing was "
+    "if an ISEP is wrong, the nearest IF (branch margin) tests the pair's DIFF, or SMIN if nothing was "
     "toggled") {
   // SMIN is the number next to 1, so the decision IF (SMIN.EQ.1.) has a narrower margin than any DIFF.
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53, separated, face_above},

@@ -197,7 +197,7 @@ TEST_CASE("a single fixed dof of a support may be given without brackets") {
   CHECK(p.supports[0].dof == 1);
 }
 
-TEST_CASE("one contact table makes a pair at each node that it lists, in this order") {
+TEST_CASE("one contact table makes a pair at each node that it lists, in the order of the list") {
   const auto pairs_of = [](const std::string& lines) {
     return parse_problem(with("node = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n",
                               "surface = \"below\"\n" + lines),

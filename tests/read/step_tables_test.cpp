@@ -76,7 +76,7 @@ TEST_CASE(
   CHECK(p.steps[0].placed.at(1).from == 0.62);
 }
 
-TEST_CASE("a step may have only settlements of fixed dofs") {
+TEST_CASE("a step may have settlements of fixed dofs and no loads") {
   const load l = step_of("settlement = [ { x = 0, w = -0.01, theta = 0.5 } ]\n");
   CHECK(l.points.empty());
   CHECK(l.distributed.empty());

@@ -30,8 +30,7 @@ double influence_on_middle_moment(double x) {
 }  // namespace
 
 TEST_CASE(
-    "An envelope contains the values of combinations, but no states on a way from one combination to the "
-    "next") {
+    "An envelope has the values of the combinations, but not those of states between two combinations") {
   const a_run steps(overhanging + "[[step]]\n" + at_support + "[[step]]\n" + at_end);
   CHECK(envelope_of(steps.result).reactions[1].most.value == Approx(3.6));  // when the end reaches the stop
   const a_run run(overhanging + "[[case]]\nname = \"A\"\n" + at_support + "[[case]]\nname = \"B\"\n" +

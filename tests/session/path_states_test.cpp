@@ -71,7 +71,7 @@ TEST_CASE("the drawn state at the end of a step equals the state of the path, to
   CHECK(ends == 3);
 }
 
-TEST_CASE("of a long path only some states are drawn, in order, with the first and the last state") {
+TEST_CASE("only some states of a long path are drawn, in order, and the first and the last are among them") {
   for (int steps = 30; steps < 46; ++steps) {
     INFO(steps << " steps");
     std::vector<double> there_and_back;

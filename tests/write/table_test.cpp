@@ -99,8 +99,7 @@ TEST_CASE("a CSV field is quoted if it has a comma, a quote or a line end") {
   CHECK(csv_field("a\x1b[31m") == "a\\x1b[31m");
 }
 
-TEST_CASE(
-    "no text field of a CSV file begins like a formula of a spreadsheet, with or without blanks before") {
+TEST_CASE("no text field of a CSV file begins like a formula of a spreadsheet, even after leading blanks") {
   for (const std::string formula : {"=1+1", "+1", "-2.x", "@SUM(1)", "\t=1", "\r=1", " =1", "\n=1", "\uff1d1",
                                     "\uff0b1", "\uff0d1", "\uff20x"}) {
     const std::string field = csv_field(formula);
