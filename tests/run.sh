@@ -72,7 +72,7 @@ if [ "$full" = yes ]; then
   need "for more compilers" flang-16 f2c libf2c2-dev clang
   need "for CHOLMOD's sparse factors" libsuitesparse-dev
   need_petsc || true  # its tests are skipped where it cannot be had
-  need "to compare with other programs" calculix-ccx python3-siconos || true  # the same
+  need "to compare with other programs" calculix-ccx python3-numpy || true  # the same
   need "for the manual pages" mandoc
   for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
     command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # otherwise its test is skipped

@@ -5,6 +5,7 @@ must also agree on benchmark problems and on combinations of a base plate, for w
 Siconos solves all benchmark problems as linear complementarity problems.
 """
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -143,7 +144,10 @@ def check_combinations():
 
 check_example()
 check_benchmarks(calculix.words(calculix.results(calculix.CONVERGE, FOLDER, CCX)), "calculix.json", 100)
-siconos = subprocess.run([sys.executable, REFERENCE / "benchmarks/siconos_lcp.py"], capture_output=True, text=True, check=True)
+unpacked = FOLDER / "siconos/usr/lib"
+libraries = unpacked / "x86_64-linux-gnu"
+paths = {"PYTHONPATH": f"{unpacked}/python3/dist-packages", "LD_LIBRARY_PATH": f"{libraries}:{libraries}/openblas-pthread"}
+siconos = subprocess.run(["/usr/bin/python3", REFERENCE / "benchmarks/siconos_lcp.py"], env=os.environ | paths, capture_output=True, text=True, check=True)
 check_benchmarks(siconos.stdout, "siconos.json", 340)
 check_combinations()
 check_block(Block("cantilever", (10, 2, 2), (10, 1, 1), [((4, 1, 0), -0.02, 100), ((7, 1, 0), -0.1, 100), ((10, 1, 0), -0.2, 50)], (10, 1, 2),
