@@ -98,7 +98,7 @@ def plain(text):
 def markdown_page(edition):
     """The page with the C++ of the kernel, and only the names of other files. The HTML page also quotes the paper."""
     page = f"# The parallel edition\n\n{edition['introduction'].strip(chr(10))}\n\nThe C++ code is from [contct.hpp](../{KERNEL}). The [HTML page]" \
-           f"(parallel-edition.html) and the page of `contct run --html` also quote the paper and other files. This command makes the page:\n\n```sh\n{COMMAND}\n```\n\n" \
+           f"(parallel-edition.html) also quotes the paper and other files. This command writes both pages:\n\n```sh\n{COMMAND}\n```\n\n" \
            f"<table>\n"
     for part in edition["part"]:
         equation = f" Eq. {part['equation']}." if part["equation"] else ""
