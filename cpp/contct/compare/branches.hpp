@@ -1,5 +1,6 @@
-// Derives the outcomes of the listing's IFs in a finished call, and their margins. A comparison requires that
-// every outcome occurs. A mismatch at a small margin is a tie; at a large margin it is a bug.
+// Derives from a finished call the outcome of each IF of the listing, and its margin: the distance of the two
+// numbers that the IF compares. If two kernels differ after an IF with a small margin, rounding can be the
+// cause (a tie); after a large margin the cause is a bug.
 #pragma once
 
 #include <array>
@@ -48,7 +49,7 @@ inline constexpr std::array<std::string_view, 8> branch_conditions = {
 /// function follows the listing's text and shares no code with a kernel.
 template <class Real, class Visit>
 void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
-  // The listing's DATA. The constants of kernel/contct.hpp are not used, so that an error in them is found.
+  // From the listing's DATA, and not from kernel/contct.hpp, so that an error in its constants is found.
   const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
   const Real epsmul = Real(1) / Real(256);
   const Real zero = 0;
@@ -105,7 +106,8 @@ class branch_counts {
   std::array<std::int64_t, 16> counts_{};  // [2 * branch + outcome]
 };
 
-/// The distance in ULP of two compared numbers: 0 from -0.0 to +0.0; the largest std::uint64_t for NaN.
+/// The distance in ULP of two compared numbers: 0 from -0.0 to +0.0; the largest std::uint64_t if
+/// a number is NaN.
 template <class Real>
 [[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
@@ -114,15 +116,16 @@ template <class Real>
 /// The outcome of an IF in a call, and its margin.
 struct decision {
   branch what;
-  int pair;  ///< number of the pair, from 0; -1 for IF (SMIN.EQ.1.)
+  int pair;  ///< from 0; -1 for IF (SMIN.EQ.1.)
   bool outcome;
   std::uint64_t ulps;  ///< the margin, see margin_between; 0: exactly on the threshold
 };
 
-/// Marks the margin of IF (ISEP(I).EQ.1), which compares integers.
+/// decision::ulps of IF (ISEP(I).EQ.1), which compares integers and so has no margin.
 inline constexpr std::uint64_t whole_numbers = std::numeric_limits<std::uint64_t>::max() - 1;
 
-/// Replaces `least` by a decision with a smaller margin. Ignores IF (ISEP(I).EQ.1), which has no margin.
+/// Replaces `least` by the decision of `b` if its margin `ulps` is smaller, or if `least` is empty. Ignores
+/// IF (ISEP(I).EQ.1), which has no margin.
 inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t pair, bool outcome,
                           std::uint64_t ulps) {
   if (b == branch::was_separated || (least && least->ulps <= ulps)) return;
@@ -137,7 +140,7 @@ inline void keep_narrower(std::optional<decision>& least, branch b, std::size_t 
 /// For example "pair 3: IF (DIFF.LT.EPSMUL) was false by 1 ULP".
 [[nodiscard]] std::string words_of(const decision& d);
 
-/// The rounding of one or two operations can change a decision with at most this margin.
+/// The largest margin [ULP] at which the rounding of one or two operations can change a decision.
 inline constexpr std::uint64_t tie_ulps = 4;
 
 }  // namespace contct

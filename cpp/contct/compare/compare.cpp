@@ -11,7 +11,8 @@
 namespace contct {
 namespace {
 
-/// Cut the first word off `line`, without a number's zero before the point: -0.25 becomes -.25.
+/// Removes the first word from `line`. Returns the word without a zero before a decimal point: -.25 for
+/// -0.25.
 std::string take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
   std::string word(line.substr(0, line.find(' ')));
@@ -33,14 +34,14 @@ std::string described(const kernel_facts& k) {
          std::string(rule_words(k.rule)) + ")";
 }
 
-/// For example "SS(3)", "text, line 2" or "SMIN".
+/// Where the answers differ: "SS(3)", "text, line 2" or "SMIN".
 std::string place_words(const mismatch& d) {
   if (d.index == 0) return d.field;
   const std::string index = std::to_string(d.index);
   return d.field == "text" ? "text, line " + index : d.field + "(" + index + ")";
 }
 
-/// The first differences of another answer from the leader's, and the IFs that can have caused them.
+/// The first differences of the answer `other` from the leader's in SS, SMIN and ISEP.
 struct differences {
   differences(const answered_call& c, const call_outputs& other)
       : of_smin(!same_bits(c.c.smin, other.smin)), no_event(c.c.smin == 1.0) {
@@ -53,7 +54,7 @@ struct differences {
         isep && c.c.isep[*isep] != c.isep_before[*isep] && other.isep[*isep] != c.isep_before[*isep];
   }
 
-  /// True if branch `b` of `pair` can have caused the first difference.
+  /// True if the IF `b` of `pair` (from 0) can have caused the first difference. Order: SS, SMIN, ISEP.
   [[nodiscard]] bool depends_on(branch b, std::size_t pair) const {
     if (b <= branch::check_positive) return ss == pair;
     if (b <= branch::s_is_smallest) return !ss && of_smin;
@@ -214,7 +215,8 @@ replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                      const std::function<void(std::int64_t)>& progress, fault_finder before) {
   replay_report report;
   recorded_call c;
-  // f2c, which omits zeros before decimal points, may not be installed: only the name in the trace shows it.
+  // f2c omits zeros before decimal points, so its text is compared by meaning. If f2c is not installed, its
+  // facts are unknown; therefore the kernel's name in the trace decides.
   follower asked({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, k);
   asked.faults = std::move(before);
   while (calls.next(c)) {

@@ -1,5 +1,5 @@
-// Compares the answers of two kernels to the same calls, to the bit. The follower repeats each call of the
-// leader, or each recorded call.
+// Compares the answers of two kernels to the same calls, to the bit. The leader's calls come from a path or
+// from a trace; the follower repeats these calls.
 #pragma once
 
 #include <cstdint>
@@ -26,18 +26,19 @@ struct answer {
   std::span<const int> isep;
 };
 
-/// The first difference of two answers: SMIN, then SS, then ISEP, then the text.
+/// The first difference between two answers, in the order SMIN, SS, ISEP, unit-26 text.
 struct mismatch {
-  std::string field;       ///< "SMIN", "SS", "ISEP" or "text"
+  std::string field;       ///< "SMIN", "SS", "ISEP" or "text"; "answer" if the follower gave none
   int index = 0;           ///< pair, from 1, for SS and ISEP; line, from 1, for the text; else 0
-  std::string leader;      ///< the leader's value, numbers in hexfloat
+  std::string leader;      ///< the leader's value; SMIN and SS in hexfloat
   std::string follower;    ///< the follower's value
   std::uint64_t ulps = 0;  ///< distance of the two values; 0 for ISEP and the text
 };
 
-/// Returns the leader's decision with the smallest margin that can have caused the first difference of
-/// another answer: for SS(i) one of the IFs that choose it; for SMIN one that chooses the smallest SS; for
-/// ISEP(i) and the text one that uses SMIN and SS. Returns nothing if the difference depends on no IF.
+/// Returns the decision with the smallest margin among the IFs in the leader's call `c` that can have caused
+/// the first difference of the answer `other`: for SS(i) the IFs that choose the formula of SS(i); for SMIN
+/// the IFs that choose the smallest SS; for ISEP(i) and the text the IFs after the DO 10 loop. Returns
+/// nothing if the difference depends on no IF.
 [[nodiscard]] std::optional<decision> narrowest_decision(const answered_call& c, int real_bytes,
                                                          const call_outputs& other);
 
@@ -52,8 +53,8 @@ struct tally {
   }
 };
 
-/// True if two answers of equal length have the same bytes. False if only payloads of NaN differ, although
-/// compare_answers counts these as equal.
+/// A quick test: if true, two answers of equal length are equal. If false, they can still be equal, because
+/// compare_answers does not distinguish the bits of NaN in SS.
 template <class Real>
 [[nodiscard]] bool same_bytes(const answer<Real>& a, const answer<Real>& b) {
   const auto same = [](const auto& x, const auto& y) {
@@ -62,7 +63,8 @@ template <class Real>
   return same_bits(a.smin, b.smin) && same(a.ss, b.ss) && same(a.isep, b.isep);
 }
 
-/// Compares two answers of equal length, value by value. NaN equals NaN; -0.0 differs from +0.0.
+/// Returns the first difference of two answers of equal length, and adds the numbers of values and of
+/// mismatches to `t`. NaN equals NaN; -0.0 differs from +0.0.
 template <class Real>
 std::optional<mismatch> compare_answers(const answer<Real>& leader, const answer<Real>& follower, tally& t) {
   t.values += 1 + static_cast<std::int64_t>(leader.ss.size() + leader.isep.size());
@@ -86,13 +88,13 @@ std::optional<mismatch> compare_answers(const answer<Real>& leader, const answer
   return first;
 }
 
-/// How unit 26 text is compared.
+/// How unit-26 text is compared.
 enum class text_equality {
   bytes,   ///< byte for byte
-  meaning  ///< word by word in each line; .25 equals 0.25, because libf2c omits this zero
+  meaning  ///< word by word in each line; .25 equals 0.25, because f2c omits the zero
 };
 
-/// Compares unit-26 text, and counts it as one value.
+/// Returns the first line in which two unit-26 texts differ. Counts the texts as one value in `t`.
 std::optional<mismatch> compare_text(std::string_view leader, std::string_view follower, tally& t,
                                      text_equality equality = text_equality::bytes);
 
@@ -101,7 +103,7 @@ std::optional<mismatch> compare_text(std::string_view leader, std::string_view f
   return leader.text_by_meaning || follower.text_by_meaning ? text_equality::meaning : text_equality::bytes;
 }
 
-/// The first call in which a follower's answer differs from the leader's.
+/// A call in which a follower's answer differs from the leader's.
 struct mismatch_report {
   std::int64_t call = 0;  ///< from 1
   std::string leader;     ///< name of the kernel
@@ -112,10 +114,12 @@ struct mismatch_report {
 };
 
 /// The lines of a report: the difference, for example "call 7: mine differs in SS(3): fortran has 0x1p-1 =
-/// 0.5, mine has 0x1p-2 = 0.25 (4503599627370496 ULP)"; the branch margin; and `lines` unless empty.
+/// 0.5, mine has 0x1p-2 = 0.25 (4503599627370496 ULP)"; the narrowest decision; and `lines` unless empty. If
+/// the follower gave no answer, one line says so.
 [[nodiscard]] std::vector<std::string> words_of(const mismatch_report& f);
 
-/// Throws std::invalid_argument if precision or rule differ, because then answers cannot be equal to the bit.
+/// Throws std::invalid_argument if the kernels differ in precision or rule, because their answers then cannot
+/// be equal to the bit.
 void refuse_unequal(const kernel_facts& leader, const kernel_facts& follower);
 
 /// The comparison of a follower's answer with the leader's in one call.
@@ -138,12 +142,12 @@ enum class equality_level {
   bits,         ///< every answer equal to the bit, text included
   ulps,         ///< the same events, numbers within a few ULP
   events,       ///< the same pairs toggled in every call
-  certificate,  ///< other events, but its own paths certified wherever the leader's are
+  certificate,  ///< other events, but the follower's paths are certified where the leader's are
   none,
 };
 [[nodiscard]] std::string_view name_of(equality_level l);
 
-/// Of answers that were compared, the closest equality that holds; never `certificate`.
+/// Returns the highest level that the compared answers reach; never `certificate`, which depends on paths.
 [[nodiscard]] equality_level level_of(const nearness& n, const tally& compared);
 
 /// Repeats the calls of a leader with a kernel, counts the compared values, and keeps the first mismatch.
@@ -152,20 +156,21 @@ class follower {
   /// `k` must outlive this object.
   follower(kernel_facts leader, kernel& k);
 
-  /// Repeats a call of the leader and compares SMIN, SS and ISEP, and the text if both kernels write it. A
-  /// kernel that fails has one mismatch, in the field "answer". Throws std::invalid_argument if
-  /// refuse_beyond_limits refuses the call.
+  /// Repeats a call of the leader, compares SMIN, SS and ISEP, and also the text if both kernels write text,
+  /// and returns the first difference. A kernel that fails has one mismatch, in the field "answer". Throws
+  /// std::invalid_argument if refuse_beyond_limits refuses the call.
   const std::optional<mismatch>& ask(const answered_call& c);
-  /// Keeps a mismatch of call `c`, unless one of this or an earlier call is kept.
+  /// Makes `found`, a mismatch in call `c`, the first mismatch, unless a mismatch in `c` or in an earlier
+  /// call is known.
   void note(const mismatch& found, const answered_call& c);
-  /// Reports a mismatch of the last call.
+  /// Returns the report of `found`, a mismatch in the last call, `c`.
   [[nodiscard]] mismatch_report report_of(const mismatch& found, const answered_call& c) const;
 
   [[nodiscard]] kernel& asked() const { return *kernel_; }
   [[nodiscard]] text_equality equality() const { return text_equality_of(leader_, kernel_->facts()); }
   /// The kernel's outputs in the last call.
   [[nodiscard]] const call_outputs& answer() const { return answer_; }
-  /// The first difference of these outputs from the leader's.
+  /// The first difference of answer() from the leader's outputs.
   [[nodiscard]] const std::optional<mismatch>& difference() const { return difference_; }
   [[nodiscard]] const follower_answer& last() const { return last_; }
   [[nodiscard]] bool answered() const { return !last_.failed; }
@@ -186,28 +191,29 @@ class follower {
   std::optional<mismatch_report> first_;
 };
 
-/// The result of a replay.
 struct replay_report {
   std::int64_t calls = 0;
   tally compared;
   branch_counts branches;
   nearness near;
   std::optional<mismatch_report> first;
-  fault_finder faults;  ///< contains the answers to this trace and to earlier ones
+  fault_finder faults;  ///< has noted the answers to this trace and to earlier traces
 };
 
 /// True if the kernel has the precision and the rule of the trace.
 [[nodiscard]] bool comparable(const trace_header& h, const kernel_facts& k);
 
-/// The default kernel for a trace: the 1989 code in the trace's precision, or the corrected kernel.
+/// The default kernel for a trace: the 1989 code in the trace's precision or, for a trace of the corrected
+/// rule, the corrected kernel.
 [[nodiscard]] inline std::string usual_kernel(const trace_header& h) {
   if (h.rule == contact_rule::corrected) return "corrected";
   return h.real_bytes == 4 ? "fortran-r4" : "fortran";
 }
 
-/// Repeats the remaining calls of `calls` with `k` and compares the answers to the bit. Text is compared if
-/// both have it, by meaning if either kernel is f2c. `progress` receives the number of finished calls.
-/// `before` contains the kernel's answers to earlier traces. Throws input_error if the trace is malformed.
+/// Repeats the remaining calls of the trace `calls` with `k` and compares the answers to the bit. Unit-26
+/// text is compared if the trace has text and `k` writes text: by meaning if the trace or `k` is from f2c.
+/// `progress` receives the number of finished calls. `before` has noted the kernel's answers to earlier
+/// traces. Throws input_error if the trace is malformed.
 [[nodiscard]] replay_report replay(const trace_header& h, trace_reader& calls, kernel& k,
                                    const std::function<void(std::int64_t)>& progress = nullptr,
                                    fault_finder before = {});

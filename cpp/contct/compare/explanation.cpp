@@ -31,7 +31,7 @@ listing_branch way_of(const explained_pair& p) {
   return p.at(branch::check_positive).outcome ? listing_branch::stationary_event : listing_branch::stationary;
 }
 
-/// Stores each decision in its pair, with the numbers that it compares.
+/// Stores each decision with the pair that it concerns, and the decision with the smallest margin in `out`.
 template <class Real>
 void take_decisions(const call<Real>& c, std::span<const int> isep_before, explained_call& out) {
   for_each_decision(c, isep_before, [&out](branch b, std::size_t i, bool outcome, Real left, Real right) {

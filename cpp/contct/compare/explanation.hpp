@@ -1,4 +1,4 @@
-// Explains a call: the branches that the listing takes for each pair, and the reasons.
+// Explains a call: which branches the listing takes for each pair, and why pairs are toggled.
 #pragma once
 
 #include <array>
@@ -59,10 +59,10 @@ inline constexpr listing_line format_60{66, "FORMAT(3X, 'CONTACT PAIR: ',I3,' NO
 /// Why a pair was toggled.
 enum class why_toggled {
   not_toggled,
-  winner,       ///< the pair's s is SMIN
-  same_moment,  ///< at SMIN the pair is at its face, up to rounding, like the winner
+  winner,       ///< SMIN is this pair's s
+  same_moment,  ///< like the winner, the pair is at its face at SMIN, up to rounding
   too_early,    ///< s is within EPSMUL of SMIN, but at SMIN the pair is not yet at its face
-  by_mark,      ///< the pair has no event, but the mark s = 1 is within EPSMUL of SMIN
+  by_mark,      ///< the pair has no event, but s = 1, the mark for that, is within EPSMUL of SMIN
 };
 
 /// The outcome of one IF for one pair.
@@ -80,11 +80,11 @@ struct explained_pair {
   int isep_before = separated;
   int isep_after = separated;
   double c = 0.0, d = 0.0, d_star = 0.0;
-  double gap = 0.0;    ///< GAP, c - D: eq. 5 without its n
+  double gap = 0.0;    ///< GAP, c - D; eq. 5 multiplies this by the side n
   double s_chk = 0.0;  ///< SSCHK, if it was computed
   double s = 0.0;
   listing_branch way = listing_branch::no_response;
-  double smin_before = 1.0;  ///< the SMIN that s was compared with, if s is positive
+  double smin_before = 1.0;  ///< the SMIN so far, with which s was compared if positive
   double diff = 0.0;         ///< DIFF, if the call has an event
   why_toggled why = why_toggled::not_toggled;
   double distance = 0.0;  ///< distance from the face at SMIN: |c - (D + SMIN d*)|
@@ -93,7 +93,8 @@ struct explained_pair {
   [[nodiscard]] const taken_branch& at(branch b) const { return taken[index_of(b)]; }
   [[nodiscard]] bool toggled() const { return isep_before != isep_after; }
   [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
-  /// True if the pair has an event under the 1989 rule. The mark for "no event" never counts.
+  /// True if s is the positive scale factor of an event under the 1989 rule, not the mark s = 1 for "no
+  /// event".
   [[nodiscard]] bool is_candidate() const {
     return (way == listing_branch::moving || way == listing_branch::stationary_event) && s > 0.0;
   }
@@ -103,7 +104,7 @@ struct explained_call {
   int real_bytes = 8;
   double smin = 1.0;
   std::vector<explained_pair> pairs;
-  int winner = -1;                    ///< pair from 0; -1: no event
+  int winner = -1;                    ///< the pair (from 0) whose s is SMIN; -1: no event
   int next = -1;                      ///< the candidate with the next smallest s; -1: no other candidate
   std::uint64_t ulps_ahead = 0;       ///< distance of the s of `winner` and of `next`
   std::optional<decision> narrowest;  ///< the decision of the call with the smallest margin
@@ -114,8 +115,8 @@ struct explained_call {
   return real_bytes == 4 ? 1e-5 : 1e-11;
 }
 
-/// Explains a call of a kernel of `real_bytes`. `largest` is the largest deflection of the path so far, and
-/// is updated. This function follows the listing's text and uses no code of a kernel.
+/// Explains a call in REAL of `real_bytes`. `largest` is the largest deflection of the path so far; this
+/// call's deflections update it. This function follows the listing's text and uses no code of a kernel.
 [[nodiscard]] explained_call explain(const answered_call& c, int real_bytes, double& largest);
 
 }  // namespace contct

@@ -16,12 +16,12 @@ namespace {
 namespace l = listing;
 
 constexpr std::int64_t most_calls = 1000;
-constexpr std::int64_t most_pairs = 500'000;  // a limit for the used calls together, to bound the time
+constexpr std::int64_t most_pairs = 500'000;  // of all judged calls, to bound the time
 constexpr double number_bits = 64.0;          // cost of a number that follows no rule
-constexpr double always_bits = 30.0;          // cost of each exception from a fault that must always occur
+constexpr double always_bits = 30.0;          // cost of each execution that contradicts a permanent fault
 constexpr double unexplained_bits = 200.0;    // cost of each differing value that the line does not explain
 
-/// log2 of the number of ways to choose `k` of `n`, to a few bits.
+/// log2 of the number of ways to choose `k` of `n` executions, to a few bits.
 double choice_bits(std::int64_t n, std::int64_t k) {
   const auto all = static_cast<double>(n);
   const auto some = static_cast<double>(k);
@@ -29,8 +29,8 @@ double choice_bits(std::int64_t n, std::int64_t k) {
   return some * std::log2(all / some) + (all - some) * std::log2(all / (all - some));
 }
 
-/// The bits that tell a wrong number in the place of a right one: few where it follows a rule, which is that
-/// of its ratio to the right one, or is 1 where that is a rule.
+/// The cost of describing the wrong number `got`: few bits if it is not finite, if it is 1 (where
+/// `is_1_a_rule`), or if its ratio to `right` is that of the last wrong number; otherwise number_bits.
 template <class Real>
 double value_bits(suspect& s, Real got, Real right, bool is_1_a_rule = true) {
   const double ratio = static_cast<double>(got) / static_cast<double>(right);
@@ -44,11 +44,12 @@ double value_bits(suspect& s, Real got, Real right, bool is_1_a_rule = true) {
 template <class Real>
 struct pair_values {
   Real gap{}, d_star{}, sschk{}, event{}, s{};
-  Real at_face{}, moving{}, without_first{};  // s by that branch; without IF (DTEST(NDOF).EQ.0.)
+  // s of a stationary pair; s of a moving pair; s without IF (DTEST(NDOF).EQ.0.)
+  Real at_face{}, moving{}, without_first{};
   bool is_stationary = false;
 };
 
-/// The values of pair `i` on `dof`, from 0; NaN if the call has no such dof.
+/// The numbers of pair `i` if its dof were `dof` (from 0). D and d* are NaN if the call has no such dof.
 template <class Real>
 pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std::int64_t dof) {
   pair_values<Real> p;
@@ -72,7 +73,7 @@ std::string cited(const listing_line& line) {
   return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
 }
 
-/// The branch of the listing that gives the value of an SS, if there is one.
+/// The line of the listing that gives the value `s`, or "no line".
 template <class Real>
 std::string way_words(const pair_values<Real>& p, Real s) {
   const bool of_event = same_bits(s, p.event) && s != Real(1);
@@ -106,8 +107,8 @@ std::string lines_in(const call<Real>& c, const answered_call& right, const call
          set_by(other.isep[i]);
 }
 
-/// "MAKING" and "BREAKING" by pair, as the text of a kernel reports it; pairs of more than three digits are
-/// not reported.
+/// The event of each pair [pairs] that a kernel's unit-26 text reports. Pairs beyond 999, which I3 cannot
+/// print, have none.
 std::vector<std::optional<change>> told_by(std::string_view text, std::size_t pairs) {
   std::vector<std::optional<change>> told(pairs);
   change what = change::make;
@@ -122,7 +123,7 @@ std::vector<std::optional<change>> told_by(std::string_view text, std::size_t pa
   return told;
 }
 
-/// A line of text: its numbers; and its form, with a 0 for each character of a number.
+/// The numbers of a line of text, and the line with a 0 for each character of a number except the point.
 struct text_line {
   explicit text_line(const std::string& words) {
     for (const char* at = words.c_str(); *at != '\0';) {
@@ -137,7 +138,7 @@ struct text_line {
   std::string form = {};
 };
 
-/// What writes a line of text, and what tells it from other lines.
+/// The statements that write a line of text, and the words by which the line is recognised.
 struct text_writer {
   std::string_view mark;
   const listing_line &write, &format;
@@ -152,14 +153,14 @@ const text_writer& writer_of(std::string_view line) {
                                [line](const auto& w) { return line.find(w.mark) != std::string_view::npos; });
 }
 
-/// The statement that wrote one line in the place of another: the FORMAT where the numbers are the same in
-/// another form.
+/// The statement that is at fault if the line `got` was written instead of `right`: the FORMAT if only the
+/// form of the numbers differs; line 53 if the node is `last_node`; otherwise the WRITE.
 const listing_line& written_by(std::string_view right, std::string_view got, int last_node) {
   const text_writer& writer = writer_of(right);
   const text_line expected{std::string(right)};
   text_line found{std::string(got)};
   const auto same = [](double a, double b) {
-    constexpr double rounding = 6e-4;  // of four digits
+    constexpr double rounding = 6e-4;  // relative; rounding to four digits changes a number by 5e-4
     return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
   };
   if (!expected.numbers.empty() && !found.numbers.empty()) {
@@ -237,17 +238,18 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   const pair_values<Real> p = at_dof(dof);
   const bool wrong = !same_bits(got, c.ss[i]);
   differ_ += wrong ? 1 : 0;
-  // A line that gives `other` if it is wrong.
+  // Judges a line that gives `other` if the line is wrong. `left` is the number that the line compares.
   const auto could_give = [&](suspect& s, Real other, Real left, double bits_if_right = 0.0) {
     if (same_bits(other, c.ss[i])) return;
     s.count(wrong && same_bits(got, other), 0.0, bits_if_right);
     if (wrong && same_bits(got, other)) s.compared.add(static_cast<double>(left));
   };
-  // A line that can give any number if it is wrong.
+  // Judges a line that can give any number if the line is wrong.
   const auto assigns = [&](suspect& s, bool is_1_a_rule = true) {
     s.count(wrong, wrong ? value_bits(s, got, c.ss[i], is_1_a_rule) : 0.0);
   };
-  // A line that could have taken another dof: what lies outside the arrays is unknown.
+  // Judges a line that takes another dof if the line is wrong. If no dof of the call gives `got`, the line
+  // may have read outside the arrays, so that any number is possible.
   const auto takes_dof = [&](suspect& s, auto value_at) {
     constexpr std::int64_t most = 2000;
     const std::int64_t end = wrong && !std::isnan(got) ? std::min<std::int64_t>(std::ssize(c.dd), most) : 0;
@@ -277,8 +279,9 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   assigns(at(l::if_check_positive, wrong_product), false);
 }
 
-/// Finds where the other kernel left the loop: the SS after it keep their initial values. Suspects are the
-/// branches of the last pair that was set.
+/// Finds where the kernel left the DO 10 loop too early, so that later SS keep their initial value. Suspects
+/// are the bounds of the loop, and the branches of lines 32 and 40, whose first execution may have ended the
+/// loop.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
   const std::size_t pairs = ss.size();
@@ -296,7 +299,7 @@ void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
   left_at(at(l::smallest, loop_left), [&](auto i) { return c.ss[i] > 0 && c.ss[i] < 1; });
 }
 
-/// SMIN, by the other kernel's SS.
+/// Judges SMIN by the kernel's SS.
 void fault_finder::note_smallest(const call_outputs& other) {
   double least = 1.0;
   bool is_one_of_them = other.smin == 1.0;
@@ -312,7 +315,7 @@ void fault_finder::note_smallest(const call_outputs& other) {
     s->count(wrong && (s->line != &l::smin_is_1 || !(other.smin > least) || least == 1.0), bits);
   }
   if (wrong && least == 1.0 && other.smin == not_an_answer)
-    at(l::if_no_events).explain(2.0);  // left before it is given back
+    at(l::if_no_events).explain(2.0);  // returned without storing SMIN
 }
 
 template <class Real>
@@ -359,7 +362,7 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   }
 }
 
-/// The ISEP of one pair.
+/// Judges the ISEP of one pair. `told` is the event that the kernel's text reports.
 void fault_finder::note_toggle(int before, int got, double diff, const std::optional<change>& told,
                                bool has_text) {
   const bool is_within = diff < 1.0 / 256.0;
@@ -373,7 +376,7 @@ void fault_finder::note_toggle(int before, int got, double diff, const std::opti
   if (by_if) at(l::if_within).explain(0.0);
   if (by_if) at(l::if_within).compared.add(diff);
   if (!is_within || (has_text && !told)) return;
-  // A statement that sets ISEP sets it to the same for each status.
+  // From the same old status, a statement that sets ISEP always sets the same new status.
   const bool is_usual = set_to_.emplace(before, got).first->second == got;
   at(was_separated ? l::make : l::break_).count(wrong && is_usual, 1.0, is_usual ? 0.0 : always_bits);
   const bool went_true = (got == (was_separated ? separated : in_contact)) != was_separated;
@@ -401,14 +404,16 @@ void fault_finder::note_text(const answered_call& right, const call_outputs& oth
 
 std::optional<faulty_line> fault_finder::found() const {
   const bool by_threshold = diffs_in_.most < diffs_out_.least || diffs_out_.most < diffs_in_.least;
-  // EPSMUL is a power of 2: no wrong constant is next to it, but what rounds DIFF looks so.
+  // EPSMUL is 1/256. If the kernel's threshold seems to be next to 1/256, not EPSMUL is wrong: the kernel
+  // rounds DIFF in another way.
   const bool is_rounded = diffs_in_.most != 1.0 / 256.0 && std::abs(diffs_in_.most * 256.0 - 1.0) < 1e-6;
   double least = std::numeric_limits<double>::infinity();
   const suspect* best = nullptr;
   for (const suspect& s : suspects_) {
     if (s.explained == 0) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
-    // DIFF and ISEP determine where these two IFs are wrong, so that no executions need be listed.
+    // DIFF determines where IF (DIFF.LT.EPSMUL) is wrong, and ISEP where IF (ISEP(I).EQ.1) is wrong.
+    // Therefore their wrong executions need no list.
     if (s.line == &l::if_within)
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (s.line != &l::if_separated)

@@ -18,15 +18,15 @@ class lockstep {
  public:
   /// Throws std::invalid_argument if a follower's precision or rule differs from the leader's.
   lockstep(const kernel_facts& leader, std::vector<std::unique_ptr<kernel>> followers);
-  /// Makes the kernels by name, after the facts of all of them have been checked.
+  /// Makes the followers by name, after the precision and the rule of all of them have been checked.
   lockstep(const kernel_facts& leader, std::span<const std::string> followers);
 
   void put(const answered_call& c);
 
   [[nodiscard]] std::int64_t calls() const { return calls_; }
-  /// The compared values of all followers together.
+  /// The numbers of values and of mismatches of all followers together.
   [[nodiscard]] tally compared() const;
-  /// The earliest first mismatch of any follower.
+  /// The mismatch in the earliest call, of any follower.
   [[nodiscard]] const std::optional<mismatch_report>& first() const;
   /// True if every follower's last answer equals the leader's.
   [[nodiscard]] bool last_call_equal() const;
