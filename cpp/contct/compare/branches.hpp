@@ -49,7 +49,7 @@ inline constexpr std::array<std::string_view, 8> branch_conditions = {
 /// function follows the listing's text and shares no code with a kernel.
 template <class Real, class Visit>
 void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Visit visit) {
-  // From the listing's DATA, and not from kernel/contct.hpp, so that an error in its constants is found.
+  // From the listing's DATA; kernel/contct.hpp is not used, so that an error in its constants is found.
   const Real epsgap = sizeof(Real) == 4 ? static_cast<Real>(1.E-10F) : static_cast<Real>(1.E-10);
   const Real epsmul = Real(1) / Real(256);
   const Real zero = 0;

@@ -62,7 +62,7 @@ enum class why_toggled {
   winner,       ///< SMIN is this pair's s
   same_moment,  ///< like the winner, the pair is at its face at SMIN, up to rounding
   too_early,    ///< s is within EPSMUL of SMIN, but at SMIN the pair is not yet at its face
-  by_mark,      ///< the pair has no event, but s = 1, the mark for that, is within EPSMUL of SMIN
+  by_mark,      ///< the pair has no event; its s = 1, the mark for "no event", is within EPSMUL of SMIN
 };
 
 /// The outcome of one IF for one pair.
@@ -93,8 +93,7 @@ struct explained_pair {
   [[nodiscard]] const taken_branch& at(branch b) const { return taken[index_of(b)]; }
   [[nodiscard]] bool toggled() const { return isep_before != isep_after; }
   [[nodiscard]] bool took_the_lead() const { return at(branch::s_is_smallest).outcome; }
-  /// True if s is the positive scale factor of an event under the 1989 rule, not the mark s = 1 for "no
-  /// event".
+  /// True if s is the positive scale factor of an event under the 1989 rule, not the mark for "no event".
   [[nodiscard]] bool is_candidate() const {
     return (way == listing_branch::moving || way == listing_branch::stationary_event) && s > 0.0;
   }

@@ -280,8 +280,7 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
 }
 
 /// Finds where the kernel left the DO 10 loop too early, so that later SS keep their initial value. Suspects
-/// are the bounds of the loop, and the branches of lines 32 and 40, whose first execution may have ended the
-/// loop.
+/// are the bounds of the loop, and lines 32 and 40, where a wrong port leaves the loop.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
   const std::size_t pairs = ss.size();

@@ -29,10 +29,10 @@ struct number_range {
 /// of the wrong answers: which executions of the line went wrong, and which values they gave.
 struct suspect {
   const listing_line* line = nullptr;
-  std::int64_t reached = 0, wrong = 0;  ///< numbers of executions, and of those that went wrong
+  std::int64_t reached = 0, wrong = 0;  ///< numbers of executions, and of wrong executions
   std::int64_t explained = 0;           ///< number of differing values that the fault explains
   double bits = 0.0;                    ///< the cost, without the list of wrong executions
-  double last_ratio = not_an_answer;    ///< of the last wrong value to the right value
+  double last_ratio = not_an_answer;    ///< ratio of the last wrong value to the right value
   number_range compared;                ///< range of the numbers that an IF compared when it went wrong
 
   /// Counts an execution. If the line went wrong, this costs `bits_if_wrong` and explains `values` differing
@@ -72,8 +72,7 @@ class fault_finder {
   [[nodiscard]] std::uint32_t digest() const { return digest_; }
 
  private:
-  /// Faults of a line. If two faults cost the same, the earlier line is named, or the earlier fault of a
-  /// line.
+  /// Kinds of faults of a line. Of faults with equal cost, found() names the fault of the earliest line.
   enum fault : std::uint8_t { usual, last_pair, wrong_sign, wrong_product, any_number, loop_left };
 
   suspect& at(const listing_line& line, fault kind = usual);

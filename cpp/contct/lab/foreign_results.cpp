@@ -32,7 +32,7 @@ bool is_count_or_state(const expected_number& e) {
   return e.quantity == "state" || e.quantity == "contacts" || e.quantity == "events";
 }
 
-/// The number to which an error of `e` is relative.
+/// The number by which the error of `e` is divided; `all` are the numbers of the same problem.
 double size_of(const expected_number& e, const std::vector<expected_number>& all) {
   if (e.quantity == "event" || is_count_or_state(e)) return 1.0;
   const kind_of_number kind = kind_of(e);
@@ -43,7 +43,7 @@ double size_of(const expected_number& e, const std::vector<expected_number>& all
   return size == 0.0 ? 1.0 : size;
 }
 
-/// Lists the table's entries for a step in a message.
+/// Lists the table's numbers for a step, for a message.
 std::string known_in_step(const std::vector<expected_number>& all, int step) {
   std::string words;
   for (const expected_number& e : all)
@@ -74,7 +74,7 @@ void judge_entry(const toml_value& entry, const std::vector<expected_number>& al
 
 foreign_case judge_case(const toml_value& given, const verification_case& of, double tolerance) {
   foreign_case c{name_of(of)};
-  std::vector<expected_number> all;  // the table may compare one number with several sources
+  std::vector<expected_number> all;  // without repetitions, which have different sources
   for (const expected_number& e : of.checks)
     if (find_same(all, e) == all.end()) all.push_back(e);
   std::vector<std::string_view> keys(place_keys.begin(), place_keys.end());

@@ -15,10 +15,10 @@ namespace contct {
 namespace {
 
 constexpr std::int64_t calls_between_progress = 2048;
-constexpr std::int64_t most_calls_before = 40;  // calls before a mismatch, for kernels that keep data
+constexpr std::int64_t most_calls_before = 40;  // kept before a mismatch, for kernels that keep data
 constexpr std::int64_t problems_certified = 20;
 
-/// A problem small enough for runs of thousands.
+/// A problem so small that a run can follow thousands of problems.
 random_problem quick_problem(std::uint64_t seed, std::int64_t number) {
   random_problem_kind kind;
   kind.most_elements = 16;
@@ -38,7 +38,7 @@ struct first_mismatch {
   call_sequence calls;
 };
 
-/// Puts calls and problems to a leader and its followers. Observes the leader's paths.
+/// A fuzz run. Observes the leader's paths, to compare the answers to the calls of the paths.
 class fuzzing final : public observer {
  public:
   fuzzing(const fuzz_request& r, const fuzz_progress& progress, const kernel_maker& make)
@@ -67,7 +67,8 @@ class fuzzing final : public observer {
       run_.result.followers[f].near = followers()[f].near;
       run_.result.followers[f].at_fault = followers()[f].faults.found();
     }
-    compared_.reset();  // unit 26 belongs to the process, so these kernels must end before new ones are made
+    // Unit 26 belongs to the process, so all kernels must end before new kernels are made.
+    compared_.reset();
     leader_.reset();
     for (std::size_t f = 0; f < firsts_.size(); ++f) conclude(run_.result.followers[f], firsts_[f]);
     run_.result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -118,7 +119,7 @@ class fuzzing final : public observer {
     for (const follower& f : followers()) (void)f.asked().take_text();  // discards text that was not compared
   }
 
-  /// Stores the first mismatch of each follower. `up_to(number)` returns the calls up to this number.
+  /// Stores the first mismatch of each follower. `up_to(number)` returns the calls up to call `number`.
   template <class Calls>
   void keep_firsts(Calls up_to) {
     for (std::size_t f = 0; f < firsts_.size(); ++f) {
@@ -129,7 +130,7 @@ class fuzzing final : public observer {
 
   [[nodiscard]] std::vector<follower>& followers() { return compared_->followers(); }
 
-  /// Determines a follower's level of equality, and shrinks its first mismatch.
+  /// Determines a follower's level of equality, and reduces the calls of its first mismatch.
   void conclude(fuzz_follower& total, const std::optional<first_mismatch>& first) {
     total.highest = level_of(total);
     if (!first) return;
@@ -138,7 +139,7 @@ class fuzzing final : public observer {
     if (total.at_fault) lines.push_back("at fault: " + words_of(*total.at_fault));
     const std::unique_ptr<kernel> leader = make_(request_.kernels[0]);
     const std::string& field = first->what.where.field;
-    const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs delays every try
+    const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs delays each try
     if (auto small = shrunk_case(
             *leader, [&] { return make_(total.name); }, first->calls, field, most_tries)) {
       lines.push_back("reduced to " + std::to_string(small->calls.size()) + " call(s), " +
@@ -154,7 +155,8 @@ class fuzzing final : public observer {
     return level == equality_level::none && certified_paths(total) ? equality_level::certificate : level;
   }
 
-  /// Checks the first problems, and those in which any follower differed.
+  /// True if certified_as_leader holds for the first problems and for problems in which any follower
+  /// differed.
   bool certified_paths(const fuzz_follower& total) {
     if (request_.problems == 0 || !total.near.always_answered) return false;
     std::vector<std::int64_t> asked = differing_problems_;

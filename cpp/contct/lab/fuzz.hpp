@@ -1,4 +1,5 @@
-// A fuzz run compares kernels on random and adversarial calls and on whole problems, and shrinks mismatches.
+// A fuzz run compares kernels on random and adversarial calls and on whole problems, and reduces the
+// calls that show a mismatch.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +15,17 @@
 
 namespace contct {
 
-/// Calls whose last answers differ. Several are needed if the kernel keeps data between calls.
+/// Calls of which the last one shows a mismatch; several calls if the kernel keeps data between calls.
 using call_sequence = std::vector<call_inputs<double>>;
 
-/// True if new kernels answer the whole sequence and still differ in the last call in the same way.
+/// True if a new follower, after all earlier calls, still differs in the last call, in the same field.
 using still_differs = std::function<bool(const call_sequence&)>;
 
-/// Shrinks `calls` as long as they differ: to fewer calls, fewer pairs, nodes from 1 with one dof each, and
-/// rounder numbers. The result differs if `calls` do. Tests at most `most_tries` sequences.
+/// Reduces `calls` to fewer calls, fewer pairs, nodes from 1 with one dof each, and rounder numbers. Keeps
+/// only changes for which `differs` is true. Tests at most `most_tries` sequences.
 [[nodiscard]] call_sequence shrink(call_sequence calls, const still_differs& differs, int most_tries = 4000);
 
-/// A mismatch with the calls that show it.
+/// A mismatch, and the calls that show the mismatch.
 struct found_case {
   mismatch_report what;  ///< the mismatch in the last call
   call_sequence calls;
@@ -34,17 +35,18 @@ struct found_case {
 /// Makes a follower that has not answered a call yet.
 using fresh_kernel = std::function<std::unique_ptr<kernel>()>;
 
-/// Puts `calls` to the leader and to a fresh follower. Returns the mismatch in the last call if it is in
+/// Repeats `calls` with the leader and a new follower. Returns the mismatch in the last call if it is in
 /// `field`, or in any field if `field` is "".
 [[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make,
                                                   const call_sequence& calls, const std::string& field);
 
-/// Shrinks `calls` as long as they differ in `field`. Returns nothing if they do not differ in it.
+/// Reduces `calls` with shrink, where a sequence differs if reproduce finds a mismatch in `field`. Returns
+/// nothing if reproduce finds no mismatch in `field` for `calls`.
 [[nodiscard]] std::optional<found_case> shrunk_case(kernel& leader, const fresh_kernel& follower,
                                                     const call_sequence& calls, const std::string& field,
                                                     int most_tries = 4000);
 
-/// The calls and problems of a run. Shard I/N has the numbers I, I + N, I + 2 N, ...
+/// The calls and problems of a run. Shard I of N has the calls and problems I, I + N, I + 2 N, ..
 struct fuzz_request {
   std::vector<std::string> kernels = {"fortran", "cpp"};  ///< the first is the leader
   std::int64_t calls = 200'000;
@@ -59,11 +61,11 @@ struct fuzz_follower {
   tally compared;
   nearness near;
   equality_level highest = equality_level::bits;
-  std::optional<faulty_line> at_fault;        ///< the line at fault, by all answers
+  std::optional<faulty_line> at_fault;        ///< the faulty line, found from all answers
   std::vector<std::string> mismatch_reports;  ///< lines about the first mismatch
 };
 
-/// Counts of events. Each is a make or a break; it is also stationary if the pair was at its face before.
+/// Counts of events. Each event is a make or a break, and is also stationary if the pair was at its face.
 struct event_counts {
   std::int64_t make = 0, break_ = 0, stationary = 0;
 };
@@ -71,7 +73,7 @@ struct event_counts {
 /// The result of a run, or of one shard.
 struct fuzz_result {
   fuzz_request request;
-  std::int64_t calls = 0, problems = 0;  ///< `calls` counts single calls and those of all paths
+  std::int64_t calls = 0, problems = 0;  ///< `calls` counts random calls and the calls of paths
   event_counts events;                   ///< the leader's events
   branch_counts branches;
   std::vector<fuzz_follower> followers;
@@ -81,19 +83,19 @@ struct fuzz_result {
   [[nodiscard]] tally compared() const;
 };
 
-/// Checks that a run compared enough for "no mismatch" to be evidence. Returns the counts that are too low,
-/// or an empty text. With fewer than 1000 calls, one compared value is enough.
+/// Returns a message with the counts of events and branches that are too low for "no mismatch" to be
+/// evidence; empty if all are high enough. With fewer than 1000 calls, one compared value is enough.
 [[nodiscard]] std::string floors_missed(const fuzz_result& r);
 
 struct fuzz_run {
   fuzz_result result;
-  std::vector<found_case> cases;  ///< the shrunk mismatch of each follower that differs
+  std::vector<found_case> cases;  ///< the reduced mismatch of each follower, if reproducible
 };
 
 /// Receives the number of finished calls or problems, their total, and "calls" or "problems".
 using fuzz_progress = std::function<void(std::int64_t done, std::int64_t all, const char* what)>;
 
-/// Puts the calls and problems of `r` to its kernels, which `make` makes by name. Throws
+/// Compares the kernels of `r` on its calls and problems. `make` makes a kernel by name. Throws
 /// std::invalid_argument if a kernel is unknown, or if the kernels differ in precision or rule.
 [[nodiscard]] fuzz_run run_fuzz(const fuzz_request& r, const fuzz_progress& progress = nullptr,
                                 const kernel_maker& make = make_kernel);

@@ -12,10 +12,10 @@ namespace contct {
 namespace {
 
 constexpr int most_pairs = 64;
-constexpr int last_node = 1100;  // beyond 999, I3 of the log overflows
+constexpr int last_node = 1100;  // nodes beyond 999 overflow the format I3 of unit 26
 constexpr int most_dofs = 3 * last_node + 3;
 constexpr double powers_of_ten[] = {1e-15, 1e-12, 1e-10, 1e-9, 1e-6, 1e-3, 1.0, 1e2, 1e5};
-constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15;  // makes the two generators independent
+constexpr std::uint64_t other_stream = 0x9e3779b97f4a7c15;  // changes the seed of adversarial calls
 
 /// Draws one call, with a random generator for this call alone.
 template <class Real>
@@ -50,7 +50,7 @@ class drawn_call {
                       : random_.chance(0.002) ? 0
                                               : random_.whole(1, 6);
     resize(pairs);
-    // Many pairs often share nodes. Beyond node 999 the log overflows.
+    // Two nodes make pairs share dofs; nodes beyond 999 overflow the format I3 of unit 26.
     const int first = random_.chance(0.05) ? last_node - 150 : 1;
     const int nodes = random_.chance(0.2) ? 2 : pairs > 100 ? last_node : 150;
     for (int i = 0; i < pairs; ++i) in_.id[i] = random_.whole(first, std::min(first + nodes - 1, last_node));
@@ -108,14 +108,14 @@ class drawn_call {
     return random_.chance(0.5) ? x : -x;
   }
 
-  /// A power of 2, whose product with a scale factor is exact, or any other response.
+  /// A response: a power of 2, whose product with a scale factor is exact, or a number from 0.1 to 1.1.
   Real some_response() {
     const Real power = std::ldexp(Real(1), random_.whole(-6, 6));
     const Real x = random_.chance(0.6) ? power : static_cast<Real>(0.1 + random_.unit());
     return random_.chance(0.5) ? x : -x;
   }
 
-  /// Sets c - D to `gap`, up to rounding. D, c or neither is zero.
+  /// Sets c and D so that c - D is `gap`, up to rounding. Often c or D is zero.
   void place_gap(std::size_t dof, std::size_t i, Real gap) {
     const int where = random_.whole(0, 3);
     in_.dd[dof] = where == 0 ? -gap : where == 1 ? static_cast<Real>(random_.unit()) : Real(0);
@@ -142,7 +142,7 @@ class drawn_call {
         in_.dd[dof] = static_cast<Real>(random_.unit());
         in_.cc[i] = in_.dd[dof];
         return;
-      case 3:  // SS(I).LT.SMIN, DIFF of a tie
+      case 3:  // SS(I).LT.SMIN, and DIFF near 0
         return place_gap(dof, i, nudged(s_ * response));
       case 4: {  // DIFF.LT.EPSMUL
         const Real share = random_.chance(0.7) ? Real(1) + Real(1) / 256 : Real(1) - Real(1) / 256;

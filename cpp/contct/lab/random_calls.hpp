@@ -13,18 +13,18 @@ class random_calls {
  public:
   explicit random_calls(std::uint64_t seed) : seed_(seed) {}
 
-  /// A call with 1 to 64 pairs, some on the same node, every (INDOF, NDOFPN) from (1, 1) to (3, 3), and
-  /// sometimes nodes beyond 999. These calls reach every branch of the listing. Half of the numbers lie on a
-  /// coarse grid, so that ties, zero gaps and stationary pairs are common; the others are scaled by powers of
-  /// ten from 1e-15 to 1e5.
+  /// A call with 1 to 64 pairs, some on the same node, INDOF and NDOFPN from 1 to 3, and sometimes nodes
+  /// beyond 999. These calls reach every branch of the listing. Half of the nonzero numbers lie on a coarse
+  /// grid, so that ties, zero gaps and stationary pairs are common; the other numbers lie between -1 and 1,
+  /// and some of them are scaled by a power of ten from 1e-15 to 1e5.
   const call_inputs<Real>& random(std::uint64_t number);
 
-  /// A call at the thresholds of the listing. Each pair is made for one decision: a response of zero or of
-  /// the smallest number; a gap of EPSGAP; a response that makes SSCHK zero, subnormal or infinite; a scale
-  /// factor at the winner's, at EPSMUL from the winner's, at 1 (the mark for "no event"), or at 256/257 (for
-  /// which this mark is at EPSMUL). Numbers meet their threshold exactly, or miss it by one or two ULP. Other
-  /// pairs have numbers from the ends of the floating-point range: zeros, subnormals, the largest numbers,
-  /// infinities, NaN. Some calls have many pairs, or invalid statuses.
+  /// A call at the thresholds of the listing. Each pair is made for one IF: a response of zero or of the
+  /// smallest number; a gap of EPSGAP; a response that makes SSCHK zero, subnormal or infinite; a scale
+  /// factor at the winner's, at EPSMUL from the winner's, at 1 (the mark for "no event"), or at 256/257
+  /// (for which DIFF of the mark 1 is EPSMUL). Numbers meet their threshold exactly, or miss it
+  /// by one or two ULP. Other pairs have numbers from the ends of the floating-point range: zeros,
+  /// subnormals, the largest numbers, infinities, NaN. Some calls have many pairs, or invalid statuses.
   const call_inputs<Real>& adversarial(std::uint64_t number);
 
  private:

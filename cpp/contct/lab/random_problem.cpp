@@ -171,7 +171,8 @@ class drawing {
     return l;
   }
 
-  /// Deflections [nodes] under the first load without pairs. They give the size of useful gaps.
+  /// Deflections [nodes] under the first load without pairs, which give the size of useful gaps; 0.01 units
+  /// if the structure cannot be solved without pairs.
   [[nodiscard]] std::vector<double> free_deflection() const {
     linear_structure s = build(problem_.geometry, problem_.supports, {});
     std::vector<double> f(s.dofs(), 0.0);

@@ -1,5 +1,5 @@
-// Random problems with one-sided supports, the same on every machine for a seed and a number, and the path of
-// a kernel on them.
+// Makes random problems with one-sided supports, each determined by a seed and a number. Follows a kernel's
+// path on a problem, and judges the path.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +40,9 @@ struct random_problem : problem {
 enum class verdict {
   certified,        ///< every step's final state is certified
   no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
-  wrong,            ///< the path reached its end, and some final state is wrong
+  wrong,            ///< the path reached its end, but some final state is not certified
   false_mechanism,  ///< the path ended in a mechanism although there is an equilibrium
-  no_end,           ///< the path has a cycle, too many increments, or no factor
+  no_end,           ///< the path has a cycle or too many increments, or a factorisation failed
 };
 
 struct problem_result {
@@ -50,12 +50,12 @@ struct problem_result {
   std::vector<certificate> certificates = {};  ///< one for each step that reached its load
 };
 
-/// Follows the path of `p` with the kernel `leader`. The reference solution is the fallback if the kernel's
-/// rule allows one.
+/// Follows the path of `p` with the kernel `leader`, and judges it. If the kernel's rule allows a fallback,
+/// the reference solution is the fallback.
 [[nodiscard]] problem_result try_problem(const problem& p, kernel& leader,
                                          std::string_view engine = "refactor");
 
-/// Like try_problem, with `s` as p's structure. Its stiffness may be stored in any way.
+/// Like try_problem, with `s` as the structure of `p`. The stiffness of `s` may be stored in any way.
 [[nodiscard]] problem_result try_structure(const problem& p, const linear_structure& s, kernel& leader,
                                            std::string_view engine, std::vector<observer*> watching = {});
 

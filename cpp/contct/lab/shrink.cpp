@@ -18,10 +18,10 @@ double rounded(double x, int digits) {
   return std::strtod(text, nullptr);
 }
 
-/// Numbers rounder than `x`, the roundest first. Shrinking ends because all of them are rounder than `x`.
+/// Numbers rounder than `x`, the roundest first. The result has no `x`, so that shrinking ends.
 std::vector<double> rounder_than(double x) {
   std::vector<double> all;
-  const auto is_rounder = [&all, x](double y) {  // also adds `y` unless `all` contains it
+  const auto is_rounder = [&all, x](double y) {  // also adds `y` to `all`, without repetition
     if (same_bits(x, y)) return false;
     if (std::none_of(all.begin(), all.end(), [y](double z) { return same_bits(y, z); })) all.push_back(y);
     return true;
@@ -34,7 +34,7 @@ std::vector<double> rounder_than(double x) {
   return all;
 }
 
-/// The call with one dof for each node, and with nodes from 1 in the order of the pairs.
+/// The same call with one dof for each node, and with nodes from 1 in the order of the pairs.
 call_inputs<double> compact(const call_inputs<double>& in) {
   call_inputs<double> out;
   out.cc = in.cc;
@@ -125,7 +125,7 @@ class shrinker {
     }
   }
 
-  /// Tries D = 0, d* = 1 and c = s. One of these changes alone would change the scale factor s.
+  /// Tries D = 0, d* = 1 and c = s at once, which keeps the scale factor s = (c - D) / d*.
   void plainer_pair(std::size_t c, std::size_t i) {
     const call_inputs<double>& in = calls_[c];
     const std::size_t dof = in.dof_of_pair(i);
@@ -138,7 +138,7 @@ class shrinker {
     });
   }
 
-  /// Tries rounder numbers, in rounds until nothing changes: one number may allow another to be rounder.
+  /// Tries rounder numbers, in rounds: a number may become rounder only after another number did.
   void rounder_numbers(std::size_t c) {
     constexpr int most_rounds = 4;
     changed_ = true;

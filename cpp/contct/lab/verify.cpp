@@ -122,7 +122,7 @@ double of_extreme(const step_results& s, std::string_view quantity) {
   return asks_place ? at.x : at.value;
 }
 
-/// The number of events of a step, or the share of the step at which `e.pair` has its event.
+/// The number of events of a step, or the share of the step at which `e.pair` has the event `e.change`.
 double of_events(const step_record& s, const expected_number& e) {
   std::size_t count = 0;
   for (const increment_record& i : s.increments) {
@@ -280,7 +280,7 @@ bool agrees(double measured, double value, double tolerance) {
 
 namespace {
 
-/// A run of the kernels with the engine "refactor", which works as the paper does, and its numbers.
+/// A run of the kernels with the engine "refactor", the method of the paper, and the numbers of the path.
 struct verified_run {
   verified_run(const problem& p, const linear_structure& s, std::vector<std::string> kernels)
       : path(p, s, {.kernels = std::move(kernels), .engine = "refactor"}) {

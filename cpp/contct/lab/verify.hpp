@@ -1,4 +1,5 @@
-// Measures the expected numbers of the problems in reference/ on the paths of the kernels, and judges them.
+// Computes the numbers of reference/verification.toml on the paths of the kernels, and compares them with the
+// expected values.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@
 
 namespace contct {
 
-/// One number of reference/verification.toml; the beginning of this file explains the fields. Nodes, elements
-/// and pairs count from 1; they are 0 if the quantity does not need them.
+/// One number of reference/verification.toml. The comment at the beginning of verification.toml explains the
+/// fields. Nodes, elements and pairs count from 1; they are 0 if the quantity does not need them.
 struct expected_number {
   int step = 0;
   std::string quantity;
@@ -29,11 +30,11 @@ struct expected_number {
   std::string kind, because, source;
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
   std::optional<double> faithful;  ///< the value under the 1989 rule, if it differs
-  std::string reason;              ///< why it differs
+  std::string reason;              ///< why `faithful` differs from `value`
   std::string exact;  ///< the exact number, "p/q" or a decimal; the name of a state; empty if unknown
 };
 
-/// The keys that identify a number of a problem, and their values in a table.
+/// The keys that identify a number of a problem. read_place reads their values from a table.
 inline constexpr std::array<std::string_view, 11> place_keys = {
     "step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along"};
 [[nodiscard]] expected_number read_place(const toml_value& t);
@@ -51,7 +52,7 @@ struct verification_case {
   std::vector<expected_number> checks;
 };
 
-/// Reads the table. Throws input_error.
+/// Reads verification.toml at `path`. Throws input_error.
 [[nodiscard]] std::vector<verification_case> read_verification(const std::string& path);
 
 /// Describes a number: "w, node 3"; "pair 2 makes", for the share of the step at which pair 2 makes; "moment,
@@ -64,7 +65,7 @@ class measurement {
   /// `p` and `path` must outlive this object.
   measurement(const problem& p, const run_recorder& path);
 
-  /// The quantity on this path; NaN if the path ended before.
+  /// The value of `e` on the path; NaN if the path has no such quantity, or ended before the step.
   [[nodiscard]] double of(const expected_number& e) const;
 
   /// The number to which errors of `e` are relative: the largest deflection, slope, force or moment of the
@@ -80,9 +81,9 @@ class measurement {
 /// True if `measured` differs from `value` by at most `tolerance`: relative, or absolute if `value` is 0.
 [[nodiscard]] bool agrees(double measured, double value, double tolerance);
 
-/// Describes how a number disagrees with the exact number; empty if it agrees, or if no exact number is
-/// known. `computed` may differ by `allowed`, or by the table's tolerance if `allowed` is 0. The table's
-/// value may differ by the table's tolerance.
+/// Describes how `computed`, or else the table's value, disagrees with the exact number; empty if `computed`
+/// and the value agree with it, or if no exact number is known. `computed` may differ by `allowed`, or by the
+/// table's tolerance if `allowed` is 0. The table's value may differ by the table's tolerance.
 [[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
 
 struct verified_number {
@@ -110,7 +111,8 @@ struct verified_case {
 };
 
 /// Runs a problem twice: with FORTRAN leading C++ in lockstep, and with the corrected kernel. The corrected
-/// kernel must give the expected numbers. FORTRAN must give the same, or the table's `faithful` values.
+/// kernel must give the expected numbers. FORTRAN must give the expected numbers, or the table's
+/// `faithful` values.
 /// Certified results must be as close to the exact number as a certificate promises, and the table's value
 /// must agree with the exact number (see exact_disagreement). FORTRAN and C++ must be equal to the bit. The
 /// corrected kernel's states must be certified.
