@@ -73,7 +73,7 @@ std::string coordinate_words(std::span<const double> x, std::string_view what) {
   return joined(words, ", ") + (words.size() < x.size() ? "; equal distances between" : "");
 }
 
-/// The description of the problem: pairs of a name and a text.
+/// The description of the problem, as names and texts.
 std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   std::vector<std::pair<std::string, std::string>> facts;
   if (!p.title.empty()) facts.emplace_back("title", on_one_line(p.title));

@@ -99,7 +99,7 @@ fs::path folder_of_prover(const fs::path& program) {
 
 }  // namespace
 
-/// Writes a problem file of the cookbook, and the files that it names to the same folder.
+/// Writes a problem file of the cookbook and, to the same folder, the files that the problem names.
 exit_status run_command(const new_options& options) {
   if (options.kind.empty()) {
     list_recipes();

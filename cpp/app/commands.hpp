@@ -50,8 +50,8 @@ struct check_options : problem_options {
 
 struct explain_options : problem_options {
   std::vector<std::string> kernels = {"fortran", "cpp"};
-  std::string engine = "refactor";
-  std::string increment;  ///< "3", or "2.3" for increment 3 of step 2
+  std::string engine = "refactor";  ///< an engine's name
+  std::string increment;            ///< "3", or "2.3" for increment 3 of step 2
   std::optional<int> step, pair;
   bool all = false;  ///< shows every increment of a long run
   std::string json;
@@ -73,8 +73,8 @@ struct new_options {
 
 struct verify_options {
   std::string reference;   ///< a folder
-  std::string results;     ///< another program's results, which are judged instead of this build's
-  std::size_t least = 10;  ///< the number of results that the file must contain
+  std::string results;     ///< another program's results, judged instead of this build's results
+  std::size_t least = 10;  ///< the least count of numbers in the file `results`
   std::string json;
   report_options report;
 };
@@ -98,7 +98,7 @@ struct replay_options {
 
 struct prove_options {
   std::string library;  ///< a file with a kernel; empty: this program
-  std::string symbol;
+  std::string symbol;   ///< the kernel's name in the file
 };
 
 struct kernels_options {};
@@ -118,7 +118,8 @@ using command_options =
 [[nodiscard]] command_options parse_contct(int argc, const char* const* argv,
                                            const std::vector<std::string>& engines);
 
-/// Parses the command line of `contct-replay` into printed_text or replay_options. Throws likewise.
+/// Parses the command line of `contct-replay` into printed_text or replay_options. Throws
+/// std::invalid_argument, as parse_contct does.
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
 
 // Each function runs a command and returns its exit status. Exceptions have a message for the user in what().

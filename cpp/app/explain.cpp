@@ -16,12 +16,13 @@
 namespace contct {
 namespace {
 
-/// The whole of `text` as a number from 1; 0 if it is no such number.
+/// The whole of `text` as a number from 1; 0 if `text` is not such a number.
 int number_from_1(std::string_view text) {
   return std::max(0, number_in<int>(text).value_or(0));
 }
 
-/// Combines --step and --increment. "--increment 2.1" contains both, as in the table of `contct run`.
+/// Combines --step and --increment. "--increment 2.1" means increment 1 of step 2, as in the table of
+/// `contct run`.
 increments_wanted wanted_of(const explain_options& o) {
   increments_wanted wanted{o.step.value_or(0), 0};
   if (o.increment.empty()) return wanted;
@@ -47,7 +48,8 @@ void refuse_beyond(const char* option, std::optional<int> found, std::size_t mos
                 : fmt::format("{}: found {}; allowed: a {} from 1 to {}", option, *found, what, most));
 }
 
-/// The exit status if nothing was explained: the path has no increment, or not the requested one.
+/// Complains of a step or increment that the path does not have. Returns the exit status of `contct explain`
+/// if no increment was explained.
 exit_status nothing_told(const explain_options& o, const increments_wanted& wanted, const path_end& end,
                          const explained_path& told) {
   if (wanted.step > told.steps())
@@ -77,7 +79,7 @@ void print_story(const std::vector<sentence>& story) {
   for (const sentence& t : story) print_text(text_of(look_at_terminal(), t));
 }
 
-/// The IFs that one pair reached, each with its margin.
+/// The IFs that one pair reached, each with its margin; without IF (ISEP(I).EQ.1), which has no margin.
 std::vector<sentence> margins_of(const explained_pair& p) {
   std::vector<sentence> margins;
   for (std::size_t b = 0; b < p.taken.size(); ++b) {
@@ -116,7 +118,7 @@ void refuse_for_trace(const explain_options& o, const trace_header& h) {
                                 ": found a trace of the corrected rule; allowed: a trace of the 1989 rule");
 }
 
-/// Explains the calls of a trace, and compares another kernel's answers.
+/// Explains the calls of a trace, and compares a kernel's answers to the calls with the recorded answers.
 exit_status explain_trace(const explain_options& options) {
   const std::string text = read_input(options.file, "trace", 2048);
   trace_reader calls(text, options.file);

@@ -16,7 +16,7 @@
 namespace contct {
 namespace {
 
-/// Reads "I/N". Throws std::invalid_argument.
+/// Reads the shard "I/N" into `r`, unless `text` is empty. Throws std::invalid_argument if `text` is invalid.
 void read_shard(const std::string& text, fuzz_request& r) {
   if (text.empty()) return;
   int end = 0;

@@ -14,13 +14,13 @@ extern const std::string_view hints_toml;
 
 namespace {
 
-/// A JSON string.
+/// `text` as a JSON string, with quotation marks.
 std::string quoted(std::string_view text) {
   constexpr escape marks[] = {{'"', "\\\""}, {'\\', "\\\\"}};
   return '"' + escaped(whole_line(text), marks) + '"';
 }
 
-/// The checksum of a plug-in's file as JSON; null for a command, whose program file is unknown.
+/// The checksum of a plug-in's file as JSON; null for other kernels.
 std::string file_sha256(const std::string& kernel) {
   constexpr std::string_view plugin = "plugin:";
   constexpr std::size_t most_mib = 512;

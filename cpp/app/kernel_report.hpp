@@ -1,5 +1,5 @@
-// --report of `contct fuzz` and `contct replay`: the calls and mismatches of one kernel, as a file that can
-// be submitted and that reference/vectors/verify_report.py checks.
+// Writes the report of `contct fuzz` and `contct replay` on one kernel (--report): its calls and mismatches.
+// The file can be submitted; reference/vectors/verify_report.py checks the file.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct replayed_trace {
 
 struct kernel_report {
   std::string command;  ///< "replay", or the command that repeats a fuzz run
-  std::string kernel;   ///< the kernel's name
-  std::string rung;     ///< the highest level of equality that the kernel reaches
+  std::string kernel;
+  std::string rung;  ///< the highest level of equality that the kernel reaches
   std::int64_t calls = 0;
   tally compared;
   std::vector<replayed_trace> traces;
@@ -30,16 +30,17 @@ struct kernel_report {
   std::optional<faulty_line> at_fault = {};
 };
 
-/// Throws std::invalid_argument if `outputs` are requested, but not exactly one kernel is checked.
+/// Throws std::invalid_argument if `outputs`, the file names of --report and --badge, are not empty although
+/// the number of checked kernels is not 1.
 void refuse_many_reported(std::size_t kernels, const std::string& outputs);
 
-/// Writes the requested ones of --report, as JSON of the format "contct-report-1", and --badge, "CONTCT" and
-/// the rung.
+/// Writes the files of --report, as JSON of the format "contct-report-1", and of --badge, an SVG picture of
+/// the rung, if requested.
 void write_report(const output_files& files, const kernel_report& r);
 
-/// Explains the faults of a kernel by its answers to the golden set in 8-byte REAL, in the order of the set:
-/// "known fault: ..", the sentences of reference/course/hints.toml about the faults that give all of these
-/// answers.
+/// Returns lines "known fault: ..", with the sentences of reference/course/hints.toml about the faults that
+/// give the same answers. `answers` has noted a kernel's answers to the golden set (reference/traces) in
+/// 8-byte REAL, in the order of the files' names.
 [[nodiscard]] std::vector<std::string> known_faults(const fault_finder& answers);
 
 }  // namespace contct

@@ -72,7 +72,7 @@ bool runs_the_program(const std::vector<std::string>& arguments) {
     return false;
   }
   set_joined_job(&job);
-  // mpirun gives rank 0 a terminal even if the output of mpirun is not a terminal.
+  // mpirun gives rank 0 a terminal even if the output of mpirun is not a terminal, so colours are turned off.
   (void)setenv("NO_COLOR", "1", 0);  // NOLINT(concurrency-mt-unsafe): there is no other thread yet
   return true;
 }

@@ -17,7 +17,7 @@ constexpr std::int64_t most_random_cases = 1'000'000'000'000;
 /// An example command line, which --help shows and the tests run unchanged.
 struct example {
   std::string_view line;  ///< "contct run beam.toml"
-  std::string_view text;  ///< the purpose of this command line
+  std::string_view text;  ///< what the command line does
 };
 
 constexpr example all_examples[] = {
@@ -101,7 +101,7 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
   return fmt::format("{}; the commands are: {}{}", words, joined(commands, ", "), advice);
 }
 
-/// Refuses an empty name, which would lose the output without a message.
+/// The error message for an empty file name, which would lose the output silently; empty for other names.
 std::string a_name(const std::string& file) {
   return file.empty() ? "found an empty name; allowed: a file name" : "";
 }

@@ -55,7 +55,7 @@ double wait_before_progress() {
   return *seconds;
 }
 
-/// Overwrites the line of the cursor.
+/// Overwrites the terminal's current line.
 void put_line(std::string_view words) {
   const std::string line = fmt::format("\r{}\033[K", on_one_line(words));
   (void)std::fputs(line.c_str(), stderr);
@@ -139,7 +139,7 @@ std::string utc_now() {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
   const char* const given = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
-  // A clock that was never set may show any year, so it is clamped.
+  // A clock that was never set may show any year, so its time is clamped.
   const auto seconds = given == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most)
                                         : number_in<std::int64_t>(given);
   if (!seconds || *seconds < 0 || *seconds > most)

@@ -19,11 +19,11 @@
 
 namespace contct {
 
-/// Opens closed standard streams, whose descriptors output files would get otherwise.
+/// Opens closed standard streams. Otherwise output files would get the descriptors of the closed streams.
 void hold_standard_streams();
 
-/// The new handler of both programs. Ends the process with a message and exit status 2, without destructors,
-/// which may need memory.
+/// Ends the process with a message and exit status 2 if memory is exhausted. Calls no destructors, which may
+/// need memory. contct and contct-replay pass this function to std::set_new_handler.
 [[noreturn]] void end_for_memory();
 
 /// Prints "contct: ..." on standard error, escaped by `terminal_text`. A failure to print is ignored, because
@@ -35,12 +35,12 @@ void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) 
   (void)std::fputs(line.c_str(), stderr);
 }
 
-/// Escapes a text, line ends included, so that no file name can begin a new line.
+/// Escapes a text, line ends included, so that a file name in a message cannot begin a new line.
 [[nodiscard]] inline std::string whole_line(std::string_view text) {
   return printable(text, std::string_view::npos);
 }
 
-/// Complains once for each line.
+/// Prints each line as complain does.
 void complain_of(const std::vector<std::string>& lines);
 
 /// Prints `items` in lines of the terminal's width. See wrap.
@@ -77,44 +77,45 @@ struct check_report {
 /// The facts in every report: the program's version, the listing's checksum, and the floating-point probe.
 [[nodiscard]] std::vector<std::string> common_facts();
 
-/// The time now, as "2026-11-22 13:16 UTC", or that of SOURCE_DATE_EPOCH in the environment, in seconds since
-/// 1970, which makes files reproducible. Throws std::invalid_argument if this variable is invalid.
+/// The time now, as "2026-11-22 13:16 UTC". If the environment variable SOURCE_DATE_EPOCH is set, in seconds
+/// since 1970, returns its time, so that files are reproducible. Throws std::invalid_argument if the variable
+/// is invalid.
 [[nodiscard]] std::string utc_now();
 
-/// An output file; the path is empty if the file is not requested.
+/// An output file and its option. The path is empty if the file is not requested.
 struct output_option {
   const char* name;  ///< for example "--json"
   std::string path;
-  bool opens_later = false;  ///< output_files does not open it
+  bool opens_later = false;  ///< output_files does not open the file
 };
 
 [[nodiscard]] std::vector<output_option> with_reports(std::vector<output_option> others,
                                                       const report_options& options);
 
 /// Throws std::invalid_argument if two outputs are the same file, if an output is the file to which standard
-/// output goes, if several outputs are "-", or if an output would replace an input. The name of an input
-/// describes it, for example "the problem".
+/// output goes, if several outputs are "-", or if an output would replace an input. An input has a
+/// description as its name, for example "the problem".
 void refuse_shared_outputs(const std::vector<output_option>& outputs,
                            const std::vector<output_option>& inputs = {});
 
 /// The description of an input file that a problem names.
 inline constexpr const char* named_by_problem = "a file that the problem names";
 
-/// True if an output is "-". Then nothing else is printed.
+/// True if an output is "-". Then nothing else is printed on standard output.
 [[nodiscard]] bool takes_standard_output(const std::vector<output_option>& outputs);
 
 /// Writes a whole file. Throws as output_file does.
 void write_file(const std::string& name, std::string_view text);
 
-/// The output files of a command. The constructor opens them, before any work is done.
+/// The output files of a command. The constructor opens the files, so that errors are found before the work.
 class output_files {
  public:
   explicit output_files(const std::vector<output_option>& outputs);
 
-  /// The file of an option; null if it was not requested.
+  /// The file of an option; null if the file was not requested or opens later.
   [[nodiscard]] output_file* operator[](std::string_view name) const;
 
-  /// Writes the whole file of an option and gives it its name. Does nothing if the file was not requested.
+  /// Writes `text` as the whole file of an option. Does nothing if the file was not requested.
   void write(std::string_view name, std::string_view text) const;
   /// Writes the files of --junit and --markdown.
   void write(const check_report& report) const;

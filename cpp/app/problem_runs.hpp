@@ -1,4 +1,4 @@
-// Functions of the commands that follow a path: the choice of the engine, reading the problem, and progress.
+// Functions that commands share: they check --engine, read the problem, find reference/ and show progress.
 #pragma once
 
 #include <filesystem>
@@ -25,15 +25,16 @@ void refuse_engine_option(const std::string& name);
 [[nodiscard]] problem read_with_warnings(const problem_options& options,
                                          const std::vector<output_option>& outputs);
 
-/// The requested reference/; or the one installed with the program, even if both were moved; or that of the
-/// tree in which the program was built.
+/// Returns the folder `asked`. If `asked` is empty, returns the reference/ that is installed with the
+/// program, found relative to the program, or else the reference/ of the source tree. Throws input_error if
+/// there is neither folder.
 [[nodiscard]] std::filesystem::path find_reference(const std::string& asked);
 
-/// known_faults of the kernel's answers to the golden set; none where reference/ is not found.
+/// Replays the golden set with `k`. Returns known_faults of the answers; empty if reference/ is not found.
 [[nodiscard]] std::vector<std::string> golden_faults(kernel& k);
 
-/// Observes a path and shows the step and the increment that it has reached. Whoever prints meanwhile erases
-/// the line first.
+/// Observes a path and shows the step and the increment that it has reached. Code that prints during the
+/// path must erase `line` first.
 class path_progress final : public observer {
  public:
   path_progress(std::size_t steps, bool quiet);

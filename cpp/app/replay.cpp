@@ -1,4 +1,4 @@
-// contct replay and contct-replay: a kernel repeats recorded calls, without LAPACK and finite elements.
+// contct replay and contct-replay: kernels repeat recorded calls, without LAPACK and finite elements.
 #include <filesystem>
 #include <map>
 #include <stdexcept>

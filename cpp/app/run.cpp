@@ -33,7 +33,7 @@ std::string beside(const std::string& file, const std::string& end) {
   return (path.parent_path() / (path.stem().string() + end)).string();
 }
 
-/// A second table's name, for example "out.pairs.csv" for "out.csv" and ".pairs"; empty for standard output.
+/// A further table's name, for example "out.pairs.csv" for "out.csv" and ".pairs"; empty without a CSV file.
 std::string table_beside(const std::string& csv, const std::string& name) {
   if (csv.empty() || csv == "-") return "";
   return beside(csv, name + fs::path(csv).extension().string());
@@ -91,7 +91,8 @@ void refuse_bad_options(const run_options& o) {
   }
 }
 
-/// The node of --node, from 0: a number from 1, "x = 4.5", or a dof's label. Throws std::invalid_argument.
+/// The node of --node, from 0: a number from 1, "x = 4.5", or a dof's label. Throws std::invalid_argument
+/// if there is no such node.
 int node_named(const model& m, const std::string& name) {
   for (int node = 0; node < nodes(m); ++node)
     if (place_name(m, node) == name) return node;
@@ -109,14 +110,14 @@ int node_named(const model& m, const std::string& name) {
   throw std::invalid_argument(fmt::format("--node: found {}; allowed: {}", in_quotes(name), allowed));
 }
 
-/// The input of a run, complete before any file is opened.
+/// The input of a run. It is complete before any output file is opened.
 struct run_setup {
   const run_options& options;
   std::vector<output_option> outputs = outputs_of(options);
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
   std::string date = utc_now();
   terminal screen = look_at_terminal();
-  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // heading, table, verdicts
+  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // the heading, table and verdicts
   problem what = {};
   linear_structure structure = {};
 };
@@ -190,7 +191,8 @@ void go(shown_run& o) {
   if (!rows.legend.empty()) print_verdict(o, paint::quiet, rows.legend);
 }
 
-/// Prints the result of the comparison. A mismatch without strict floating point is the environment's fault.
+/// Prints whether the kernels are equal to the bit. Without strict floating point, the environment is named
+/// as the cause of a mismatch.
 void report_lockstep(shown_run& o) {
   const lockstep& compared = *o.run.result.compared_calls();
   const std::string names = joined(o.run.result.beside ? kernels_of_1989 : o.run.wanted.kernels, " and ");
@@ -275,7 +277,7 @@ check_report check_report_of(const shown_run& o) {
   return r;
 }
 
-/// Writes the collection last, after all files that it names.
+/// Writes all files of --vtu. The collection (.pvd) is written last, after the files that it names.
 void write_grids(const output_files& files, const std::string& vtu, const run_result& r) {
   const std::vector<structure_state> states = pictures_of(r);
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -290,7 +292,7 @@ void write_files(shown_run& o) {
   o.files.write(check_report_of(o));
 }
 
-/// Ends a run: prints the certificate, writes the files, prints messages, returns the exit status.
+/// Ends a run: prints the certificate, writes the files and prints messages. Returns the exit status.
 exit_status finish(shown_run& o) {
   const bool solved = o.run.result.end.status == path_status::solved;
   const bool certified = o.run.result.judged.all_certified();

@@ -99,13 +99,13 @@ std::string words_of(const expected_number& e, double x) {
 /// A row has step, quantity, expected and computed value, relative difference, tolerance and verdict.
 constexpr std::string_view row = "{:>4} {:<20} {:>13} {:>13} {:>5} {:>5} {}\n";
 
-/// Like quantity_words, with "events" in place of "toggles", the word of --json.
+/// Like quantity_words, but with "events" instead of "toggles".
 std::string quantity_head(const expected_number& e) {
   std::string words = quantity_words(e);
   return words == "toggles" ? "events" : words;
 }
 
-/// Prints indented lines below a row.
+/// Prints `words` in indented lines below a row.
 void print_below(const terminal& t, paint p, const std::string& words) {
   constexpr int indent = 9;
   for (const std::string& line : wrap({words}, t.width - indent))
@@ -164,7 +164,7 @@ void print(const terminal& t, const totals& all) {
       "here, so they were not compared.\n"));
 }
 
-/// All input files: the table, its problems, and the files that these name.
+/// All input files: the table, its problems, and the files that the problems name.
 std::vector<output_option> files_read(const std::string& table, const fs::path& folder,
                                       const std::vector<verification_case>& cases) {
   std::vector<output_option> all = {{"the table of numbers", table}};
