@@ -112,9 +112,9 @@ using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
                  verify_options, fuzz_options, replay_options, prove_options, kernels_options>;
 
-/// Parses the command line of `contct`. `engines` are the names that --engine accepts; they are an argument
-/// so that the parser needs no LAPACK. Throws std::invalid_argument, with the reason and a suggestion in
-/// what(), if the command line is invalid.
+/// Parses the command line of `contct`. `engines` are the names that --engine accepts; the names are an
+/// argument so that the parser needs no LAPACK. Throws std::invalid_argument, with the reason and a
+/// suggestion in what(), if the command line is invalid.
 [[nodiscard]] command_options parse_contct(int argc, const char* const* argv,
                                            const std::vector<std::string>& engines);
 

@@ -143,7 +143,7 @@ class option_parser {
                              "Print the version and the listing's checksum");
   }
 
-  /// The options that `command` fills. They are chosen if the command line names this command.
+  /// The options that `command` fills. `parse` returns these options if the command line names `command`.
   template <class Options>
   Options& options_for(CLI::App* command) {
     const auto options = std::make_shared<Options>();

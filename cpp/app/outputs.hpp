@@ -125,7 +125,8 @@ class output_files {
 };
 
 /// Shows the progress of long work in one line on standard error, which is overwritten and finally erased.
-/// Shows nothing in the first second, or if standard error is not a terminal, or if `quiet` is true.
+/// Shows nothing in the first second (CONTCT_PROGRESS_AFTER in the environment sets another time), if
+/// standard error is not a terminal, or if `quiet` is true.
 class progress {
  public:
   /// `what` names the counted items, for example "problems". Throws std::invalid_argument if

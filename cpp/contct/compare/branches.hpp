@@ -85,7 +85,7 @@ void for_each_decision(const call<Real>& c, std::span<const int> isep_before, Vi
 /// How often each IF was true and false, derived from the inputs and outputs of calls.
 class branch_counts {
  public:
-  /// Adds the decisions of a finished call. Arguments: see for_each_decision.
+  /// Counts the decisions of a finished call. Arguments: see for_each_decision.
   template <class Real>
   void count(const call<Real>& c, std::span<const int> isep_before) {
     for_each_decision(c, isep_before,
@@ -106,8 +106,7 @@ class branch_counts {
   std::array<std::int64_t, 16> counts_{};  // [2 * branch + outcome]
 };
 
-/// The distance in ULP of two compared numbers: 0 from -0.0 to +0.0; the largest std::uint64_t if
-/// a number is NaN.
+/// The distance in ULP of two compared numbers: 0 from -0.0 to +0.0; the largest std::uint64_t if one is NaN.
 template <class Real>
 [[nodiscard]] std::uint64_t margin_between(Real a, Real b) {
   return ulps_between(a == Real(0) ? Real(0) : a, b == Real(0) ? Real(0) : b);
@@ -121,7 +120,7 @@ struct decision {
   std::uint64_t ulps;  ///< the margin, see margin_between; 0: exactly on the threshold
 };
 
-/// decision::ulps of IF (ISEP(I).EQ.1), which compares integers and so has no margin.
+/// The value of decision::ulps for IF (ISEP(I).EQ.1), which compares integers and has no margin.
 inline constexpr std::uint64_t whole_numbers = std::numeric_limits<std::uint64_t>::max() - 1;
 
 /// Replaces `least` by the decision of `b` if its margin `ulps` is smaller, or if `least` is empty. Ignores

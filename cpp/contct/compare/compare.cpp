@@ -11,8 +11,7 @@
 namespace contct {
 namespace {
 
-/// Removes the first word from `line`. Returns the word without a zero before a decimal point: -.25 for
-/// -0.25.
+/// Removes the first word from `line`. Returns the word without a zero before the point: -.25 for -0.25.
 std::string take_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
   std::string word(line.substr(0, line.find(' ')));
@@ -54,7 +53,7 @@ struct differences {
         isep && c.c.isep[*isep] != c.isep_before[*isep] && other.isep[*isep] != c.isep_before[*isep];
   }
 
-  /// True if the IF `b` of `pair` (from 0) can have caused the first difference. Order: SS, SMIN, ISEP.
+  /// True if the IF `b` of `pair` (from 0) can have caused the first difference in the order SS, SMIN, ISEP.
   [[nodiscard]] bool depends_on(branch b, std::size_t pair) const {
     if (b <= branch::check_positive) return ss == pair;
     if (b <= branch::s_is_smallest) return !ss && of_smin;
@@ -65,7 +64,7 @@ struct differences {
 
   std::optional<std::size_t> ss, isep;  // the first pair that differs in SS, and in ISEP, from 0
   bool of_smin, no_event;
-  bool toggled = false;       // the other answer toggles any pair
+  bool toggled = false;       // the answer `other` toggles at least one pair
   bool both_toggled = false;  // both answers toggle the pair `isep`, to different statuses
 };
 

@@ -84,7 +84,7 @@ struct explained_pair {
   double s_chk = 0.0;  ///< SSCHK, if it was computed
   double s = 0.0;
   listing_branch way = listing_branch::no_response;
-  double smin_before = 1.0;  ///< the SMIN so far, with which s was compared if positive
+  double smin_before = 1.0;  ///< the SMIN with which s was compared, if s is positive
   double diff = 0.0;         ///< DIFF, if the call has an event
   why_toggled why = why_toggled::not_toggled;
   double distance = 0.0;  ///< distance from the face at SMIN: |c - (D + SMIN d*)|

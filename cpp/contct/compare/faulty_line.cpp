@@ -18,7 +18,7 @@ namespace l = listing;
 constexpr std::int64_t most_calls = 1000;
 constexpr std::int64_t most_pairs = 500'000;  // of all judged calls, to bound the time
 constexpr double number_bits = 64.0;          // cost of a number that follows no rule
-constexpr double always_bits = 30.0;          // cost of each execution that contradicts a permanent fault
+constexpr double always_bits = 30.0;          // cost of each execution where a permanent fault has no effect
 constexpr double unexplained_bits = 200.0;    // cost of each differing value that the line does not explain
 
 /// log2 of the number of ways to choose `k` of `n` executions, to a few bits.
@@ -165,7 +165,8 @@ const listing_line& written_by(std::string_view right, std::string_view got, int
   };
   if (!expected.numbers.empty() && !found.numbers.empty()) {
     const double power = std::log10(found.numbers.back() / expected.numbers.back());
-    if (same(power, std::round(power))) found.numbers.back() = expected.numbers.back();  // another exponent
+    if (same(power, std::round(power)))
+      found.numbers.back() = expected.numbers.back();  // only the exponent differs
   }
   if (!writer.mark.empty() && &writer != &writer_of(got)) return writer.write;
   if (expected.form != found.form || std::ranges::equal(expected.numbers, found.numbers, same))
@@ -403,16 +404,16 @@ void fault_finder::note_text(const answered_call& right, const call_outputs& oth
 
 std::optional<faulty_line> fault_finder::found() const {
   const bool by_threshold = diffs_in_.most < diffs_out_.least || diffs_out_.most < diffs_in_.least;
-  // EPSMUL is 1/256. If the kernel's threshold seems to be next to 1/256, not EPSMUL is wrong: the kernel
-  // rounds DIFF in another way.
+  // EPSMUL is 1/256. If the kernel's threshold seems to be next to 1/256, the cause is the rounding of
+  // DIFF, not EPSMUL.
   const bool is_rounded = diffs_in_.most != 1.0 / 256.0 && std::abs(diffs_in_.most * 256.0 - 1.0) < 1e-6;
   double least = std::numeric_limits<double>::infinity();
   const suspect* best = nullptr;
   for (const suspect& s : suspects_) {
     if (s.explained == 0) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
-    // DIFF determines where IF (DIFF.LT.EPSMUL) is wrong, and ISEP where IF (ISEP(I).EQ.1) is wrong.
-    // Therefore their wrong executions need no list.
+    // DIFF tells which executions of IF (DIFF.LT.EPSMUL) are wrong, and ISEP which of IF (ISEP(I).EQ.1), so
+    // that no list of wrong executions is needed.
     if (s.line == &l::if_within)
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (s.line != &l::if_separated)

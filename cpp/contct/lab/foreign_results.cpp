@@ -74,7 +74,7 @@ void judge_entry(const toml_value& entry, const std::vector<expected_number>& al
 
 foreign_case judge_case(const toml_value& given, const verification_case& of, double tolerance) {
   foreign_case c{name_of(of)};
-  std::vector<expected_number> all;  // without repetitions, which have different sources
+  std::vector<expected_number> all;  // each number once, even if the table has several sources
   for (const expected_number& e : of.checks)
     if (find_same(all, e) == all.end()) all.push_back(e);
   std::vector<std::string_view> keys(place_keys.begin(), place_keys.end());

@@ -32,7 +32,7 @@ call_inputs<double> inputs_of(const answered_call& c) {
           owned(c.isep_before), owned(c.c.isurf), c.c.dof};
 }
 
-/// The first mismatch of a follower, and the calls that lead to it.
+/// The first mismatch of a follower, and the calls that lead to the mismatch.
 struct first_mismatch {
   mismatch_report what;
   call_sequence calls;
@@ -155,8 +155,7 @@ class fuzzing final : public observer {
     return level == equality_level::none && certified_paths(total) ? equality_level::certificate : level;
   }
 
-  /// True if certified_as_leader holds for the first problems and for problems in which any follower
-  /// differed.
+  /// True if certified_as_leader holds for the first problems and for problems with a mismatch.
   bool certified_paths(const fuzz_follower& total) {
     if (request_.problems == 0 || !total.near.always_answered) return false;
     std::vector<std::int64_t> asked = differing_problems_;

@@ -40,8 +40,8 @@ using fresh_kernel = std::function<std::unique_ptr<kernel>()>;
 [[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make,
                                                   const call_sequence& calls, const std::string& field);
 
-/// Reduces `calls` with shrink, where a sequence differs if reproduce finds a mismatch in `field`. Returns
-/// nothing if reproduce finds no mismatch in `field` for `calls`.
+/// Reduces `calls` to a shorter case that still differs in `field`; see shrink and reproduce. Returns nothing
+/// if `calls` do not differ in `field`.
 [[nodiscard]] std::optional<found_case> shrunk_case(kernel& leader, const fresh_kernel& follower,
                                                     const call_sequence& calls, const std::string& field,
                                                     int most_tries = 4000);

@@ -23,7 +23,7 @@ class drawn_call {
  public:
   using limits = std::numeric_limits<Real>;
 
-  /// Overwrites the dd and dtest of the previous call with NaN, because no kernel may read them.
+  /// Overwrites the dd and dtest of the previous call with NaN, because no kernel may read these numbers.
   drawn_call(std::uint64_t seed, std::uint64_t number, call_inputs<Real>& in)
       : random_(random_numbers(seed ^ (number * 0xd1342543de82ef95)).bits()), in_(in) {
     for (std::size_t i = 0; i < in_.pairs(); ++i) {
@@ -50,7 +50,7 @@ class drawn_call {
                       : random_.chance(0.002) ? 0
                                               : random_.whole(1, 6);
     resize(pairs);
-    // Two nodes make pairs share dofs; nodes beyond 999 overflow the format I3 of unit 26.
+    // If there are only two nodes, pairs share dofs. Nodes beyond 999 overflow the format I3 of unit 26.
     const int first = random_.chance(0.05) ? last_node - 150 : 1;
     const int nodes = random_.chance(0.2) ? 2 : pairs > 100 ? last_node : 150;
     for (int i = 0; i < pairs; ++i) in_.id[i] = random_.whole(first, std::min(first + nodes - 1, last_node));

@@ -22,9 +22,9 @@ class random_calls {
   /// A call at the thresholds of the listing. Each pair is made for one IF: a response of zero or of the
   /// smallest number; a gap of EPSGAP; a response that makes SSCHK zero, subnormal or infinite; a scale
   /// factor at the winner's, at EPSMUL from the winner's, at 1 (the mark for "no event"), or at 256/257
-  /// (for which DIFF of the mark 1 is EPSMUL). Numbers meet their threshold exactly, or miss it
-  /// by one or two ULP. Other pairs have numbers from the ends of the floating-point range: zeros,
-  /// subnormals, the largest numbers, infinities, NaN. Some calls have many pairs, or invalid statuses.
+  /// (for which DIFF of the mark 1 is EPSMUL). Numbers meet their threshold exactly, or miss the threshold by
+  /// one or two ULP. Other pairs have numbers from the ends of the floating-point range: zeros, subnormals,
+  /// the largest numbers, infinities, NaN. Some calls have many pairs, or invalid statuses.
   const call_inputs<Real>& adversarial(std::uint64_t number);
 
  private:

@@ -41,7 +41,7 @@ enum class verdict {
   certified,        ///< every step's final state is certified
   no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
   wrong,            ///< the path reached its end, but some final state is not certified
-  false_mechanism,  ///< the path ended in a mechanism although there is an equilibrium
+  false_mechanism,  ///< the path ended in a mechanism, but its load may have an equilibrium
   no_end,           ///< the path has a cycle or too many increments, or a factorisation failed
 };
 

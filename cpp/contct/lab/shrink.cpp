@@ -18,7 +18,7 @@ double rounded(double x, int digits) {
   return std::strtod(text, nullptr);
 }
 
-/// Numbers rounder than `x`, the roundest first. The result has no `x`, so that shrinking ends.
+/// Numbers rounder than `x`, the roundest first; never `x` itself, so that shrinking ends.
 std::vector<double> rounder_than(double x) {
   std::vector<double> all;
   const auto is_rounder = [&all, x](double y) {  // also adds `y` to `all`, without repetition

@@ -29,7 +29,7 @@ struct expected_number {
   double value = 0.0;  ///< the expected value; for a state -1 in contact, +1 separated
   std::string kind, because, source;
   double tolerance = 0.0;          ///< relative; absolute for a value of 0
-  std::optional<double> faithful;  ///< the value under the 1989 rule, if it differs
+  std::optional<double> faithful;  ///< the value under the 1989 rule, if not `value`
   std::string reason;              ///< why `faithful` differs from `value`
   std::string exact;  ///< the exact number, "p/q" or a decimal; the name of a state; empty if unknown
 };
@@ -90,7 +90,7 @@ struct verified_number {
   expected_number expected;
   double computed = 0.0;      ///< FORTRAN's value, with C++ in lockstep
   double corrected = 0.0;     ///< the corrected kernel's value
-  bool certified = false;     ///< the final state of its step on FORTRAN's path is certified
+  bool certified = false;     ///< the final state of this step on FORTRAN's path is certified
   bool passed = false;        ///< see verify_case
   std::string apart;          ///< see exact_disagreement
   int exact_comparisons = 0;  ///< number of comparisons with the exact number
@@ -111,11 +111,10 @@ struct verified_case {
 };
 
 /// Runs a problem twice: with FORTRAN leading C++ in lockstep, and with the corrected kernel. The corrected
-/// kernel must give the expected numbers. FORTRAN must give the expected numbers, or the table's
-/// `faithful` values.
-/// Certified results must be as close to the exact number as a certificate promises, and the table's value
-/// must agree with the exact number (see exact_disagreement). FORTRAN and C++ must be equal to the bit. The
-/// corrected kernel's states must be certified.
+/// kernel must give the expected numbers, and its states must be certified. FORTRAN must give the expected
+/// numbers or the table's `faithful` values, and must be equal to C++ to the bit. Certified results must be
+/// as close to the exact number as a certificate promises, and the table's value must agree with the exact
+/// number (see exact_disagreement).
 [[nodiscard]] verified_case verify_case(const verification_case& c, const problem& p);
 
 }  // namespace contct
