@@ -29,7 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of reference/cookbook.
 struct cookbook_file {
   std::string_view name, text;
 };

@@ -12,7 +12,6 @@
 
 namespace contct {
 
-/// A trace that was replayed.
 struct replayed_trace {
   std::string name;  ///< the file's name without folder and extension
   std::string sha256;

@@ -56,7 +56,6 @@ json json_of(const verified_case& c) {
           {"checks", std::move(numbers)}};
 }
 
-/// The results of all cases so far.
 struct totals {
   int cases = 0, numbers = 0, failed = 0, known = 0;
   int exact = 0, comparisons = 0;  ///< numbers with a known exact value; comparisons with these values

@@ -18,7 +18,6 @@
 
 namespace contct {
 
-/// The numbers of a kernel's answer.
 template <class Real>
 struct answer {
   Real smin;

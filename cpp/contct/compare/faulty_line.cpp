@@ -165,8 +165,8 @@ const listing_line& written_by(std::string_view right, std::string_view got, int
   };
   if (!expected.numbers.empty() && !found.numbers.empty()) {
     const double power = std::log10(found.numbers.back() / expected.numbers.back());
-    if (same(power, std::round(power)))
-      found.numbers.back() = expected.numbers.back();  // only the exponent differs
+    // Of the last numbers, only the exponents differ.
+    if (same(power, std::round(power))) found.numbers.back() = expected.numbers.back();
   }
   if (!writer.mark.empty() && &writer != &writer_of(got)) return writer.write;
   if (expected.form != found.form || std::ranges::equal(expected.numbers, found.numbers, same))
@@ -404,8 +404,7 @@ void fault_finder::note_text(const answered_call& right, const call_outputs& oth
 
 std::optional<faulty_line> fault_finder::found() const {
   const bool by_threshold = diffs_in_.most < diffs_out_.least || diffs_out_.most < diffs_in_.least;
-  // EPSMUL is 1/256. If the kernel's threshold seems to be next to 1/256, the cause is the rounding of
-  // DIFF, not EPSMUL.
+  // EPSMUL is 1/256. If the kernel's threshold seems to be next to 1/256, DIFF is rounded in another way.
   const bool is_rounded = diffs_in_.most != 1.0 / 256.0 && std::abs(diffs_in_.most * 256.0 - 1.0) < 1e-6;
   double least = std::numeric_limits<double>::infinity();
   const suspect* best = nullptr;

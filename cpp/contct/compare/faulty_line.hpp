@@ -50,8 +50,7 @@ struct faulty_line {
   std::string compared;                    ///< if `at` is an IF: "ABS(GAP) was 2e-10 to 9e-10"
 };
 
-/// For example "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 12 values that differ, in 5
-/// call(s)".
+/// For example "line 30, GAP = CC(I) - DD(NDOF): explains all 12 values that differ, in 5 call(s)".
 [[nodiscard]] std::string words_of(const faulty_line& f);
 
 /// Describes the first pair that differs in SS, or else in ISEP: its GAP, DTEST and SSCHK, and the line that

@@ -25,7 +25,6 @@ using still_differs = std::function<bool(const call_sequence&)>;
 /// only changes for which `differs` is true. Tests at most `most_tries` sequences.
 [[nodiscard]] call_sequence shrink(call_sequence calls, const still_differs& differs, int most_tries = 4000);
 
-/// A mismatch, and the calls that show the mismatch.
 struct found_case {
   mismatch_report what;  ///< the mismatch in the last call
   call_sequence calls;
@@ -55,7 +54,6 @@ struct fuzz_request {
   int shard = 1, shards = 1;
 };
 
-/// The results of the calls to one follower.
 struct fuzz_follower {
   std::string name;
   tally compared;

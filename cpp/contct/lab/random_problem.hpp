@@ -12,7 +12,9 @@
 
 namespace contct {
 
-/// How the faces are placed.
+/// How the faces are placed: with random gaps; without gaps; with some gaps of zero; with equal gaps; with
+/// nearly equal gaps; symmetric or antisymmetric about the middle in x; on two sides of each node with a
+/// pair.
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
 inline constexpr int face_layouts = 8;
 

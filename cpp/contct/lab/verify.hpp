@@ -46,7 +46,6 @@ enum class kind_of_number { deflection, slope, force, moment, other };
 /// The double nearest to the exact number, or `value` for a state. The exact number must be known.
 [[nodiscard]] double exact_value(const expected_number& e);
 
-/// One problem file and its numbers.
 struct verification_case {
   std::string file;  ///< name relative to reference/problems
   std::vector<expected_number> checks;
@@ -90,7 +89,7 @@ struct verified_number {
   expected_number expected;
   double computed = 0.0;      ///< FORTRAN's value, with C++ in lockstep
   double corrected = 0.0;     ///< the corrected kernel's value
-  bool certified = false;     ///< the final state of this step on FORTRAN's path is certified
+  bool certified = false;     ///< the final state of `expected.step` on FORTRAN's path is certified
   bool passed = false;        ///< see verify_case
   std::string apart;          ///< see exact_disagreement
   int exact_comparisons = 0;  ///< number of comparisons with the exact number
