@@ -77,9 +77,9 @@ struct check_report {
 /// The facts in every report: the program's version, the listing's checksum, and the floating-point probe.
 [[nodiscard]] std::vector<std::string> common_facts();
 
-/// The time now, as "2026-11-22 13:16 UTC". If the environment variable SOURCE_DATE_EPOCH is set, in seconds
-/// since 1970, returns its time, so that files are reproducible. Throws std::invalid_argument if the variable
-/// is invalid.
+/// The time now, as "2026-11-22 13:16 UTC". If the environment variable SOURCE_DATE_EPOCH is set, returns
+/// the time in this variable (seconds since 1970), so that files are reproducible. Throws
+/// std::invalid_argument if the variable is invalid.
 [[nodiscard]] std::string utc_now();
 
 /// An output file and its option. The path is empty if the file is not requested.

@@ -26,7 +26,7 @@ struct number_range {
 };
 
 /// A fault that one line of the listing can have. The cost of a fault is the length in bits of a description
-/// of the wrong answers: which executions of the line went wrong, and which values they gave.
+/// of the wrong answers: which executions of the line went wrong, and which values the wrong executions gave.
 struct suspect {
   const listing_line* line = nullptr;
   std::int64_t reached = 0, wrong = 0;  ///< numbers of executions, and of wrong executions
@@ -63,8 +63,8 @@ struct faulty_line {
 /// text is judged if SS, SMIN and ISEP are right.
 class fault_finder {
  public:
-  /// Notes the kernel's answer `other`; `equal` tells if it equals the right answer in `c`. Only the first
-  /// 1000 equal and the first 1000 differing calls are judged, and only until they have 500 000 pairs.
+  /// Notes the kernel's answer `other`; `equal` tells whether `other` equals the right answer in `c`. Only
+  /// the first 1000 equal and the first 1000 differing calls are judged, with about 500 000 pairs at most.
   void note(const answered_call& c, int real_bytes, const call_outputs& other, bool equal);
   /// The faulty line; nothing if no line explains a difference.
   [[nodiscard]] std::optional<faulty_line> found() const;

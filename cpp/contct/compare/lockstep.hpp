@@ -26,7 +26,7 @@ class lockstep {
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   /// The numbers of values and of mismatches of all followers together.
   [[nodiscard]] tally compared() const;
-  /// The mismatch in the earliest call, of any follower.
+  /// The earliest mismatch of any follower.
   [[nodiscard]] const std::optional<mismatch_report>& first() const;
   /// True if every follower's last answer equals the leader's.
   [[nodiscard]] bool last_call_equal() const;

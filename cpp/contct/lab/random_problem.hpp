@@ -13,8 +13,7 @@
 namespace contct {
 
 /// How the faces are placed: with random gaps; without gaps; with some gaps of zero; with equal gaps; with
-/// nearly equal gaps; symmetric or antisymmetric about the middle in x; on two sides of each node with a
-/// pair.
+/// nearly equal gaps; symmetric or antisymmetric about the middle in x; on both sides of a node.
 enum class face_layout { gaps, zero, mixed, equal_gaps, near_ties, symmetric, antisymmetric, two_sided };
 inline constexpr int face_layouts = 8;
 
@@ -43,7 +42,7 @@ enum class verdict {
   certified,        ///< every step's final state is certified
   no_equilibrium,   ///< the path ended in a mechanism, and the reference solution has no equilibrium either
   wrong,            ///< the path reached its end, but some final state is not certified
-  false_mechanism,  ///< the path ended in a mechanism, but its load may have an equilibrium
+  false_mechanism,  ///< the path ended in a mechanism, but the step's load may have an equilibrium
   no_end,           ///< the path has a cycle or too many increments, or a factorisation failed
 };
 

@@ -34,7 +34,7 @@ struct expected_number {
   std::string exact;  ///< the exact number, "p/q" or a decimal; the name of a state; empty if unknown
 };
 
-/// The keys that identify a number of a problem. read_place reads their values from a table.
+/// The keys that identify a number of a problem. read_place reads the values of these keys from a table.
 inline constexpr std::array<std::string_view, 11> place_keys = {
     "step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along"};
 [[nodiscard]] expected_number read_place(const toml_value& t);
@@ -81,8 +81,9 @@ class measurement {
 [[nodiscard]] bool agrees(double measured, double value, double tolerance);
 
 /// Describes how `computed`, or else the table's value, disagrees with the exact number; empty if `computed`
-/// and the value agree with it, or if no exact number is known. `computed` may differ by `allowed`, or by the
-/// table's tolerance if `allowed` is 0. The table's value may differ by the table's tolerance.
+/// and the table's value agree with the exact number, or if no exact number is known. `computed` may differ
+/// by `allowed`, or by the table's tolerance if `allowed` is 0. The table's value may differ by the table's
+/// tolerance.
 [[nodiscard]] std::string exact_disagreement(const expected_number& e, double computed, double allowed);
 
 struct verified_number {
