@@ -7,7 +7,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PAGE = HERE.parent / "implementations.md"
-BEGIN, END = "| implementation |", "\n\nA row"
+BEGIN, END = "| implementation |", "\n\nEach row"
 WORDS = {"bits": "equal to the bit", "ulps": "same events, numbers within 64 ULP", "events": "same events", "none": "not equal"}
 
 

@@ -353,7 +353,7 @@ TEST_CASE("in the data of the report page, a matrix has labels, and if possible 
   CHECK(placed["dofs"][16] == nlohmann::json({{"dof", "6.y"}, {"at", 6}, {"direction", 2}}));
   CHECK(placed["edges"][0] == nlohmann::json({1, 2, 1}));
   CHECK(placed["pairs"][0]["dof"] == "6.y");
-  CHECK(placed["notes"] == nlohmann::json({"Rotations, 11 of 33 dofs, are not drawn."}));
+  CHECK(placed["notes"] == nlohmann::json({"Rotations (11 of 33 dofs) are not drawn."}));
   CHECK(placed["labels_from"].get<std::string>().ends_with("frame.dof"));
   CHECK(placed["places_from"].get<std::string>().ends_with("frame.xyz"));
   const nlohmann::json bare =
