@@ -163,7 +163,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an explanation has the precision of the call, and only the values that the IFs of the call computed") {
+    "an explanation is computed in the precision of the call, and has only the IFs that the call reached") {
   // A pair before its face, a pair beyond its face, and a pair without response.
   small_call<double> c({{0.1, 1.0, 0.4, separated, face_above},
                         {0.4, 1.0, 0.1, separated, face_above},

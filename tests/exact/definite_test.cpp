@@ -55,8 +55,8 @@ entries chain(int n, double more) {
 }  // namespace
 
 TEST_CASE(
-    "matrices that are singular in doubles are classified exactly, and exactly singular matrices as "
-    "semidefinite") {
+    "a matrix that is singular in doubles is classified without rounding, as semidefinite if it is truly "
+    "singular") {
   CHECK(pair_of(1.0, 1.0).what.semidefinite);
   CHECK(pair_of(1.0, 1.0000000000000002).what.semidefinite);
   CHECK(pair_of(1.0, 0.9999999999999999).shows());

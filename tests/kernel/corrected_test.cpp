@@ -129,7 +129,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the corrected kernel gives the same answer at whatever places of the arrays the dofs of the pairs are") {
+    "the answer of the corrected kernel does not depend on where the arrays hold the dofs of the pairs") {
   random_numbers random(31);
   int happened = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -203,7 +203,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the corrected kernel toggles only the first pair with the least s, and no pair of a near tie") {
+TEST_CASE(
+    "the corrected kernel toggles only the first pair with the least s, and no other pair of a tie or near "
+    "tie") {
   const answered tie({{0.0, -1.0, -0.5, apart, below},
                       {0.0, 2.0, 0.5, apart, above},
                       {0.0, 1.0, 0.25, apart, above},

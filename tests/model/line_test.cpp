@@ -126,7 +126,9 @@ TEST_CASE("The load (x - 1000)^6 is t^6 in the coordinate t of the element that 
   CHECK(pieces_on(b, l, 0).at(0).size == 1.0);
 }
 
-TEST_CASE("Parts of a distributed load are added exactly before the sum is shifted to an element") {
+TEST_CASE(
+    "The polynomials of a distributed load are added exactly, and then expressed in the coordinate of an "
+    "element") {
   const beam b{{0.0, 1.0, 2.0}, {1, 1}};
   load l{{}, {{{0.1 + 0.2 - 0.3}, {1}, {{{0.1}}, {{0.2}}, {{-0.3}}}}}};
   CHECK(load_on(b, l, 1) == std::vector<double>{0.0});

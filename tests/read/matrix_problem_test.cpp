@@ -427,7 +427,9 @@ TEST_CASE(
   CHECK(certificate_of("1", "").certified);  // whole numbers are not rounded
 }
 
-TEST_CASE("the last digit of a matrix entry follows from its file, also if trailing zeros are not written") {
+TEST_CASE(
+    "the decimal place to which a matrix entry is given is found from its file, also if trailing zeros are "
+    "omitted") {
   const auto digits = [](const std::string& a, const std::string& b, const std::string& c) {
     return parse_symmetric("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 " + a + "\n2 1 " + b +
                                "\n2 2 " + c + "\n",

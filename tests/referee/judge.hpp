@@ -57,7 +57,7 @@ struct exact_answer {
 /// One error of a run.
 struct finding {
   fault what;
-  double amount;  ///< error over bound; for `beyond` relative error; for `digits` missing digits
+  double amount;  ///< error / proved bound; relative error for `beyond`; false digits for `digits`
   std::string words;
 };
 

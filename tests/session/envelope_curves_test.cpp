@@ -32,7 +32,8 @@ double deflection_at(double x, double a) {
 }  // namespace
 
 TEST_CASE(
-    "Envelope curves of a load at two places have the extreme moment and deflection of both at each point") {
+    "At each point, the envelope of a load at two places has the extreme moments and deflections of the two "
+    "states") {
   const a_run run(load_in_two_places, "corrected");
   const envelope_curves all = curves_of(run.result);
   REQUIRE(all.curves.size() == 3);

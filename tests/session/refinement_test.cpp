@@ -47,7 +47,7 @@ const mesh_change& change_of(const std::vector<mesh_change>& all, std::string_vi
 }  // namespace
 
 TEST_CASE(
-    "refined gives a reference problem the deflections of the reference problem with twice as many "
+    "a problem with halved elements has the deflections of the reference problem that is written with these "
     "elements") {
   for (const auto& [coarse, fine] :
        {std::pair("pb11a-strip-footing-n20", "pb11b-strip-footing-n40"),

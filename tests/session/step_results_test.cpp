@@ -209,7 +209,7 @@ TEST_CASE("the deflection at a pair gives a gap if the pair is separated, and a 
   CHECK(reading_of(p.pairs[0], -0.004, false).look == pair_state::at_face);
 }
 
-TEST_CASE("the deflections of a matrix are the dofs along axes, or without coordinates the dofs of pairs") {
+TEST_CASE("for a matrix, translations count as deflections, without coordinates, only the dofs of pairs do") {
   const problem placed = parse_problem(portal_frame(), "p.toml", reach::anywhere);
   const std::vector<int> dofs = deflecting_nodes(placed);
   CHECK(dofs.size() == 22);

@@ -63,11 +63,11 @@ run_request read_run_request(const request& r) {
   wanted.kernels.clear();
   if (r.flag("log") || r.flag("trace"))
     throw std::invalid_argument(
-        "options: found final_only with log or trace; allowed: log and trace with a path");
+        "options: found log or trace with final_only; allowed: log and trace without final_only");
   if (r.flag("page") || wanted.pictures || wanted.envelope)
     throw std::invalid_argument(
-        "options: found final_only with page, states or envelope; allowed: page, states and envelope with a "
-        "path");
+        "options: found page, states or envelope with final_only; allowed: page, states and envelope without "
+        "final_only");
   return wanted;
 }
 

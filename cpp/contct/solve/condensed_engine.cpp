@@ -217,7 +217,7 @@ class condensed_engine final : public spring_engine {
   void sweep_from(std::size_t at) {
     step_right(at);
     step_left(at);
-    std::size_t right = at + 1;  // the next step to the right; left - 1: to the left
+    std::size_t right = at + 1;
     std::size_t left = at;
     const std::size_t n = d_.size();
     bool goes_right = right < n;

@@ -170,7 +170,7 @@ std::vector<std::string> summary_words(const explained_increment& i) {
   const std::span<const event> events = i.what.events;
   std::vector<std::string> words = {event_names(events.first(std::min(events.size(), most_named)))};
   if (events.empty())
-    words[0] = i.left_undone ? "no event: the load after it would be only rounding" : "no event";
+    words[0] = i.left_undone ? "the event is undone: the remaining load would be only rounding" : "no event";
   if (events.size() > most_named) words[0] += fmt::format(", {} more", events.size() - most_named);
   if (i.left_undone) return words;
   if (const std::string early = pairs_toggled(i.call, why_toggled::too_early); !early.empty())

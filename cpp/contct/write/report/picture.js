@@ -454,7 +454,8 @@ function rectanglesOf({ elements, from, to }) {
   return found;
 }
 
-// Outlines distributed loads on a plate, with their sum on each rectangle: inside it, or at the edge of the plate.
+// Outlines the distributed loads on a plate. The sum of the loads on a rectangle is written in it, or at the edge of the
+// plate if the rectangle is the whole plate.
 function drawAreaLoads(root, f, spots, say) {
   const groups = groupsOf((f.load.uniform || []).flatMap((part) => rectanglesOf(part).map((at) => ({ at, value: part.value }))), ({ at }) => String(at));
   const plate = String(rectanglesOf({ elements: "all" })[0]);
