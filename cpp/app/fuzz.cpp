@@ -48,8 +48,8 @@ std::string follower_words(const fuzz_follower& f, const std::string& leader) {
     return fmt::format("{} is equal to {} to the bit; {} values compared", f.name, leader, f.compared.values);
   return fmt::format(
       "{} is NOT equal to {}{}; {} of {} values differ; closest equality that holds: {}{}", f.name, leader,
-      fp.strict() ? "" : " (by the environment, not by the kernel)", f.compared.mismatches, f.compared.values,
-      name_of(f.highest),
+      fp.strict() ? "" : " (the cause is the environment, not the kernel)", f.compared.mismatches,
+      f.compared.values, name_of(f.highest),
       f.highest == equality_level::ulps ? fmt::format(" (within {} ULP)", f.near.most_ulps) : "");
 }
 

@@ -206,7 +206,7 @@ void declare_run(option_parser& p, CLI::App* c) {
   add_problem(c, o);
   add_kernels(c, "--kernels", o.kernels,
               "Kernels to run; the first one leads [corrected for the answer, and also fortran and cpp in "
-              "lockstep on the 1989 path; with --free-run fortran,cpp]");
+              "lockstep on the 1989 path; if --free-run is given: fortran,cpp]");
   c->add_option("--engine", o.engine,
                 fmt::format("How the stiffness equations are solved: {} [refactor for the 1989 rule, auto "
                             "for the corrected rule]",

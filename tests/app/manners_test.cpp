@@ -92,8 +92,8 @@ TEST_CASE("every command has help with examples, and every example runs as it is
 }
 
 TEST_CASE(
-    "a file from contct new runs with events, is certified, and names every table of the format in "
-    "comments") {
+    "a problem file from contct new has events and certified states, and its comments name every table of "
+    "the format") {
   for (const char* shape : {"beam", "plate"}) {
     const scratch_folder dir;
     INFO(shape);

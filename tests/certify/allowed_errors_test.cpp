@@ -58,8 +58,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "worst_share divides an error by the allowed error, and worst_bound gives it in per cent of the largest "
-    "number") {
+    "worst_share is the error over the allowed error, and worst_bound states the error in per cent of the "
+    "largest number") {
   allowed_errors sizes;
   const error_bounds b = bounds(1e-3, 2.0, 1e-9, 50.0);
   const by_quantity allowed = sizes.of(b, 10.0);

@@ -135,7 +135,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the error bound of an exact factor is only rounding, but the bound shows a relative error of 1e-9") {
+    "the error bound is only rounding for an exact factor, and larger for a factor with a relative error of "
+    "1e-9") {
   // L has ones on and below its diagonal, so A_ij = 1 + min(i, j) exactly.
   constexpr int n = 6;
   sparse_columns l;

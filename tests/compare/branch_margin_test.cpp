@@ -42,8 +42,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "if SMIN is wrong, the nearest IF (branch margin) is that of the wrong SS, or else that of the smallest "
-    "SS") {
+    "if SMIN is wrong, the nearest IF (branch margin) is one of the wrong SS, or of the smallest SS if every "
+    "SS is right") {
   const auto of_ss = named(three_pairs(), [](call_outputs& o) { o.smin = o.ss[1] = 1e-17; });
   REQUIRE(of_ss);
   CHECK(of_ss->what == branch::stationary);

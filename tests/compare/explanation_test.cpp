@@ -108,8 +108,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "in 20,000 random calls, the s of the explained winner is SMIN, and the explained toggles are the "
-    "kernel's") {
+    "in 20,000 random calls, the explanation names a winner whose s is SMIN, and the toggled pairs of the "
+    "kernel") {
   const auto agree = [](const auto& in, const call_outputs& out, const explained_call& e) {
     for (std::size_t i = 0; i < in.pairs(); ++i) {
       const explained_pair& p = e.pairs[i];

@@ -68,7 +68,7 @@ TEST_CASE("in the exact path, a combination after a mechanism still starts from 
     CHECK(path.steps[0].status == path_status::mechanism);
     CHECK(path.steps[0].fraction < rational(1, 1000));
     CHECK(path.steps[1].status == path_status::solved);
-    // The load is 8 down in all and 3.5 up at x = 1.
+    // The downward loads add up to 8, and 3.5 acts upwards at x = 1.
     CHECK(path.steps[1].force == rational_vector{rational(11, 8), rational(25, 8)});
   }
 }

@@ -372,7 +372,9 @@ TEST_CASE(
   CHECK(certified(e.end.bounds));
 }
 
-TEST_CASE("at a stiffness of 1e-300, a residual that underflows does not prove a wrong slope") {
+TEST_CASE(
+    "if a residual underflows at a stiffness of 1e-300, the error bound still contains the error of a wrong "
+    "slope") {
   const problem p = parse_problem(
       "[beam]\nlength = 2.5\nelements = 1\nEI = 1e-300\n[[support]]\nnode = 1\nfix = \"w\"\n"
       "[[support]]\nnode = 2\nfix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 1, w = -1 } ]\n",

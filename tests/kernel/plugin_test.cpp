@@ -188,7 +188,8 @@ TEST_CASE("unit 26 of a FORTRAN plug-in is separate from unit 26 of this program
   left.check();
 }
 
-TEST_CASE("a FORTRAN plug-in leaves no file of unit 26 in a process that never called the listing") {
+TEST_CASE(
+    "a FORTRAN plug-in leaves no file of unit 26 behind, even if the process never called the listing") {
   const in_own_folder here;
   {
     const auto k = make_plugin(plugin("writes_unit_26"), short_patience());

@@ -32,8 +32,8 @@ constexpr double hinge_rounding = 1e-12;
 }  // namespace
 
 TEST_CASE(
-    "A propped cantilever with a hinge at a has the reactions q (L - a) / 2 at the prop and the rest at the "
-    "clamp") {
+    "A propped cantilever with a hinge at x = a has the reaction q (L - a) / 2 at the prop, and the rest at "
+    "the clamp") {
   const beam b = hinged({0, 2, 4}, {1}, 100);
   const load l = uniform_on(-6);
   const std::vector<support> supports = {{0, 0, true}, {0, 1, true}, {2, 0, true}};

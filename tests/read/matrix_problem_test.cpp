@@ -355,12 +355,13 @@ TEST_CASE("a mistake in a problem on a matrix is refused with place, what was fo
       {small_with("face = -0.5\n", "face = -0.5\nother = [\"a\", \"b\"]\n"), "p.toml:11:9: contact[1].other",
        "2 labels", "1, or 1: one for each pair"},
       {small_with("spring = 2.0\n[[contact]]\n", "fix = true\n[[contact]]\nother = \"a\"\n"),
-       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "write the pair without other"},
+       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "omit \"other\""},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "move = [ { dof = \"a\", value = 1 } ]"),
        "p.toml:13:10: step[1].move[1]", "no pair at dof a", "[[contact]]"},
       {small_with("face = -0.5\n", "face = -0.5\nother = \"b\"\n") +
            "move = [ { dof = \"b\", value = 1 } ]\n",
-       "p.toml:15:10: step[1].move[1]", "dof b, named by the key other of a pair", "exchange dof and other"},
+       "p.toml:15:10: step[1].move[1]", "dof b, which is \"other\" of a pair",
+       "exchange \"dof\" and \"other\""},
       {small_with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"),
        "p.toml:12:1: step[1]", "sum or moment is not finite", "double"},
   };

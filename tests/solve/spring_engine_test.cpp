@@ -57,7 +57,8 @@ TEST_CASE("an engine adds new springs before it removes others, and changes each
   CHECK(e.order.empty());
 }
 
-TEST_CASE("if a spring is switched on and off again before a response, the engine does not change it") {
+TEST_CASE(
+    "if a spring is switched on and off again before a response, the engine makes no update for the spring") {
   const linear_structure s = with_pairs({false, false, false, false});
   recording_engine e(s);
   e.switch_spring(3, true);

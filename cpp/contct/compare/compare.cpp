@@ -76,7 +76,7 @@ std::string margin_words(const mismatch_report& f) {
   return "branch margin: " + words_of(*least) +
          (tie        ? ": a tie, which rounding may decide the other way"
           : with_nan ? ""
-                     : "; no margin on which the value depends is smaller: not a tie, so a bug");
+                     : "; this smallest margin is too large for a tie, so the difference is a bug");
 }
 
 }  // namespace

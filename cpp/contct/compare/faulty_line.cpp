@@ -165,7 +165,7 @@ const listing_line& written_by(std::string_view right, std::string_view got, int
   };
   if (!expected.numbers.empty() && !found.numbers.empty()) {
     const double power = std::log10(found.numbers.back() / expected.numbers.back());
-    // Of the last numbers, only the exponents differ.
+    // If the last numbers of both lines differ by a power of ten, this is a fault of the form.
     if (same(power, std::round(power))) found.numbers.back() = expected.numbers.back();
   }
   if (!writer.mark.empty() && &writer != &writer_of(got)) return writer.write;

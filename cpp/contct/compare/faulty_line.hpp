@@ -89,7 +89,7 @@ class fault_finder {
   void note_text(const answered_call& right, const call_outputs& other);
   void note_digest(const call_outputs& other);
 
-  std::vector<suspect> suspects_ = std::vector<suspect>(10 * (listing::format_60.number + 1));
+  std::vector<suspect> suspects_ = std::vector<suspect>(std::size_t{10} * (listing::format_60.number + 1));
   std::int64_t equal_calls_ = 0, differing_calls_ = 0, pairs_ = 0, differ_ = 0;
   std::uint32_t digest_ = 2166136261U;
   std::vector<suspect*> left_by_;      // suspects that explain where the kernel left DO 10 in this call

@@ -73,9 +73,9 @@ class step_reader {
         nodes_.on_matrix() ? "curvature with a matrix" : "curvature with a plate",
         nodes_.on_matrix()
             ? "curvature along a beam; with a matrix, the loads at dofs that replace the curvature"
-            : "curvature along a beam; for a uniform curvature of a plate, load its free edges with the "
-              "moment "
-              "D (1 + nu) curvature per length, by point loads wx and wy");
+            : "curvature along a beam; for a uniform curvature c of a plate, apply D (1 + nu) c, a moment "
+              "per "
+              "length, to its free edges, as point loads wx and wy");
   }
 
   enum class hold : char { none, spring, fixed };
@@ -299,8 +299,9 @@ class step_reader {
       for (const int node : at) {
         const std::string place = place_words(nodes_.structure(), node);
         if (others_.contains(node))
-          m.refuse(place + ", named by the key other of a pair",
-                   "the dof of the pair; or exchange dof and other of the pair");
+          m.refuse(
+              place + ", which is \"other\" of a pair",
+              "\"dof\" of the pair; to move this side, exchange \"dof\" and \"other\" in the [[contact]]");
         if (!paired_.contains(node))
           m.refuse("no pair at " + place, "places at which a [[contact]] or a [[bed]] has a pair");
         if (!moved.insert(node).second)

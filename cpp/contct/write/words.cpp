@@ -409,7 +409,8 @@ std::vector<std::string> refinement_words(const run_result& r) {
   }
   if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
-                                      : "beams are exact between nodes, but a bed has twice as many pairs");
+                                      : "beams are exact between nodes; the changes come from the bed, which "
+                                        "has twice as many pairs then");
   return items;
 }
 
