@@ -101,7 +101,7 @@ std::string usage_words(const CLI::App& program, const std::string& error) {
   return fmt::format("{}; the commands are: {}{}", words, joined(commands, ", "), advice);
 }
 
-/// The error message for an empty file name, which would lose the output silently; empty for other names.
+/// Returns an error message if `file` is empty, because the output would be lost silently; otherwise "".
 std::string a_name(const std::string& file) {
   return file.empty() ? "found an empty name; allowed: a file name" : "";
 }
@@ -131,7 +131,7 @@ template <class Options>
 void add_kernel_report(CLI::App* command, Options& o) {
   add_file(command, "--report", o.kernel_report,
            "Write a report on the checked kernel to this file (- is standard output): its identity, the "
-           "comparison, the closest equality that holds");
+           "comparison, and how closely it equals CONTCT (bits, ulps, events or certificate)");
   add_file(command, "--badge", o.badge, "Write the result as a badge, an SVG picture, to this file");
 }
 

@@ -1,4 +1,5 @@
-// Replacements in a page for child processes, for libraries that are loaded at run time, and for files.
+// A web page has no child processes, no libraries loaded at run time and no files. These functions replace
+// them in the playground.
 #include <cmath>
 #include <stdexcept>
 

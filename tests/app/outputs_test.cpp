@@ -144,8 +144,7 @@ TEST_CASE("contct run refuses to write an output over its problem file, also thr
 }
 
 TEST_CASE(
-    "an output in the file to which standard output is redirected is refused, and the message suggests the "
-    "name -") {
+    "an output file is refused if standard output is redirected to it, and the message suggests the name -") {
   const scratch_folder dir;
   dir.write("pb.toml", good_problem);
   dir.write("out", "");

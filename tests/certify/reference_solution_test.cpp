@@ -273,8 +273,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "for a load with a NaN or infinite number, the reference solution gives no state and decides no "
-    "equilibrium") {
+    "for a load with a NaN or infinite number, the reference solution gives no state, and does not decide "
+    "whether an equilibrium exists") {
   const beam_problem p = cantilever_over_a_stop();
   const linear_structure s = p.structure();
   reference_solver o(s);
@@ -288,7 +288,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the condition number of a reference solution is that of the pairs in contact, and needs no new factor") {
+    "the condition number of a reference solution is that of the stiffness with the pairs in contact, and "
+    "needs no new factor") {
   const beam_problem p{
       even_beam(2.0, 2, 1.0), {{0, 0, true}, {0, 1, true}}, {{2, face_above, 1.0, 10.0, false}}, {}};
   const linear_structure s = p.structure();

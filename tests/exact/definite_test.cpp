@@ -81,8 +81,8 @@ TEST_CASE("a matrix with entries from 1e-200 to 1e200 is classified correctly as
 }
 
 TEST_CASE(
-    "random Gram matrices are semidefinite, and most of them are indefinite with a slightly smaller "
-    "diagonal") {
+    "random Gram matrices are semidefinite, and most of them become indefinite if the diagonal is slightly "
+    "reduced") {
   std::mt19937_64 random(16);  // NOLINT(cert-msc32-c,cert-msc51-cpp): the same matrices every time
   int indefinite = 0;
   for (int round = 0; round < 60; ++round) {

@@ -54,7 +54,9 @@ constexpr double few_roundings = 1e-13;
 
 }  // namespace
 
-TEST_CASE("Under a load q from a to b, a simple beam has the largest moment R (a + R / 2q) at a + R / q") {
+TEST_CASE(
+    "Under a load q from a to b, a simple beam with left reaction R has the largest moment R (a + R / 2q) at "
+    "x = a + R / q") {
   for (const beam& b : {bar(10, 1e4), bar(10, 1e4, {1.0, 3.0, 4.5, 8.0})}) {
     const auto r = solved(b, on_two_supports(b), uniform(-40, 2, 5));
     const double R = 40 * 3 * 0.65;  // the middle of the load is 6.5 from the right end
@@ -160,8 +162,7 @@ TEST_CASE("The factor of a load multiplies the force, the moment and the resulta
 }
 
 TEST_CASE(
-    "The mixture of two loads contains the placed loads of both, each times the factor of this load in the "
-    "mixture") {
+    "A mixture of two loads contains the placed loads of both, each multiplied by the factor of its load") {
   const load at =
       mix(uniform(-40, 2, 5), placed({{load_kind::force, 2, 5, {-60}}, {load_kind::point, 1, 1, {8}}}), 0.25);
   REQUIRE(at.placed.size() == 2);

@@ -391,7 +391,8 @@ TEST_CASE("after a step that ends in the reference solution, the next step conti
 }
 
 TEST_CASE(
-    "the reference solution replaces a path without a factor or at its limit, but not a certain mechanism") {
+    "the reference solution replaces the end of a path if a factorisation failed or the limit of increments "
+    "was reached, but not a proved mechanism") {
   const path_limits any{0, [](int, const full_load_state* reached) {
                           return found_end{reached != nullptr ? *reached : made_up_rest(), true};
                         }};

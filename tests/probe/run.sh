@@ -1,7 +1,7 @@
 #!/bin/sh
 # Tests contct-replay with the folders of cpp/contct compiled without strict floating point. A mismatch must be blamed
-# on the environment, and not on a kernel. The folders are a separate project; the options and main() are objects of the
-# strict build.
+# on the environment, and not on a kernel. The folders are built as a separate project; main() and the option parser are
+# linked as object files of the strict build.
 # usage: run.sh KIND SOURCE WORK STRICT_REPLAY OBJECT..., with CMAKE, GENERATOR, CXX and FC set; OBJECT: objects and
 # libraries for the linker.
 # KIND: fused     a product in a sum is contracted; the listing has no such sum, so no result differs

@@ -55,7 +55,8 @@ TEST_CASE("the printed exact path has every event with the exact share and load"
 }
 
 TEST_CASE(
-    "the printed exact path has decimals in place of long fractions, and only the number of many pairs") {
+    "the printed exact path shows long fractions as decimals, and gives only the count of pairs if there are "
+    "many") {
   const followed_exactly run(reference("pb03a-point-load-on-bed-l4"));
   const std::string text = exact_text(run.result(), 6, {});
   CHECK_THAT(text, Contains(" of 41 pairs in contact\n") && !Contains("/"));

@@ -41,7 +41,8 @@ class json_document {
   /// outlive this object.
   json_document(output_file& out, const json& members, std::string_view name);
 
-  /// Writes an element of the array: an object with `members`, some of which have their values in `lists`.
+  /// Writes an element of the array: an object with `members`. If a member has the name of one of `lists`,
+  /// its value is that list.
   void add(const json& members, const std::vector<list>& lists);
 
   /// Writes the end of the array, then `members` and the end of the object, and finishes the file.

@@ -429,7 +429,8 @@ std::string wrong_words(const run_result& r, const state_difference& d) {
       name_of_kind(d.what), d.at, d.value, unit, d.right, unit, size_words(r, d));
 }
 
-/// The words for states that agree, with the largest of the differences `all`, which is not empty.
+/// The words for states that agree within the tolerance, with the largest difference in `all`. `all` must not
+/// be empty.
 std::string agreement_words(const run_result& r, std::span<const state_difference> all) {
   constexpr double ten_digits = 1e-10;  // smaller differences depend on the LAPACK in use
   const auto worst = std::ranges::max_element(all, {}, &state_difference::share);
