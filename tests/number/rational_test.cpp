@@ -56,7 +56,7 @@ TEST_CASE("the low part of a decimal in double-double is the same with and witho
     const double x = (i % 2 == 0 ? digits : -digits) * std::pow(10.0, random.whole(-30, 5));
     const double_double fast = long_decimal_of(x);
     const double_double slow = long_rounded(decimal_of(x));
-    compared += std::size_t{fast.hi == x && fast.hi == slow.hi && fast.lo == slow.lo};
+    compared += fast.hi == x && fast.hi == slow.hi && fast.lo == slow.lo ? 1 : 0;
   }
   CHECK(compared == 20'000);
 }

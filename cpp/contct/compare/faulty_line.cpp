@@ -296,7 +296,7 @@ void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
     if (i + 1 < pairs) s.count(i + 1 == done, 1.0, always_bits, static_cast<std::int64_t>(pairs - done));
   };
   left_at(at(l::no_response, loop_left), [&](auto i) { return c.dtest[c.dof.dof_of(c.id[i]) - 1] == 0; });
-  left_at(at(l::smallest, loop_left), [&](auto i) { return c.ss[i] > 0 && c.ss[i] < 1; });
+  left_at(at(l::smallest, loop_left), [&](auto i) { return c.ss[i] > Real(0) && c.ss[i] < Real(1); });
 }
 
 /// Judges SMIN by the kernel's SS.
@@ -351,7 +351,7 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   if (expected.size() > 1) {
     const bool first_alone =
         found.size() == 1 && found[0] == expected[0] && wrong + 1 == std::ssize(expected);
-    at(l::write_60, loop_left).count(first_alone, 0.0, always_bits, wrong);
+    at(l::write_60, loop_left).count(first_alone, 0.0, always_bits, std::int64_t{wrong});
   }
   for (std::size_t i = 0; i < pairs; ++i) {
     note_toggle(right.isep_before[i], other.isep[i], diffs[i], told[i], has_text && i + 1 < 1000);

@@ -21,11 +21,14 @@ using line_polynomial = boost::container::small_vector<Number, 6>;
 /// The exact deflected line of a beam's element or of a piece of an element: the solution of EI w_xxxx = q
 /// with the displacements of the nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1 (see
 /// polynomial_at).
+// NOLINTNEXTLINE(bugprone-exception-escape): moving numbers throws nothing
 struct element_line {
   double left = 0.0, h = 0.0, right = 0.0;
   line_polynomial<double> w, slope, moment, shear, load;
-  double load_size = 0.0;  ///< the magnitudes of `load`, each of which is off by at most 2^-89 of it
-  double curvature = 0.0;  ///< imposed
+  /// The sum of the magnitudes of the loads, each as a force per length, and in a broken element also of
+  /// shear and moment: rounding errors are relative to load_size.
+  double load_size = 0.0;
+  double curvature = 0.0;  ///< the imposed curvature
 };
 
 /// The lines of all elements under displacement `u` [dofs] and load `l`.

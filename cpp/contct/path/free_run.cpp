@@ -20,7 +20,8 @@ void compare_events(const path_record& leader, const path_record& other, free_ru
     const std::string its = words_at(other.events, i);
     if (led != its) {
       d.same_events = false;
-      if (d.first_difference.empty()) d.first_difference = "the leader: " + led + "; this kernel: " + its;
+      if (d.first_difference.empty())
+        d.first_difference.append("the leader: ").append(led).append("; this kernel: ").append(its);
       return;
     }
     d.fraction = std::max(d.fraction, std::abs(leader.events[i].fraction - other.events[i].fraction));
