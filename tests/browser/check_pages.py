@@ -725,8 +725,8 @@ try:
         can_be_read_aloud(problem)
         looks_differ_in_shape(problem)
         stands_where_it_was(problem, view)
-    opens("frame", "dof 6.y", "Rotations, 11 of 33 dofs, are not drawn")
-    opens("console", "54 nodes, 111 edges, 288 dofs", "144 of 288 dofs have no known node")
+    opens("frame", "dof 6.y", "Rotations (11 of 33 dofs) are not drawn")
+    opens("console", "54 nodes, 111 edges, 288 dofs", "144 of 288 dofs are not drawn")
     opens("bare", "No coordinates of this structure are known", "33 dofs")
     stays_small("grid", 12_000_000, ["20000 of 23980 edges", "more than 32 parts"], 100_000)
 finally:

@@ -355,7 +355,7 @@ TEST_CASE("a mistake in a problem on a matrix is refused with place, what was fo
       {small_with("face = -0.5\n", "face = -0.5\nother = [\"a\", \"b\"]\n"), "p.toml:11:9: contact[1].other",
        "2 labels", "1, or 1: one for each pair"},
       {small_with("spring = 2.0\n[[contact]]\n", "fix = true\n[[contact]]\nother = \"a\"\n"),
-       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "omit \"other\""},
+       "p.toml:8:9: contact[1].other", "dof a, which a support fixes", "omit the key other"},
       {small_with("point = [ { dof = \"c\", value = -3.0 } ]", "move = [ { dof = \"a\", value = 1 } ]"),
        "p.toml:13:10: step[1].move[1]", "no pair at dof a", "[[contact]]"},
       {small_with("face = -0.5\n", "face = -0.5\nother = \"b\"\n") +

@@ -177,8 +177,8 @@ class problem_reader {
     if (!t.has("other")) return none;
     const toml_value other = t["other"];
     if (!nodes_->on_matrix())
-      other.refuse("the key \"other\" with a beam or a plate",
-                   "the key \"face\"; for a gap between two structures, one [matrix] of both");
+      other.refuse(R"(the key "other" with a beam or a plate)",
+                   R"(the key "face"; for a gap between two structures, one [matrix] of both)");
     std::vector<int> others = nodes_->labelled(other, at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (others[i] == at[i])
@@ -187,8 +187,8 @@ class problem_reader {
         if (fixed_[dof] != 0)
           other.refuse(
               place_words(problem_.geometry, dof) + ", which a support fixes, in a pair of two dofs",
-              "dofs that no support fixes; for contact with a fixed dof, omit \"other\", and if that dof "
-              "settles, use \"move\" in [[step]]");
+              "dofs that no support fixes; for contact with a fixed dof, omit the key other, and if that dof "
+              "settles, use the key move in [[step]]");
     }
     return others;
   }

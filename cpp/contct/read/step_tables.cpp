@@ -299,9 +299,8 @@ class step_reader {
       for (const int node : at) {
         const std::string place = place_words(nodes_.structure(), node);
         if (others_.contains(node))
-          m.refuse(
-              place + ", which is \"other\" of a pair",
-              "\"dof\" of the pair; to move this side, exchange \"dof\" and \"other\" in the [[contact]]");
+          m.refuse(place + R"(, which is "other" of a pair)",
+                   R"("dof" of the pair; to move this side, exchange "dof" and "other" in the [[contact]])");
         if (!paired_.contains(node))
           m.refuse("no pair at " + place, "places at which a [[contact]] or a [[bed]] has a pair");
         if (!moved.insert(node).second)

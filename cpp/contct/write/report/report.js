@@ -194,7 +194,7 @@ function endTables() {
     ...tableOf(inUnit("Sums by direction; supports inside the matrix are not among the reactions", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
     ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "moment" ? "Reaction moment" : "Reaction", kind)), "Certificate"], steps.map(row)),
     ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
-    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; of a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
+    ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
       ownPairs.map(pairCells), (s, i) => forceOrGap(s.pairs[ownPairs[i].pair - 1])),
     ...besideEachOther(onBeds, `${inUnit("Contact forces of beds", "force")}${someOf(onBeds)}`, ["Pair", ...placeHead(), "Surface"],
       bedPairs.map(pairCells), (s, i) => s.pairs[bedPairs[i].pair - 1].force, 40),
