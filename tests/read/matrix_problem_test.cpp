@@ -360,8 +360,8 @@ TEST_CASE("a mistake in a problem on a matrix is refused with place, what was fo
        "p.toml:13:10: step[1].move[1]", "no pair at dof a", "[[contact]]"},
       {small_with("face = -0.5\n", "face = -0.5\nother = \"b\"\n") +
            "move = [ { dof = \"b\", value = 1 } ]\n",
-       "p.toml:15:10: step[1].move[1]", "dof b, which is \"other\" of a pair",
-       "exchange \"dof\" and \"other\""},
+       "p.toml:15:10: step[1].move[1]", R"(dof b, which is "other" of a pair)",
+       R"(exchange "dof" and "other")"},
       {small_with("value = -3.0 }", "value = 1e308 }, { dof = \"a\", value = 1e308 }"),
        "p.toml:12:1: step[1]", "sum or moment is not finite", "double"},
   };
