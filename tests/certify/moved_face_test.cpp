@@ -152,7 +152,9 @@ TEST_CASE("A face that moves up lifts a beam that rests only on faces, and the b
   });
 }
 
-TEST_CASE("FORTRAN and C++ get an additional row for a pair whose face moves, and their answers are equal") {
+TEST_CASE(
+    "for a pair whose face moves, FORTRAN and C++ get an additional entry of DD and DTEST, and give equal "
+    "answers") {
   problem p = cantilever();
   p.steps = {moving(4, 0.01), moving(4, -0.01)};
   struct : observer {

@@ -89,7 +89,8 @@ TEST_CASE("loads 0.1, 0.2 and -0.3 do no work on a free beam, but loads 1e12, -1
 }
 
 TEST_CASE(
-    "a load over a beam's only support rotates the beam only together with a moment, even one of 4e-13") {
+    "a load over the only support of a beam does not rotate it, but with a moment of 4e-13 the beam "
+    "rotates") {
   const linear_structure s = build(beam_at({0, 0.7, 2}), {}, {});
   CHECK_FALSE(driven(s, points({{1, 0, -1.0}}), {2}));
   const auto turn = driven(s, points({{1, 0, -1.0}, {1, 1, -4e-13}}), {2});

@@ -40,7 +40,8 @@ TEST_CASE("a run keeps the text of unit 26 up to a limit of characters, and coun
 }
 
 TEST_CASE(
-    "a recorded call has the step of the increment after the call, or step 0 if another call comes first") {
+    "a recorded call has the step number of the increment that follows it, or 0 if another call follows "
+    "instead") {
   run_recorder r(nullptr, {.calls = true});
   tell_call(r, {1.0}, "");
   r.incremented({1, 1, 0.5, 0.5, {}});
