@@ -41,7 +41,8 @@ bool is_obeyed(char32_t c) {
 template <class Replacement>
 std::string replaced(std::string_view text, std::string_view kept, const Replacement& replacement) {
   const auto plain = [](char c) { return c >= ' ' && c <= '~'; };
-  const auto first = static_cast<std::size_t>(std::ranges::find_if_not(text, plain) - text.begin());
+  const auto first =
+      static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), plain) - text.begin());
   std::string out(text.substr(0, first));
   text.remove_prefix(first);
   while (!text.empty()) {
