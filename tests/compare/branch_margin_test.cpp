@@ -90,5 +90,5 @@ TEST_CASE("if EPSGAP = 1e-9 makes an SS wrong, this is traced to IF (ABS(GAP).LT
   REQUIRE(f.ask(c.answered()));
   CHECK(f.first()->where.field == "SS");
   CHECK_THAT(words_of(*f.first())[1], Contains("pair 2: IF (ABS(GAP).LT.EPSGAP) was false") &&
-                                          Contains("no margin on which the value depends is smaller"));
+                                          Contains("this smallest margin is too large for a tie"));
 }
