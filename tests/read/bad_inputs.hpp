@@ -92,7 +92,7 @@ inline std::vector<bad_input> bad_parts() {
       {"a curvature on elements", curvature("value = 1, elements = [1]"), "13:28",
        "step[1].curvature[1].elements", "unknown", "value, from, to"},
       {"a curvature of a plate", plate_with("[[step]]", "[[step]]\ncurvature = [ { value = 1 } ]"), "16:13",
-       "step[1].curvature", "curvature with a plate", "D (1 + nu) curvature per length"},
+       "step[1].curvature", "curvature with a plate", "D (1 + nu) c, a moment per length"},
   };
 }
 
