@@ -20,9 +20,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # Siconos is unpacked here, because installing it would make OpenBLAS the LAPACK of this system.
 mkdir -p "$work/siconos/debs"
+packages="python3-siconos libsiconos-numerics7 liblapacke libtmglib3 libboost-serialization1.74.0 libopenblas0-pthread"
 (
   cd "$work/siconos/debs" &&
-    apt-get download -qq python3-siconos libsiconos-numerics7 liblapacke libtmglib3 libboost-serialization1.74.0 libopenblas0-pthread &&
+    { apt-get download -qq $packages || { apt-get update -qq && apt-get download -qq $packages; }; } &&
     for package in *.deb; do dpkg -x "$package" .. || exit 1; done
 ) >"$work/log" 2>&1 || skip Siconos
 if ! { cmake --preset release -B "$build" -DCONTCT_BUILD_TESTS=ON &&
