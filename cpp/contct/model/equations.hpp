@@ -3,7 +3,6 @@
 #pragma once
 
 #include <boost/container/flat_map.hpp>
-#include <boost/container/small_vector.hpp>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -12,11 +11,9 @@
 
 namespace contct {
 
-/// A row of a symmetric matrix: the entries that may differ from 0, by column. Up to six entries, as in a row
-/// of a beam, are stored without an allocation.
+/// A row of a symmetric matrix: the entries that may differ from 0, by column.
 template <class Number>
-using sparse_row = boost::container::flat_map<int, Number, std::less<int>,
-                                              boost::container::small_vector<std::pair<int, Number>, 6>>;
+using sparse_row = boost::container::flat_map<int, Number>;
 template <class Number>
 using sparse_rows = std::vector<sparse_row<Number>>;
 
