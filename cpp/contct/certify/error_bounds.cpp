@@ -318,6 +318,7 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
 /// face. Returns false and sets `b.not_proved` if bending cannot be excluded.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
+  state_ = {};  // frees the memory of the refined state first
   state_ = {told.step,
             false,
             at_rest,
@@ -330,8 +331,7 @@ bool error_prover::rests(const reported_state& told, error_bounds& b) {
   if (b.unique || !told.numbers.element_values.empty()) return true;
   b.not_proved =
       "only contact holds the structure; the proof that it is not bent needs moments, which a structure "
-      "given "
-      "by its matrix does not have";
+      "given by its matrix does not have";
   return false;
 }
 
