@@ -40,6 +40,7 @@ void subtract(const Stored& k, std::span<const Real> x, std::span<long double> r
   each_entry(
       k, [&](std::size_t i, double value) { r[i] -= value * static_cast<long double>(x[i]); },
       [&](std::size_t row, std::size_t column, double value) {
+        if (value == 0.0) return;  // as most entries in the band of a plate
         r[row] -= value * static_cast<long double>(x[column]);
         r[column] -= value * static_cast<long double>(x[row]);
       });
