@@ -163,13 +163,12 @@ json bench_final_states(const std::string& name) {
           {"ratio", ratio}};
 }
 
-/// Times CHOLMOD without this project's engines, if it is found, on a problem of one load step.
+/// Times CHOLMOD without this project's engines, if it is found.
 void bench_peers(const options& o, const std::string& name, json& rows) {
   const contct::problem p = bench::make_problem(name);
-  if (p.steps.size() > 1) return;
   for (const bench::peer_answer& a : bench::time_cholmod(p, contct::structure_of(p), o.rounds)) {
-    fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {:.1f} digits, {} wrong statuses\n", a.method,
-               1e3 * a.seconds, a.digits, a.wrong_statuses);
+    fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {} steps, {:.1f} MiB, {:.1f} digits, {} wrong statuses\n",
+               a.method, 1e3 * a.seconds, a.steps, a.mib, a.digits, a.wrong_statuses);
     rows.push_back({{"problem", name},
                     {"method", a.method},
                     {"ms", 1e3 * a.seconds},

@@ -95,14 +95,15 @@ struct peer_answer {
   std::string method;
   double seconds = 0.0;  ///< median processor time from K in memory to D
   double mib = 0.0;      ///< peak memory of CHOLMOD
-  int steps = 0;         ///< steps of Newton's method
+  int steps = 0;         ///< steps of Newton's method, or events of the path
   double digits = 0.0;   ///< proved digits of the worst number, at most 15
   int wrong_statuses = 0;
   int values = 0;  ///< compared numbers
 };
 
-/// Times Newton's method on K and the springs of pressed pairs, once with an updated factor and once with a
-/// new factor for each step. The problem must have one load step and no settlement. Returns nothing without
+/// Times the whole path with an updated factor and, for a problem of one load step, Newton's method on K and
+/// the springs of pressed pairs, once with an updated factor and once with a new factor for each step. The
+/// problem must have no settlement, and each step goes on from the last. Returns nothing without
 /// CHOLMOD. Throws std::runtime_error if our own final state is not certified.
 [[nodiscard]] std::vector<peer_answer> time_cholmod(const contct::problem& p,
                                                     const contct::linear_structure& s, int rounds);

@@ -1,7 +1,7 @@
 """scale.py BUILD FIGURE.svg [SECONDS [SIZES]]: processor time and memory against size, of contct and of other programs, as one picture.
 
-Each point is a whole process of a problem by formula, reading and certificate included; CHOLMOD alone is Newton's method with K in
-memory. A curve ends where a run takes more than SECONDS (120), or fails, or after so many SIZES. Points are printed as they come, with the message of a failure."""
+Each point is a whole process of a problem by formula, reading and certificate included; CHOLMOD alone, by the path or Newton's method, has
+K in memory. A curve ends where a run takes more than SECONDS (120), or fails, or after so many SIZES. Points are printed as they come, with the message of a failure."""
 import json
 import math
 import os
@@ -61,7 +61,7 @@ METHODS = {
     "quickest engine, path": ("#1f5fa8", contct("--kernels", "corrected")),
     "--final-only": ("#0b8a6a", contct("--final-only")),
     "PETSc, 2 ranks, path": ("#7d3c98", contct("--kernels", "corrected", "--engine", "petsc", before=MPIRUN)),
-    "CHOLMOD, updated": ("#d68910", cholmod("up/downdating")),
+    "CHOLMOD, updated, path": ("#d68910", cholmod("path, up/downdating")),
     "CHOLMOD, a factor a step": ("#8a6d3b", cholmod("a factor for each step")),
     "CalculiX": ("#444444", ccx),
 }
