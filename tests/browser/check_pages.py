@@ -1,5 +1,6 @@
 """Opens pages of `contct run --html` in a browser without a window and uses them as a person would.
 usage: python3 check_pages.py WORK      (WORK holds NAME.html and NAME.json of each run; pictures go there)"""
+import hashlib
 import json
 import math
 import os
@@ -290,6 +291,9 @@ def prints(name):
     pages = len(re.findall(rb"/Type\s*/Page\b", pdf))
     check(pdf.startswith(b"%PDF") and 2 <= pages <= 40, f"{name}: it prints on paper, {pages} pages")
     check(browser.value("current === frames.length - 1"), f"{name}: what is printed is the final state")
+    feet = [[line for line in sheet.splitlines() if line.strip()][-2].strip() for sheet in sheets_of(name)]
+    headings = browser.value("[...document.querySelectorAll('h2, .caption')].map(h => h.textContent)")
+    check(set(feet).isdisjoint(headings), f"{name}: a heading is the last line of a sheet: {set(feet) & set(headings)}")
     quiet(name)
 
 
@@ -382,7 +386,8 @@ def tells_every_force(name, pairs):
 def tells_loads_of_beams(name):
     open_page(name)
     text = browser.value("document.getElementById('input').innerText")
-    for piece in ("self-weight per length [kN/m]", "Section from x = 0 to 8", "E 210000000 [kN/m²], I 0.0003 [m⁴], A 0.01 [m²], weight 78.5 [kN/m³]"):
+    for piece in ("self-weight per length [kN/m]", "Section from x = 0 to 8", "E 210000000 [kN/m²], I 0.0003 [m⁴], A 0.01 [m²], weight 78.5 [kN/m³]",
+                  "Cases: loads as in the problem file, without factors"):
         check(piece in text, f"{name}: the input has \"{piece}\": {text[:600]}")
     steps = browser.value("[...document.querySelectorAll('#chart text')].map(t => t.textContent).filter(t => t.startsWith('step'))")
     check(steps == ["step 1, G", "step 2, 2 G"], f"{name}: the paths have the names of their steps: {steps}")
@@ -428,11 +433,15 @@ def adds_up_by_direction(name, directions):
         check(abs(loads + reactions + contact) <= 1e-9 * (abs(loads) + abs(reactions) + 1), f"{name}: the sums add up to 0: {row}")
     check(sum(float(row[2]) != 0 for row in rows) >= 3, f"{name}: loads are among the sums: {rows}")
     files = browser.value("document.getElementById('input').innerText")
-    for piece in (f"{name}.mtx", f"{name}.dof", f"{name}.xyz", "force\tdof 6.y"):
+    with open(f"reference/structures/{name}.mtx", "rb") as file:
+        digest = hashlib.sha256(file.read()).hexdigest()
+    for piece in (f"{name}.mtx", digest, "Entries in this file\t96", f"{name}.dof", f"{name}.xyz", "force\tdof 6.y"):
         check(piece in files, f"{name}: the input has \"{piece}\"")
     moved = browser.value("[...[...document.querySelectorAll('#ends table')].find(t => t.ariaLabel.startsWith('Displacements u')).tBodies[0].rows].map(r => [r.cells[0].textContent, ...[...r.cells].slice(1).map(c => Number(c.dataset.value))])")
     labels = browser.value("structure.dofs.map(d => d.dof)")
     known = [[s["displacement"][labels.index(row[0])] for s in result_of(name)["steps"]] for row in moved]
+    turned = browser.value("[...[...document.querySelectorAll('#ends table')].find(t => t.ariaLabel.startsWith('Rotations')).tBodies[0].rows].length")
+    check(turned == 11, f"{name}: the rotations of {turned} dofs; allowed: all 11")
     check(len(moved) == 22 and [row[1:] for row in moved] == known, f"{name}: the displacements of all dofs along an axis: {moved[:2]}")
     quiet(name)
 

@@ -21,7 +21,7 @@ from manual import blocks
 
 # No result has "ended_by", because every path of a reference problem reaches the ends of its steps.
 UNSEEN = {("A step", "ended_by")}
-LEAST_RUNS, LEAST_KEYS = 134, 259
+LEAST_RUNS, LEAST_KEYS = 135, 267
 
 MECHANISM = """
 [units]
@@ -148,6 +148,7 @@ def runs(root, plugin):
     yield root / "reference/problems/divergences/near-tie.toml", ["--kernels", "fortran,cpp", "--strict"], 3
     yield MECHANISM, ["--envelope"], 4
     yield COMBINATIONS, ["--envelope"], 4
+    yield COMBINATIONS, ["--html", "page.html"], 4
     yield MECHANISM, ["--final-only"], 4
     for text in (PLATE, MANY_PARTS, SETTLED_BEAM, PARTS):
         yield text, ["--envelope"], 0

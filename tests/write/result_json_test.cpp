@@ -356,11 +356,36 @@ TEST_CASE("in the data of the report page, a matrix has labels, and if possible 
   CHECK(placed["notes"] == nlohmann::json({"Rotations (11 of 33 dofs) are not drawn."}));
   CHECK(placed["labels_from"].get<std::string>().ends_with("frame.dof"));
   CHECK(placed["places_from"].get<std::string>().ends_with("frame.xyz"));
+  CHECK(placed["matrix_entries"] == 96);  // as the third line of frame.mtx says
+  // Of sha256sum.
+  CHECK(placed["matrix_sha256"] == "d3a838f2743307120cf55b5fc06b8723f6620ed7020f79981e6fecb9c4aa3eb8");
   const nlohmann::json bare =
       structure_json(parse_problem(frame_without_coordinates(), "p.toml", reach::anywhere));
   CHECK(bare["nodes"].empty());
   CHECK(bare["dofs"][16] == nlohmann::json({{"dof", "6.y"}}));
   CHECK_FALSE(bare.contains("places_from"));
+}
+
+TEST_CASE("the data of the report page have the loads of each case without the factors of combinations") {
+  const a_run r(
+      "[beam]\nlength = 2\nelements = 4\nEI = 1\n[[support]]\nx = [0, 2]\nfix = \"w\"\n"
+      "[[case]]\nname = \"G\"\nuniform = -2\n[[case]]\nname = \"Q\"\npoint = [ { x = 1, w = -3 } ]\n"
+      "[[combination]]\nname = \"ULS\"\nterms = { G = 1.35, Q = 1.5 }\n");
+  const nlohmann::json cases = json_of(r.result, result_parts::report)["cases"];
+  REQUIRE(cases.size() == 2);
+  CHECK(cases[0]["name"] == "G");
+  CHECK(cases[0]["load"]["force"] == -4.0);  // -2 over a length of 2
+  CHECK(cases[1]["load"]["point"] == nlohmann::json({{{"node", 3}, {"w", -3.0}}}));
+  CHECK_FALSE(json_of(r.result).contains("cases"));
+}
+
+TEST_CASE(
+    "the report page does not warn of a decimal that is not the shortest of its double, but JSON does") {
+  const a_run r(
+      "[beam]\nlength = 2\nelements = 4\nEI = 1\n[[support]]\nx = [0, 2]\nfix = \"w\"\n"
+      "[[step]]\nuniform = -261502222.22222221\n");
+  CHECK(json_of(r.result)["warnings"].size() == 1);
+  CHECK(json_of(r.result, result_parts::report)["warnings"].empty());
 }
 
 TEST_CASE("a result says which distributed load is self-weight, and the resultant force of each bed") {
@@ -418,6 +443,25 @@ TEST_CASE(
   CHECK(drawn > 4);
   CHECK(drawn <= 126);
   CHECK(most == Approx(100 * 0.207414).epsilon(2e-4));  // largest moment of two spans under a moving load
+}
+
+TEST_CASE("of many combinations, the report page has the largest contact force and reaction of every one") {
+  const a_run r(
+      "[beam]\nlength = 200\nelements = 200\nEI = 1e4\n[[support]]\nx = [0, 100, 200]\nfix = \"w\"\n"
+      "[[contact]]\nx = 50\nsurface = \"below\"\nface = -1e9\nstiffness = 1\n"
+      "[[train]]\nname = \"T\"\naxles = [ { at = 0, w = -1 } ]\nfrom = 1\nto = 99\nby = 0.5\n");
+  std::size_t left_out = 0;
+  const nlohmann::json page = json_of(r.result, result_parts::report);
+  for (const auto& s : page["steps"]) {
+    left_out += s.contains("displacement") ? 0 : 1;
+    const double a = s["train"]["at"].get<double>() / 100;
+    // Two equal spans under a force of 1 at the share a of the first span.
+    const double largest = std::max(1 - 1.25 * a + a * a * a / 4, 1.5 * a - a * a * a / 2);
+    REQUIRE(s["largest"]["reactions"].size() == 1);
+    CHECK(s["largest"]["reactions"][0]["value"].get<double>() == Approx(largest));
+    CHECK(s["largest"]["pair"]["force"] == 0.0);
+  }
+  CHECK(left_out > 50);
 }
 
 TEST_CASE("in the JSON result, nodes and ends of elements have the coordinates of the problem file") {

@@ -78,6 +78,7 @@ struct sparse_matrix {
   /// [entries] the power of ten of each entry's last digit in the file, or exact_entry if the entry was not
   /// rounded. Empty: all entries are exact.
   std::vector<std::int16_t> last_digits = {};
+  std::size_t stored = 0;  ///< number of entries in the file, zeros included
   static constexpr std::int16_t exact_entry = -32768;
   /// Half a unit in the last digit of an entry; 0 if the entry is exact.
   [[nodiscard]] double half_unit(std::size_t entry) const {

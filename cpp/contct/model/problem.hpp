@@ -146,6 +146,7 @@ struct placed_nodes {
 /// and INDOF of the listing are 1 and ID is the number of the dof.
 struct assembled {
   std::string name;                 ///< the matrix's file, for messages
+  std::string sha256;               ///< of this file
   sparse_matrix stiffness;          ///< positive semidefinite
   std::vector<std::string> labels;  ///< [dofs] unique; empty: "1", "2", ...
   std::string labels_from;          ///< the file with the labels
@@ -303,6 +304,7 @@ struct problem {
   std::vector<support> supports;
   std::vector<contact_pair> pairs;  ///< the pairs of every [[contact]] in file order, then those of beds
   std::vector<load> steps;          ///< total load at the end of each step
+  std::vector<load> cases;          ///< of combinations and trains, without factors
   std::vector<bed> beds;            ///< the pairs of the beds are in `pairs`
   unit_labels units;
   std::vector<std::string> warnings;

@@ -110,7 +110,7 @@ std::string rounding_words(std::string_view literal, double x) {
   const auto end = std::abs(x) < 1e16
                        ? std::to_chars(shortest.data(), last, x)
                        : std::to_chars(shortest.data(), last, x, std::chars_format::scientific);
-  return "found " + printable(literal) + "; the shortest decimal of its double, " +
+  return "found " + printable(literal) + "; " + std::string(rounding_word) + ", " +
          std::string(shortest.data(), end.ptr) + ", is used everywhere";
 }
 

@@ -28,6 +28,8 @@ struct decimal {
 /// True if `literal` is the shortest decimal of its double `x`, or if it is not a decimal.
 [[nodiscard]] bool is_shortest(std::string_view literal, double x);
 
+/// The words that all warnings of rounding_words contain.
+inline constexpr std::string_view rounding_word = "the shortest decimal of its double";
 /// The warning that `literal` is not the shortest decimal of `x`: "found 0.10000000000000000555; the shortest
 /// decimal of its double, 0.1, is used everywhere".
 [[nodiscard]] std::string rounding_words(std::string_view literal, double x);

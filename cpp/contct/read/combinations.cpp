@@ -44,7 +44,7 @@ std::string unique_name(const toml_value& t, std::set<std::string>& names) {
 /// Makes a step for each combination and for each position of a train.
 class combination_reader {
  public:
-  combination_reader(const model& m, std::vector<load> cases) : model_(m), cases_(std::move(cases)) {}
+  combination_reader(const model& m, const std::vector<load>& cases) : model_(m), cases_(cases) {}
 
   void read_combination(const toml_value& t) {
     t.allow_only({"name", "terms"});
@@ -147,7 +147,7 @@ class combination_reader {
   }
 
   const model& model_;
-  std::vector<load> cases_;
+  const std::vector<load>& cases_;
   std::set<std::string> names_;  // names of combinations and trains
 };
 
@@ -173,7 +173,8 @@ std::vector<load> read_steps(const toml_value& top, const node_reader& nodes, co
   const std::vector<toml_value> cases = top["case"].optional_tables();
   std::set<std::string> names;
   for (const toml_value& t : cases) (void)unique_name(t, names);
-  combination_reader reader(p.geometry, read_loads(cases, nodes, files, p));
+  p.cases = read_loads(cases, nodes, files, p);
+  combination_reader reader(p.geometry, p.cases);
   for (const toml_value& t : top["combination"].optional_tables()) reader.read_combination(t);
   for (const toml_value& t : top["train"].optional_tables()) reader.read_train(t);
   return std::move(reader.steps);

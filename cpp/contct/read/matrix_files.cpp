@@ -186,7 +186,7 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   std::ranges::sort(entries, {}, [](const read_entry& e) { return std::tuple(e.column, e.row, e.line); });
   refuse_repeated(entries, file);
   refuse_indefinite(entries, order, file);
-  sparse_matrix matrix{order, {}, last_digits_of(entries)};
+  sparse_matrix matrix{order, {}, last_digits_of(entries), entries.size()};
   for (const read_entry& e : entries)
     if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
   return matrix;

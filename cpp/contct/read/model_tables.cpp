@@ -13,6 +13,7 @@
 #include "contct/read/tables.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
+#include "contct/text/sha256.hpp"
 
 namespace contct {
 namespace {
@@ -304,12 +305,19 @@ void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
   if (t.has("mesh")) refuse_unknown_nodes(t["mesh"], path, a);
 }
 
+/// Returns the text of the matrix's file, and sets a.sha256.
+std::string stiffness_text(const std::string& path, const std::string& kind, assembled& a) {
+  std::string text = read_input(path, kind, largest_matrix_file);
+  a.sha256 = sha256(text);
+  return text;
+}
+
 assembled read_matrix(const toml_value& t, const named_files& files, std::vector<std::string>& warnings) {
   t.allow_only({"stiffness", "dofs", "coordinates", "free_motions", "storage"});
   assembled a;
   const std::string path = files.path_of(t["stiffness"]);
   a.name = shown_name(path);
-  a.stiffness = parse_symmetric(read_input(path, "stiffness matrix", largest_matrix_file), a.name, &warnings);
+  a.stiffness = parse_symmetric(stiffness_text(path, "stiffness matrix", a), a.name, &warnings);
   if (t.has("dofs")) {
     read_labels(files.path_of(t["dofs"]), a);
     if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
@@ -334,8 +342,8 @@ assembled read_calculix(const toml_value& t, const named_files& files, std::vect
   a.name = shown_name(path);
   read_labels(files.path_of(t["job"], ".dof"), a);
   const auto rows = static_cast<int>(a.labels.size());
-  a.stiffness = parse_calculix_stiffness(
-      read_input(path, "stiffness matrix of CalculiX", largest_matrix_file), a.name, rows, &warnings);
+  a.stiffness = parse_calculix_stiffness(stiffness_text(path, "stiffness matrix of CalculiX", a), a.name,
+                                         rows, &warnings);
   finish(t, a);
   find_mesh(t, files, a);
   return a;

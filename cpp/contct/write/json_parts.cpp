@@ -49,7 +49,7 @@ void put_kind(json& out, const plate& p) {
 /// Adds the dofs of a matrix, with their labels and, if positions are known, with node and direction.
 void put_kind(json& out, const assembled& a) {
   out["kind"] = "matrix";
-  out["matrix"] = a.name;
+  out.update({{"matrix", a.name}, {"matrix_entries", a.stiffness.stored}, {"matrix_sha256", a.sha256}});
   if (!a.labels_from.empty()) out["labels_from"] = a.labels_from;
   const placed_nodes& places = a.places;
   if (places.known()) out["places_from"] = places.from;
@@ -169,21 +169,19 @@ void put_placed(json& out, const model& m, const placed_load& p) {
 
 }  // namespace
 
-json load_json(const model& m, const load_path& loads, int step, double fraction, bool whole) {
-  const resultant r = loads.resultant_at(step, fraction);
+json load_json(const model& m, const resultant& r, const load* parts) {
   const auto names = dof_names(m);
   json out = {{std::holds_alternative<assembled>(m.kind) ? "sum" : "force", r.force}};
   for (std::size_t i = 0; i < r.moments.size(); ++i)
     out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
-  if (!whole && loads.has_many_parts(step)) return out;
-  const load l = loads.at(step, fraction);
-  for (const distributed_load& d : l.distributed) {
+  if (parts == nullptr) return out;
+  for (const distributed_load& d : parts->distributed) {
     json& entry = out["uniform"].emplace_back();
     put_values(entry, d.polynomial);
     entry["elements"] = elements_json(d.elements);
     if (d.is_self_weight) entry["self_weight"] = true;
   }
-  for (const placed_load& p : l.placed) put_placed(out, m, p);
+  for (const placed_load& p : parts->placed) put_placed(out, m, p);
   const auto put_all = [&](const char* key, const auto& all) {
     for (const auto& at : all) {
       json& entry = out[key].emplace_back();
@@ -191,10 +189,16 @@ json load_json(const model& m, const load_path& loads, int step, double fraction
       entry[names[at.dof]] = product_of<double>(at.value, at.factor);
     }
   };
-  put_all("point", l.points);
-  put_all("settlement", l.settlements);
-  put_all("move", l.moves);
+  put_all("point", parts->points);
+  put_all("settlement", parts->settlements);
+  put_all("move", parts->moves);
   return out;
+}
+
+json load_json(const model& m, const load_path& loads, int step, double fraction, bool whole) {
+  const load l = loads.at(step, fraction);
+  const bool parts = whole || !loads.has_many_parts(step);
+  return load_json(m, loads.resultant_at(step, fraction), parts ? &l : nullptr);
 }
 
 void put_place(json& entry, const model& m, int node, int other) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "contct/number/decimal.hpp"
 #include "contct/session/path_states.hpp"
 #include "contct/session/rule_1989.hpp"
 #include "contct/session/step_results.hpp"
@@ -149,7 +150,7 @@ json rule_1989_json(const run_result& r) {
 }
 
 /// The combinations, from 0, whose states the page leaves out; empty if the page has room for all. The page
-/// keeps the combinations that the envelope names or that failed, and every n-th of the others.
+/// keeps the combinations with an extreme of the envelope, those that failed, and every n-th of the others.
 std::set<std::size_t> ends_left_out(const run_result& r) {
   const std::vector<step_record>& steps = r.record.steps;
   const std::size_t room = std::clamp<std::size_t>(2'000'000 / bytes_of_state(r.what), 4, most_pictures);
@@ -161,6 +162,8 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
     name(v.least);
     name(v.most);
   }
+  const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
+  if (force != e.pairs.end()) name(*force);
   for (const step_record& s : steps)
     if (s.end.fraction < 1.0) named.insert(s.end.step);
   std::set<std::size_t> out;
@@ -212,6 +215,9 @@ class result_writer {
     if (parts_ == result_parts::ends) return members;
     members.update(
         {{"file", r_.file}, {"date", r_.date}, {"words", words()}, {"structure", structure_json(r_.what)}});
+    const model& m = r_.what.geometry;
+    for (const load& c : r_.what.cases)
+      members["cases"].push_back({{"name", c.name}, {"load", load_json(m, resultant_of(m, c), &c)}});
     return members;
   }
 
@@ -230,6 +236,29 @@ class result_writer {
     constexpr int width = 60;
     json out = load_json(r_.what.geometry, loads_, step, fraction, whole);
     if (parts_ != result_parts::ends) out["words"] = loads_.words_at(step, fraction, width);
+    return out;
+  }
+
+  /// The pair with the largest contact force, and for each dof of a node (or direction of a matrix's dofs)
+  /// the largest reaction.
+  [[nodiscard]] json largest_json(const step_results& read, const structure_state& s) const {
+    const problem& p = r_.what;
+    json out = {{"reactions", json::array()}};
+    const auto size = [](const pair_reading& r) { return std::abs(r.force); };
+    if (const auto most = std::ranges::max_element(read.pairs, {}, size); most != read.pairs.end()) {
+      const auto i = static_cast<std::size_t>(most - read.pairs.begin());
+      out["pair"] = pair_state_json(p, i, s.isep[i], most->gap, most->force);
+    }
+    const auto* const a = std::get_if<assembled>(&p.geometry.kind);
+    const bool placed = a != nullptr && a->places.known();
+    std::map<int, std::size_t> largest;  // supports, from 0
+    for (std::size_t i = 0; i < p.supports.size(); ++i) {
+      const support& at = p.supports[i];
+      std::size_t& most =
+          largest.try_emplace(placed ? a->places.dofs[at.node].direction : at.dof, i).first->second;
+      if (std::abs(read.reactions[i]) > std::abs(read.reactions[most])) most = i;
+    }
+    for (const auto& [kind, i] : largest) out["reactions"].push_back(reaction_json(p, i, read.reactions[i]));
     return out;
   }
 
@@ -291,7 +320,9 @@ class result_writer {
     if (const auto sums = balance_of(r_.what, acting, at_end))
       members["balance"] = {
           {"loads", sums->loads}, {"reactions", sums->reactions}, {"contact", sums->contact}};
-    if (parts_ != result_parts::ends) members["load"] = load_in(s.end.step, s.end.fraction, true);
+    if (parts_ != result_parts::ends)
+      members.update(
+          {{"load", load_in(s.end.step, s.end.fraction, true)}, {"largest", largest_json(at_end, s.end)}});
     if (s.from_fallback) members["ended_by"] = "oracle";
     if (s.from_exact_path) members["ended_by"] = "exact";
     const std::optional<certificate>& judged = r_.judged.steps()[number];
@@ -355,7 +386,11 @@ class result_writer {
       members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
-    members["warnings"] = warnings_of(r_);
+    std::vector<std::string> warnings = warnings_of(r_);
+    // The report omits warnings of rounded decimals: they do not change any digit that it shows.
+    const auto is_rounding = [](const std::string& w) { return w.find(rounding_word) != std::string::npos; };
+    if (parts_ == result_parts::report) std::erase_if(warnings, is_rounding);
+    members["warnings"] = warnings;
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},
                     {"calls_made", r_.record_of_calls().all_calls},

@@ -70,10 +70,13 @@ class json_document {
 /// The numbers of compared calls, compared values and mismatches.
 [[nodiscard]] nlohmann::ordered_json agreement_json(std::int64_t calls, const tally& compared);
 
-/// The load at share `fraction` of step `step` (from 1) in absolute terms: `uniform` and `point` as in a
-/// problem file, and the resultant. The resultant of a beam has "force" and "moment", that of a plate
-/// "force", "moment_wx" and "moment_wy", that of a matrix the "sum" of all its loads. Without `whole`, a load
-/// of many parts (load_path::has_many_parts) has only its resultant.
+/// A load in absolute terms: its resultant `r` and, unless `parts` is null, `uniform` and `point` as in a
+/// problem file. The resultant of a beam has "force" and "moment", that of a plate "force", "moment_wx" and
+/// "moment_wy", that of a matrix the "sum" of all its loads.
+[[nodiscard]] nlohmann::ordered_json load_json(const model& m, const resultant& r, const load* parts);
+
+/// The load at share `fraction` of step `step` (from 1). Without `whole`, a load of many parts
+/// (load_path::has_many_parts) has only its resultant.
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 

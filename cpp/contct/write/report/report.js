@@ -163,11 +163,11 @@ const whatHolds = (s) => inUnit(ofMatrix ? kindOf(s) || "along the dof" : s.dof,
 const mostReactions = 1000;  // there are more if every node has a spring
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
-// At most `most` of `steps`, in order: those with the largest values, relative to the largest value of a quantity.
-function endsOf(what, most, steps = result.steps) {
+// At most `most` steps that have states: those with the largest values, relative to the largest value of a quantity.
+function endsOf(most) {
+  const steps = result.steps.filter((s) => s.displacement);
   if (steps.length <= most) return steps;
-  cuts.add(`${what} show the ends of ${most} of ${steps.length} steps: those with the largest values.`);
-  const sizes = Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)));
+  const sizes = [steps.map((s) => Math.abs(s.largest.pair?.force ?? 0)), ...Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)))];
   const share = steps.map((_, i) => Math.max(0, ...sizes.map((all) => all[i] / (Math.max(...all) || 1))));
   const kept = new Set(steps.map((_, i) => i).sort((a, b) => share[b] - share[a]).slice(0, most));
   return steps.filter((_, i) => kept.has(i));
@@ -180,25 +180,27 @@ function endTables() {
   const quantities = Object.keys(steps[0]?.extremes || {});
   const most = (list = [], key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
   const kinds = ["force", "moment", ""].filter((kind) => places.supports.some((s) => kindOf(s) === kind));
-  const ofKind = (all = [], kind) => all.filter((_, i) => kindOf(places.supports[i]) === kind);
+  const ofKind = (all, kind) => all.filter((r) => kindOf(places.locate(r, r.dof)) === kind);
   const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v) => ({ number: v.value, at: placeOf(v) }))),
-    most(s.pairs, "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`)),
+    most([s.largest.pair ?? []].flat(), "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.largest.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`)),
     markOf(s.certificate)];
   const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
   const [ownPairs, bedPairs] = [places.pairs.filter((p) => !p.bed), places.pairs.filter((p) => p.bed)];
-  const moved = deflections();
-  const onBeds = bedPairs.length > 0 ? endsOf("Tables of contact forces of beds", 6, whole) : [];
+  const paired = new Set(places.pairs.map((p) => p.u));
+  const motionOf = (d) => (kindOf(d) === "moment" ? "Rotations" : kindOf(d) || paired.has(d.u) ? inUnit("Displacements u", "w") : "Displacements of dofs of unknown direction");
+  const onBeds = bedPairs.length > 0 ? endsOf(6) : [];
+  if (onBeds.length < whole.length && bedPairs.length > 0) cuts.add(`Contact forces of beds: the tables have ${onBeds.length} of ${steps.length} steps, those with the largest values.`);
   const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), b.force, ...[b.pressure.min, b.pressure.max].map((v) => [{ number: v.value, at: placeOf(v) }]), b.contact]));
   return [
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
-    ...tableOf(inUnit("Sums by direction; supports inside the matrix are not among the reactions", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
+    ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
     ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "moment" ? "Reaction moment" : "Reaction", kind)), "Certificate"], steps.map(row)),
     ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "pressure")), inUnit("In contact", isBeam() ? "w" : "area")], beds),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
       ownPairs.map(pairCells), (s, i) => forceOrGap(s.pairs[ownPairs[i].pair - 1])),
     ...besideEachOther(onBeds, `${inUnit("Contact forces of beds", "force")}${someOf(onBeds)}`, ["Pair", ...placeHead(), "Surface"],
       bedPairs.map(pairCells), (s, i) => s.pairs[bedPairs[i].pair - 1].force, 40),
-    ...besideEachOther(ofMatrix ? whole : [], inUnit("Displacements u", "w") + someOf(whole), ["Dof"], moved.map((d) => [d.name]), (s, i) => s.displacement[moved[i].u], 40),
+    ...groupsOf(ofMatrix ? places.dofs.map((d, u) => ({ ...d, u })) : [], motionOf).flatMap((of) => besideEachOther(whole, motionOf(of[0]) + someOf(whole), ["Dof"], of.map((d) => [d.name]), (s, i) => s.displacement[of[i].u], 40)),
     ...besideEachOther(whole, reactionsTitle + someOf(whole), [...placeHead(), "What"], places.supports.map((s) => [...placeCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value, mostReactions),
   ];
 }
@@ -273,7 +275,7 @@ function drawEnvelope() {
 const rangeWords = ([low, high]) => (low === high ? short(low) : `${short(low)} to ${short(high)}`);
 
 function structureRows() {
-  if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["Labels of the dofs", structure.labels_from ?? "their numbers"], ["Places of the nodes", structure.places_from ?? "not known"], ["Dofs", structure.dofs.length]];
+  if (ofMatrix) return [["Stiffness matrix", structure.matrix], ["SHA-256 of this file", structure.matrix_sha256], ["Entries in this file", String(structure.matrix_entries)], ["Labels of the dofs", structure.labels_from ?? "their numbers"], ["Places of the nodes", structure.places_from ?? "not known"], ["Dofs", structure.dofs.length]];
   const { columns, nodes, D, nu, E, thickness, EI, sections = [] } = structure;
   const sectionWords = ({ element, ...of }, i) => [`Section from x = ${short(nodes[element - 1].x)} to ${short(nodes[(sections[i + 1]?.element ?? nodes.length) - 1].x)}`,
     Object.entries(of).map(([name, value]) => inUnit(`${name} ${short(value)}`, name)).join(", ")];
@@ -302,6 +304,7 @@ const inputTables = () => [
   ...tableOf("Beds: a pair at each node, with the modulus times the node's tributary length or area as its stiffness", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
     gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
       .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
+  ...tableOf("Cases: loads as in the problem file, without factors", ["Case", "What", "Where", "Value"], (result.cases ?? []).flatMap((c) => partsOfLoad(c).map((row) => [c.name, ...row.slice(0, 3)]))),
   ...tableOf("Combinations: cases with their factors", ["Step", "Terms"], runsOfTrains().filter(termWords).map((of) => [stepsName(of), termWords(of)])),
   ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], runsOfTrains().flatMap(loadRows)),
 ];
@@ -414,8 +417,8 @@ function showCuts() {
   for (const note of structure.notes || []) cuts.add(note);
   const drawn = result.steps.filter((s) => s.displacement);
   if (drawn.length < result.steps.length)
-    cuts.add(`${drawn.length} of ${result.steps.length} combinations are drawn: those with the least and largest values, those that did not reach ` +
-      "their load, and others evenly chosen. Increments, contact forces and reactions of combinations that are not drawn are not listed.");
+    cuts.add(`${drawn.length} of ${result.steps.length} combinations are listed with increments, contact forces and reactions, and can be drawn on screen: those with the least and ` +
+      "largest values, those that did not reach their load, and others evenly chosen. Of the other combinations, the largest values are listed.");
   const within = increments.length + 1 + drawn.filter((s) => !endsAt(s, s.increments.length - 1)).length;
   if (frames.length < within) cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
@@ -518,9 +521,10 @@ function drawSheets() {
   byId("system").replaceChildren(...(loaded ? [drawn({ ...frames[0], load: loaded.load }, `The undeformed structure with supports, pairs and the loads of step ${stepName(loaded)}: ${minus(loaded.load.words)}.`, true)] : []));
   const chosen = field;
   const quantities = fields.length > 0 ? fields : [undefined];
-  const steps = new Set(endsOf("Pictures on paper", Math.max(1, Math.floor((result.steps.length > 12 ? 6 : 12) / quantities.length))).map((s) => s.step));
-  const wanted = frames.filter((f) => (f.end && steps.has(f.step)) || f === final).flatMap((f) => quantities.map((of) => ({ f, of })));
-  byId("ends-drawn").replaceChildren(...(steps.size < result.steps.length ? [element("p", { class: "print-only" }, `Drawn are the ends of ${steps.size} of ${result.steps.length} steps, those with the largest values, and of the last one.`)] : []), ...wanted.map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
+  const steps = new Set([...endsOf(Math.max(1, Math.floor((result.steps.length > 12 ? 6 : 12) / quantities.length))).map((s) => s.step), final.step]);
+  const wanted = frames.filter((f) => f.end && steps.has(f.step)).flatMap((f) => quantities.map((of) => ({ f, of })));
+  const told = steps.size < result.steps.length ? [`On paper, the ends of ${steps.size} of ${result.steps.length} steps are drawn: those with the largest values, and the last one.`] : [];
+  byId("ends-drawn").replaceChildren(...told.map((text) => cuts.add(text) && element("p", { class: "print-only" }, text)), ...wanted.map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
   field = chosen;
   showCuts();
 }
