@@ -128,13 +128,29 @@ element_results stresses(const plate& p, const element_results& forces) {
   return r;
 }
 
-element_results stresses(const assembled& /*a*/, const element_results& /*forces*/) {
-  return {};
-}
-
-std::vector<value_range> ranges(const beam& b, const load& l, std::span<const double> u,
-                                std::span<const int> /*deflecting*/, std::span<const double> element_values) {
-  return ranges_of(b, beam_lines(b, l, u, element_values), u);
+std::vector<value_range> ranges_in(const plate& p, std::span<const double> u,
+                                   std::span<const double> element_values) {
+  const auto at = [&](int node, double value) {
+    return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
+  };
+  std::vector<value_range> all;
+  extremes w("w", at(0, u[0]));
+  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
+  all.push_back(w.range());
+  element_results moments = results_in_elements(model{p}, {}, u);
+  if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
+  const auto add = [&](const element_results& of, std::size_t first_name) {
+    for (std::size_t name = first_name; name < of.names.size(); ++name) {
+      extremes found(of.names[name], at(0, of.at(0, name)[0]));
+      for (int e = 0; e < p.elements(); ++e)
+        for (std::size_t k = 0; k < 4; ++k) found.take(at(p.corners_of(e)[k], of.at(e, name)[k]));
+      all.push_back(found.range());
+    }
+  };
+  constexpr std::size_t principal = 3;  // after sx, sy and txy
+  add(moments, 0);
+  add(stresses_of({p}, moments), principal);
+  return all;
 }
 
 }  // namespace
@@ -163,43 +179,17 @@ std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines, std::
   return all;
 }
 
-namespace {
-
-std::vector<value_range> ranges(const plate& p, const load& /*l*/, std::span<const double> u,
-                                std::span<const int> /*deflecting*/, std::span<const double> element_values) {
-  const auto at = [&](int node, double value) {
-    return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
-  };
-  std::vector<value_range> all;
-  extremes w("w", at(0, u[0]));
-  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
-  all.push_back(w.range());
-  element_results moments = results_in_elements(model{p}, {}, u);
-  if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
-  const auto add = [&](const element_results& of, std::size_t first_name) {
-    for (std::size_t name = first_name; name < of.names.size(); ++name) {
-      extremes found(of.names[name], at(0, of.at(0, name)[0]));
-      for (int e = 0; e < p.elements(); ++e)
-        for (std::size_t k = 0; k < 4; ++k) found.take(at(p.corners_of(e)[k], of.at(e, name)[k]));
-      all.push_back(found.range());
-    }
-  };
-  constexpr std::size_t principal = 3;  // after sx, sy and txy
-  add(moments, 0);
-  add(stresses_of({p}, moments), principal);
-  return all;
-}
-
-std::vector<value_range> ranges(const assembled& /*a*/, const load& /*l*/, std::span<const double> u,
-                                std::span<const int> deflecting, std::span<const double> /*element_values*/) {
+std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
+                                   std::span<const int> deflecting, std::span<const double> element_values) {
+  if (const auto* const b = std::get_if<beam>(&m.kind))
+    return ranges_of(*b, beam_lines(*b, l, u, element_values), u);
+  if (const auto* const p = std::get_if<plate>(&m.kind)) return ranges_in(*p, u, element_values);
   if (deflecting.empty()) return {};
   const auto at = [&](int dof) { return placed_value{u[dof], 0.0, 0.0, dof}; };
   extremes w("w", at(deflecting.front()));
   for (const int dof : deflecting) w.take(at(dof));
   return {w.range()};
 }
-
-}  // namespace
 
 line_polynomial<double> bernstein_of(const line_polynomial<double>& p) {
   const std::size_t degree = p.size() - 1;
@@ -312,7 +302,8 @@ double sum_of_sizes(const poly& p) {
 
 }  // namespace
 
-void beam_lines::put(int e, element_line& line) const {
+element_line beam_lines::at(int e) const {
+  element_line line;
   line.left = beam_.x[e];
   line.h = h_[e];
   line.right = line.left + line.h;
@@ -323,11 +314,6 @@ void beam_lines::put(int e, element_line& line) const {
   put_along(line, line_start<double>{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]},
             line.load, line.h, beam_.EI[e], 0.0);
   complete(line);
-}
-
-element_line beam_lines::at(int e) const {
-  element_line line;
-  put(e, line);
   return line;
 }
 
@@ -337,7 +323,7 @@ element_line beam_lines::at(int e) const {
 std::vector<element_line> beam_lines::pieces(int e) const {
   std::vector<element_line> all;
   if (!is_broken(e)) {
-    put(e, all.emplace_back());
+    all.push_back(at(e));
     return all;
   }
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
@@ -362,13 +348,10 @@ std::vector<element_line> beam_lines::pieces(int e) const {
   return all;
 }
 
-std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
-                                   std::span<const int> deflecting, std::span<const double> element_values) {
-  return std::visit([&](const auto& kind) { return ranges(kind, l, u, deflecting, element_values); }, m.kind);
-}
-
 element_results stresses_of(const model& m, const element_results& forces) {
-  return std::visit([&](const auto& kind) { return stresses(kind, forces); }, m.kind);
+  if (const auto* const b = std::get_if<beam>(&m.kind)) return stresses(*b, forces);
+  if (const auto* const p = std::get_if<plate>(&m.kind)) return stresses(*p, forces);
+  return {};
 }
 
 /// Most stresses are linear in the moments; the principal and von Mises stresses are not. Let the moments

@@ -51,8 +51,6 @@ class beam_lines {
   [[nodiscard]] const element_results& ends() const { return ends_; }
 
  private:
-  void put(int e, element_line& line) const;
-
   const beam& beam_;
   std::span<const double> u_;
   element_results ends_;
