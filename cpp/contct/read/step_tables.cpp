@@ -104,6 +104,7 @@ class step_reader {
     // may have thousands of loads on "all".
     std::map<std::vector<int>, std::size_t> place;
     for (const toml_value& table : uniform.tables()) {
+      table.allow_only({"value", "polynomial", "elements", "from", "to"});
       if (table.has("from") || table.has("to")) {
         l.placed.push_back(read_part(table));
         continue;
@@ -130,12 +131,12 @@ class step_reader {
       l.distributed.push_back(
           {{product_of<double>(-weight, times)}, std::move(elements), {{{-weight}, 1.0, times}}, true});
     };
-    if (const auto* p = std::get_if<plate>(&nodes_.structure().kind)) {
+    if (const plate* const p = of_plate()) {
       if (p->weight == 0.0)
         t.refuse("a plate without weight", "self_weight with E, thickness and weight in [plate]");
       return add(p->weight, p->thickness, {});
     }
-    const std::vector<beam_section>& all = std::get<beam>(nodes_.structure().kind).sections;
+    const std::vector<beam_section>& all = of_beam()->sections;
     if (all.empty() || all[0].weight == 0.0 || all[0].A == 0.0)
       t.refuse("a beam without weight or area", "self_weight with A and weight in section of [beam]");
     for (std::size_t e = 0; e < all.size();) {
@@ -149,7 +150,6 @@ class step_reader {
   }
 
   [[nodiscard]] distributed_load read_distributed(const toml_value& t) const {
-    t.allow_only({"value", "polynomial", "elements", "from", "to"});
     distributed_load d;
     d.polynomial = read_intensity(t);
     const int all = elements(nodes_.structure());
@@ -167,53 +167,44 @@ class step_reader {
 
   /// Reads a distributed load on a part of a beam, or on a rectangle of a plate.
   [[nodiscard]] placed_load read_part(const toml_value& t) const {
-    t.allow_only({"value", "polynomial", "elements", "from", "to"});
     t.refuse_beside({"elements"}, "from or to", "either elements, or from and to");
     placed_load p{load_kind::force, 0.0, 0.0, read_intensity(t)};
-    if (of_plate() != nullptr) {
-      read_rectangle(t, *of_plate(), p);
-    } else {
-      read_ends(t, *of_beam(), p);
-    }
+    read_extent(t, p);
     return p;
   }
 
   [[nodiscard]] placed_load read_curvature(const toml_value& t) const {
     t.allow_only({"value", "from", "to"});
     placed_load p{load_kind::curvature, 0.0, 0.0, {t["value"].real(any_real)}};
-    read_ends(t, *of_beam(), p);
+    read_extent(t, p);
     return p;
   }
 
-  static void refuse_reversed(const toml_value& to, double from, double end) {
-    if (!(from < end))
-      to.refuse(fmt::format("{}", end), fmt::format("more than {}, where this part begins", from));
-  }
-
-  /// Reads `from` and `to` along a beam. A missing `from` is the start of the beam, a missing `to` its end.
-  static void read_ends(const toml_value& t, const beam& b, placed_load& p) {
-    const coordinate_row x = nodes_along(b.x);
-    p.from = t.has("from") ? x.place_of(t["from"]) : b.x.front();
-    p.to = t.has("to") ? x.place_of(t["to"]) : b.x.back();
-    refuse_reversed(t[t.has("to") ? "to" : "from"], p.from, p.to);
-  }
-
-  /// Reads `from` and `to` on a plate, two corners of a rectangle, by default corners of the plate.
-  static void read_rectangle(const toml_value& t, const plate& of, placed_load& p) {
-    const auto read = [&](const char* key, double x, double y) -> std::array<double, 2> {
-      if (!t.has(key)) return {x, y};
-      const std::vector<toml_value> at = t[key].entries("a corner of the rectangle, [x, y]", 2, 2);
-      return {coordinate_row{of.x, "grid line along x", ""}.place_of(at[0]),
-              coordinate_row{of.y, "grid line along y", ""}.place_of(at[1])};
+  /// Reads `from` and `to`: places along a beam, or two corners of a rectangle of a plate. A missing `from`
+  /// is the start of the beam or the lower left corner of the plate, a missing `to` the opposite end or
+  /// corner.
+  void read_extent(const toml_value& t, placed_load& p) const {
+    std::vector<coordinate_row> axes;
+    if (const beam* const b = of_beam()) axes = {nodes_along(b->x)};
+    if (const plate* const of = of_plate())
+      axes = {{of->x, "grid line along x", ""}, {of->y, "grid line along y", ""}};
+    const auto coordinates = [&](const char* key) {
+      return axes.size() == 1 ? std::vector{t[key]}
+                              : t[key].entries("a corner of the rectangle, [x, y]", 2, 2);
     };
-    const auto [left, below] = read("from", of.x.front(), of.y.front());
-    const auto [right, above] = read("to", of.x.back(), of.y.back());
-    const toml_value last = t[t.has("to") ? "to" : "from"].entries("", 2)[left < right ? 1 : 0];
-    refuse_reversed(last, left, right);
-    refuse_reversed(last, below, above);
-    p.from = left;
-    p.to = right;
-    p.across = {below, above};
+    std::array<double, 2> from{};
+    std::array<double, 2> to{};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      from[i] = t.has("from") ? axes[i].place_of(coordinates("from")[i]) : axes[i].values.front();
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      to[i] = t.has("to") ? axes[i].place_of(coordinates("to")[i]) : axes[i].values.back();
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      if (!(from[i] < to[i]))
+        coordinates(t.has("to") ? "to" : "from")[i].refuse(
+            fmt::format("{}", to[i]), fmt::format("more than {}, where this part begins", from[i]));
+    p.from = from[0];
+    p.to = to[0];
+    p.across = {from[1], to[1]};
   }
 
   /// A node, or a place between nodes of a beam.
