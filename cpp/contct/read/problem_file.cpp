@@ -66,8 +66,6 @@ class problem_reader {
   }
 
  private:
-  [[nodiscard]] int nodes() const { return contct::nodes(problem_.geometry); }
-
   [[nodiscard]] std::size_t dof_of(int node, int dof) const {
     return node * nodes_->dof_names().size() + dof;
   }
@@ -238,7 +236,9 @@ class problem_reader {
     t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
     const facing common = read_facing(t, face_below);
-    const std::vector<int> at = nodes_->named_in(t) ? nodes_->read(t) : all_nodes();
+    std::vector<int> at(nodes(problem_.geometry));
+    std::iota(at.begin(), at.end(), 0);
+    if (nodes_->named_in(t)) at = nodes_->read(t);
     bed made{modulus, {}, problem_.pairs.size()};
     made.closed = common.closed;
     const std::vector<double> faces = read_faces(t, at, made.face);
@@ -262,7 +262,7 @@ class problem_reader {
   /// Warns if neighbouring nodes of a bed are more than half of (4 EI / modulus)^(1/4) apart, the length over
   /// which the beam bends on ground of this modulus. Names only the worst place.
   void warn_of_spacing(const toml_value& t, const beam& b, double modulus, const std::vector<int>& at) {
-    std::vector<char> is_on_bed(nodes(), 0);
+    std::vector<char> is_on_bed(b.nodes(), 0);
     for (const int node : at) is_on_bed[node] = 1;
     double worst = 1.0 + 1e-9;
     std::string warning;
@@ -277,12 +277,6 @@ class problem_reader {
           t.where(), e + 1, e + 2, b.length_of(e), rounded_down(most));
     }
     if (!warning.empty()) problem_.warnings.push_back(warning);
-  }
-
-  [[nodiscard]] std::vector<int> all_nodes() const {
-    std::vector<int> numbers(nodes());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    return numbers;
   }
 
   named_files files_;
