@@ -102,21 +102,13 @@ struct end_of_step {
   }
 };
 
-/// A comma and the heading of the last column, stresses; empty if stresses are unknown.
-std::string_view stress_column(const beam& b) {
-  return b.sections.empty() || b.sections.front().W == 0.0 ? "" : ",stress";
-}
-
-std::string_view stress_column(const plate& p) {
-  return p.thickness == 0.0 ? "" : ",von_mises";
-}
-
 std::string rows_of(const beam& b, const end_of_step& s) {
   const beam_lines lines(b, s.acting, s.state.displacement, s.read.elements.values);
   std::string rows;
   const auto add = [&](int e, const std::string& node, double x, double w, double slope, double moment,
                        double shear, const std::string& pressure) {
-    const std::string stress = stress_column(b).empty() ? "" : fmt::format(",{}", moment / b.sections[e].W);
+    const std::string stress =
+        s.read.stresses.names.empty() ? "" : fmt::format(",{}", moment / b.sections[e].W);
     rows += row_of(s.step, e + 1, node, x, w, slope, moment, shear, pressure + stress);
   };
   const auto add_end = [&](int e, int right, double slope) {
@@ -156,7 +148,7 @@ std::string rows_of(const plate& p, const end_of_step& s) {
   std::string rows;
   for (int node = 0; node < p.nodes(); ++node) {
     const place at = place_of_node(s.what.geometry, node);
-    const std::string stress = stress_column(p).empty() ? "" : fmt::format(",{}", stresses[node]);
+    const std::string stress = s.read.stresses.names.empty() ? "" : fmt::format(",{}", stresses[node]);
     rows += row_of(s.step, node + 1, at.x, at.y, s.u(3 * node), s.u(3 * node + 1), s.u(3 * node + 2),
                    s.pressure_at(node) + stress);
   }
@@ -170,11 +162,12 @@ std::string rows_of(const assembled& a, const end_of_step& s) {
 }
 
 std::string columns_of(const beam& b) {
-  return fmt::format("element,node,x,w,slope,moment,shear,pressure{}", stress_column(b));
+  const bool has_stress = !b.sections.empty() && b.sections.front().W > 0.0;
+  return std::string("element,node,x,w,slope,moment,shear,pressure") + (has_stress ? ",stress" : "");
 }
 
 std::string columns_of(const plate& p) {
-  return fmt::format("node,x,y,w,wx,wy,pressure{}", stress_column(p));
+  return std::string("node,x,y,w,wx,wy,pressure") + (p.thickness > 0.0 ? ",von_mises" : "");
 }
 
 std::string columns_of(const assembled& /*a*/) {
