@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -196,38 +197,30 @@ std::string place_words(const model& m, const placed_value& at) {
 
 namespace {
 
-/// Widens the range `known` by the range `now`.
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Widens the range `known` to the values `least` and `most` of state `s`.
 template <class Value>
-void take(envelope::range<Value>& known, const envelope::range<Value>& now, auto size_of) {
-  if (size_of(now.least.value) < size_of(known.least.value)) known.least = now.least;
-  if (size_of(now.most.value) > size_of(known.most.value)) known.most = now.most;
+void take(envelope::range<Value>& known, const Value& least, const Value& most, const structure_state& s,
+          auto size_of) {
+  if (size_of(least) < size_of(known.least.value)) known.least = {least, s.step, s.number};
+  if (size_of(most) > size_of(known.most.value)) known.most = {most, s.step, s.number};
 }
 
-envelope of_one_state(const problem& p, const load& l, const structure_state& s) {
-  const step_results r = results_of(p, l, s);
-  envelope e;
-  e.states = 1;
-  for (const value_range& v : r.ranges) {
-    e.names.push_back(v.name);
-    e.values.push_back({{v.least, s.step, s.number}, {v.most, s.step, s.number}});
+/// Widens the ranges of `all` by the results `r` of state `s`. The first state replaces infinite values.
+void take(envelope& all, const step_results& r, const structure_state& s) {
+  if (all.states++ == 0) {
+    for (const value_range& v : r.ranges) all.names.push_back(v.name);
+    all.values.assign(r.ranges.size(), {{{infinite}}, {{-infinite}}});
+    all.pairs.assign(r.pairs.size(), {0.0, s.step, s.number});
+    all.reactions.assign(r.reactions.size(), {{infinite}, {-infinite}});
   }
-  for (const pair_reading& pair : r.pairs) e.pairs.push_back({std::max(0.0, pair.force), s.step, s.number});
-  for (const double value : r.reactions)
-    e.reactions.push_back({{value, s.step, s.number}, {value, s.step, s.number}});
-  return e;
-}
-
-void take(envelope& known, const envelope& now) {
-  if (known.states++ == 0) {
-    known = now;
-    return;
-  }
-  for (std::size_t i = 0; i < now.values.size(); ++i)
-    take(known.values[i], now.values[i], [](const placed_value& v) { return v.value; });
-  for (std::size_t i = 0; i < now.pairs.size(); ++i)
-    if (now.pairs[i].value > known.pairs[i].value) known.pairs[i] = now.pairs[i];
-  for (std::size_t i = 0; i < now.reactions.size(); ++i)
-    take(known.reactions[i], now.reactions[i], [](double v) { return v; });
+  for (std::size_t i = 0; i < r.ranges.size(); ++i)
+    take(all.values[i], r.ranges[i].least, r.ranges[i].most, s, std::mem_fn(&placed_value::value));
+  for (std::size_t i = 0; i < r.pairs.size(); ++i)
+    if (r.pairs[i].force > all.pairs[i].value) all.pairs[i] = {r.pairs[i].force, s.step, s.number};
+  for (std::size_t i = 0; i < r.reactions.size(); ++i)
+    take(all.reactions[i], r.reactions[i], r.reactions[i], s, std::identity{});
 }
 
 /// Calls visit(state, load) for each state of the envelope.
@@ -253,7 +246,6 @@ int parts_of(const beam& b) {
 
 /// The curves before the first state: all places, with infinite values that any state replaces.
 envelope_curves begun(const beam& b) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   envelope_curves all;
   const int parts = parts_of(b);
   for (int e = 0; e < b.elements(); ++e)
@@ -278,9 +270,7 @@ void take(envelope_curves& all, const beam& b, const beam_lines& lines, const st
       const auto take_one = [&](std::size_t quantity, const auto& polynomial, double left, double right) {
         const double inside = polynomial_at(polynomial, t);
         const double value = k == 0 ? left : k == parts ? right : inside;
-        envelope::range<double>& known = all.curves[quantity].at[place];
-        if (value < known.least.value) known.least = {value, s.step, s.number};
-        if (value > known.most.value) known.most = {value, s.step, s.number};
+        take(all.curves[quantity].at[place], value, value, s, std::identity{});
       };
       take_one(0, piece->w, u[0], u[2]);
       take_one(1, piece->moment, lines.ends().at(e, 1)[0], lines.ends().at(e, 1)[1]);
@@ -294,7 +284,7 @@ void take(envelope_curves& all, const beam& b, const beam_lines& lines, const st
 envelope envelope_of(const run_result& r) {
   envelope all;
   for_each_state_of_envelope(
-      r, [&](const structure_state& s, const load& l) { take(all, of_one_state(r.what, l, s)); });
+      r, [&](const structure_state& s, const load& l) { take(all, results_of(r.what, l, s), s); });
   return all;
 }
 
