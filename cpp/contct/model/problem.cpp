@@ -92,17 +92,6 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   return s;
 }
 
-template <class Kind>
-resultant sum_of_loads(const Kind& kind, const load& l) {
-  return rigid_truth(kind).resultant_of(l);
-}
-
-resultant sum_of_loads(const assembled& /*a*/, const load& l) {
-  rational sum;
-  for (const point_load& p : l.points) sum += product_of<rational>(p.value, p.factor);
-  return {contct::rounded(sum), {}};
-}
-
 std::string unit_at(const assembled& a, const problem& p, std::string_view quantity, int dof) {
   const placed_dof at = dof >= 0 && a.places.known() ? a.places.dofs[dof] : placed_dof{};
   const bool has_pair = std::any_of(p.pairs.begin(), p.pairs.end(), [dof](const contact_pair& c) {
@@ -218,7 +207,11 @@ std::vector<contact_pair> pairs_under(const problem& p, const load& l) {
 }
 
 resultant resultant_of(const model& m, const load& l) {
-  return std::visit([&](const auto& kind) { return sum_of_loads(kind, l); }, m.kind);
+  if (const auto* const b = std::get_if<beam>(&m.kind)) return rigid_truth(*b).resultant_of(l);
+  if (const auto* const p = std::get_if<plate>(&m.kind)) return rigid_truth(*p).resultant_of(l);
+  rational sum;
+  for (const point_load& p : l.points) sum += product_of<rational>(p.value, p.factor);
+  return {contct::rounded(sum), {}};
 }
 
 }  // namespace contct
