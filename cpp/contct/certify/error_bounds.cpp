@@ -207,6 +207,7 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
                                                 std::span<int> isep) {
   const long_loads& l = loads_of(step);
   state_ = {step, false, long_displacement(step, displacement, l), {}, {}, {}};
+  (void)is_semidefinite();  // before K_A is factored, because it may replace this factor
   if (system_.is_unloaded(l) && contacts_.proves({})) {
     std::fill(state_.u.begin(), state_.u.end(), 0.0);
     state_.left = residual_of(state_.u, l);
@@ -349,6 +350,7 @@ void error_prover::keep(const reported_state& told, error_bounds& b) const {
 
 /// Sets A and rho of the state in `b`; returns false and sets `b.not_proved` if A and rho cannot be proved.
 bool error_prover::find_contacts(const reported_state& told, const long_loads& l, contact_set& b) {
+  const bool semidefinite = is_semidefinite();  // before K_A is factored, because it may replace this factor
   bool found = true;
   if (!is_refined(told.step, told.displacement)) {
     state_ = {told.step, false, long_displacement(told.step, told.displacement, l), {}, {}, {}};
@@ -365,13 +367,13 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
     found = contacts_.find(state_.u, state_.left, b);
   }
   if (!found) return contacts_.find_balanced(l.step, state_.u, state_.left, b);
-  if (!is_semidefinite()) {
+  if (!semidefinite) {
     b.not_proved =
         "it is not certain that the matrix is positive semidefinite. If the structure has too few supports, "
         "rounded entries may be the cause: add a [[support]] with a weak spring";
     return false;
   }
-  (void)contacts_.proves(b.closed);  // is_semidefinite() may have replaced the factor and its proof
+  (void)contacts_.proves(b.closed);  // the bounds need the factor of K_A
   return true;
 }
 

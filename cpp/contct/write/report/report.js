@@ -159,6 +159,7 @@ const sides = { stress: "Stress, lower fibre (upper: other sign)", s1: "S1, lowe
 const quantityHead = (name) => inUnit(sides[name] ?? (name === "w" && ofMatrix ? "u" : /^m[xy]|^w$/.test(name) ? name : sentence(name.replace("_", " ")).slice(0, -1)), name);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const kindOf = ({ direction }) => (direction > 3 ? "moment" : direction > 0 ? "force" : "");  // empty: not known
+const springKind = (s) => ({ force: "stiffness", moment: "moment" })[ofMatrix ? kindOf(s) : s.dof === "w" ? "force" : "moment"];
 const whatHolds = (s) => inUnit(ofMatrix ? kindOf(s) || "along the dof" : s.dof, kindOf(s));
 const mostReactions = 1000;  // there are more if every node has a spring
 const reactionsTitle = "Reactions: what supports exert on the structure";
@@ -297,8 +298,8 @@ const termWords = (of) => [...Object.entries(of[0].terms ?? {}), ...(of[0].train
 
 const inputTables = () => [
   ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows()),
-  ...tableOf("Supports: fixed, or the stiffness of a spring", [...placeHead(), "Dof", "Held"],
-    gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, s.dof, s.spring === null ? "fixed" : short(s.spring)])),
+  ...tableOf("Supports: fixed, or the stiffness of a spring", [...placeHead(), ...(ofMatrix ? [] : ["Dof"]), "Held"],
+    gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, ...(ofMatrix ? [] : [s.dof]), s.spring === null ? "fixed" : inUnit(short(s.spring), springKind(s))])),
   ...tableOf("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
     places.pairs.filter((p) => !p.bed).map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, startWords(p)])),
   ...tableOf("Beds: a pair at each node, with the modulus times the node's tributary length or area as its stiffness", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
