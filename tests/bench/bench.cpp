@@ -29,6 +29,7 @@ struct options {
   int events = 0;
   int rounds = 3;
   std::string json_file;
+  std::string method;  // of CHOLMOD alone; empty: all
   bool without_kernels = false;
   bool print = false;
 };
@@ -166,7 +167,7 @@ json bench_final_states(const std::string& name) {
 /// Times CHOLMOD without this project's engines, if it is found.
 void bench_peers(const options& o, const std::string& name, json& rows) {
   const contct::problem p = bench::make_problem(name);
-  for (const bench::peer_answer& a : bench::time_cholmod(p, contct::structure_of(p), o.rounds)) {
+  for (const bench::peer_answer& a : bench::time_cholmod(p, contct::structure_of(p), o.rounds, o.method)) {
     fmt::print("  CHOLMOD alone, {}: {:.1f} ms, {} steps, {:.1f} MiB, {:.1f} digits, {} wrong statuses\n",
                a.method, 1e3 * a.seconds, a.steps, a.mib, a.digits, a.wrong_statuses);
     rows.push_back({{"problem", name},
@@ -221,6 +222,7 @@ int main(int argc, char** argv) {
   program.add_option("--engine", o.engines, "Engines; refactor is what the others are measured by")
       ->delimiter(',')
       ->capture_default_str();
+  program.add_option("--method", o.method, "Of CHOLMOD alone, only this method");
   program.add_option("--events", o.events, "Stop every step after this many events; 0: never")
       ->check(CLI::Range(0, 1'000'000'000));
   program

@@ -104,8 +104,10 @@ struct peer_answer {
 /// Times the whole path with an updated factor and, for a problem of one load step, Newton's method on K and
 /// the springs of pressed pairs, once with an updated factor and once with a new factor for each step. The
 /// problem must have no settlement, and each step goes on from the last. Returns nothing without
-/// CHOLMOD. Throws std::runtime_error if our own final state is not certified.
+/// CHOLMOD. Throws std::runtime_error if our own final state is not certified. `only`: the method; empty:
+/// all.
 [[nodiscard]] std::vector<peer_answer> time_cholmod(const contct::problem& p,
-                                                    const contct::linear_structure& s, int rounds);
+                                                    const contct::linear_structure& s, int rounds,
+                                                    const std::string& only);
 
 }  // namespace bench

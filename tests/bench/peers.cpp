@@ -226,7 +226,8 @@ void judge(const certified_end& ours, const linear_structure& s, const std::vect
 
 }  // namespace
 
-std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& s, int rounds) {
+std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& s, int rounds,
+                                      const std::string& only) {
   const sparse_columns k =
       s.stiffness.is_band() ? contct::columns_of(s.stiffness.band()) : s.stiffness.columns();
   std::vector<std::vector<double>> loads(p.steps.size(), std::vector<double>(s.dofs()));
@@ -239,6 +240,7 @@ std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& 
   const certified_end ours(p, s);
   std::vector<peer_answer> answers;
   const auto time = [&](const char* method, bool updown, const auto& run) {
+    if (!only.empty() && only != method) return;
     peer_answer a;
     a.method = method;
     std::vector<double> seconds, u;
@@ -275,7 +277,7 @@ std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& 
 namespace bench {
 
 std::vector<peer_answer> time_cholmod(const contct::problem& /*p*/, const contct::linear_structure& /*s*/,
-                                      int /*rounds*/) {
+                                      int /*rounds*/, const std::string& /*only*/) {
   return {};
 }
 

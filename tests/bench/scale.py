@@ -42,7 +42,7 @@ def contct(*options, before=()):
 def cholmod(method):
     def run(name, folder):
         point, problem = measured([BUILD / "contct_bench", "--problem", name, "--engine", "updated", "--events", "1", "--rounds", "1",
-                                   "--without-kernels", "--json", "rows.json"], folder)
+                                   "--without-kernels", "--method", method, "--json", "rows.json"], folder)
         found = [row for row in json.loads((folder / "rows.json").read_text())["peers"] if row["method"] == method] if point else []
         return ((found[0]["ms"] / 1e3, found[0]["mib"]), "") if found else (None, problem or "no CHOLMOD")
     return run
