@@ -21,18 +21,23 @@ import calculix  # noqa: E402
 from make import problem_of  # noqa: E402
 
 
+# Linux counts the memory of the process that forks to the peak of its child, so a small process must fork.
+FORK = """import os, subprocess, sys
+process = subprocess.Popen(sys.argv[1:], stderr=subprocess.STDOUT)
+_, status, usage = os.wait4(process.pid, 0)
+print("\\n", os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)"""
+
+
 def measured(command, folder):
     """Processor seconds and MiB of a process and its child processes, or None and a message if the process fails."""
-    limited = ["timeout", str(SECONDS * 4), *map(str, command)]
-    with open(folder / "out", "wb") as out:
-        process = subprocess.Popen(limited, cwd=folder, stdout=out, stderr=out)
-        _, status, usage = os.wait4(process.pid, 0)
-    if os.waitstatus_to_exitcode(status) == 124:
+    limited = [sys.executable, "-I", "-S", "-c", FORK, "timeout", str(SECONDS * 4), *map(str, command)]
+    *lines, last = subprocess.run(limited, cwd=folder, capture_output=True, text=True, errors="replace", check=True).stdout.strip().splitlines()
+    status, seconds, mib = last.split()
+    if status == "124":
         return None, f"more than {SECONDS * 4:g} s"
-    if status != 0:
-        lines = (folder / "out").read_text(errors="replace").strip().splitlines()
-        return None, (lines or ["no message"])[-1]
-    return (usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024), ""
+    if status != "0":
+        return None, next((line for line in reversed(lines) if line.startswith("contct")), (lines or ["no message"])[-1])
+    return (float(seconds), float(mib)), ""
 
 
 def contct(*options, before=()):
