@@ -403,9 +403,9 @@ std::vector<std::string> refinement_words(const run_result& r) {
   std::vector<std::string> items;
   for (const auto& [kind, change, of] : r.refined) {
     const double shown = change <= 1e-9 * of ? 0.0 : change;
-    items.push_back(fmt::format("{}{} by {:.3g}{} ({:.2g} %)",
+    items.push_back(fmt::format("{}{} by {:.3g}{} ({:.2g} % of {:.4g})",
                                 items.empty() ? "half the element size changes " : "", kind, shown,
-                                unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of));
+                                unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of, of));
   }
   if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
