@@ -1,7 +1,8 @@
 """scale.py BUILD FIGURE.svg [SECONDS [SIZES]]: processor time and memory against size, of contct and of other programs, as one picture.
 
 Each point is a whole process of a problem by formula, reading and certificate included; CHOLMOD alone, by the path or Newton's method, has
-K in memory. A curve ends where a run takes more than SECONDS (120), or fails, or after so many SIZES. Points are printed as they come, with the message of a failure."""
+K in memory. A curve ends where a run takes more than SECONDS (120), or fails, or after so many SIZES, or where a program is
+missing. Points are printed as they come, with the message of a failure."""
 import json
 import math
 import os
@@ -61,6 +62,15 @@ def ccx(name, folder):
     return measured([CCX, "job"], folder)
 
 
+def siconos(name, folder):
+    """Run Siconos by Lemke's method on a full matrix. The environment variable SICONOS is the folder of its unpacked packages."""
+    script = "import sys; sys.path.insert(0, sys.argv[1]); from pathlib import Path; from siconos_lcp import Structure; s = Structure(Path(sys.argv[2])); s.end_of(s.problem.steps[0])"
+    unpacked = Path(os.environ.get("SICONOS", "/")) / "usr/lib"
+    libraries = unpacked / "x86_64-linux-gnu"
+    paths = [f"PYTHONPATH={unpacked}/python3/dist-packages", f"LD_LIBRARY_PATH={libraries}:{libraries}/openblas-pthread", "OPENBLAS_NUM_THREADS=1"]
+    return measured(["env", *paths, sys.executable, "-c", script, Path(calculix.__file__).parent, folder / f"{name}.toml"], folder)
+
+
 METHODS = {
     "1989's way, path": ("#c0392b", contct("--kernels", "fortran", "--engine", "refactor")),
     "quickest engine, path": ("#1f5fa8", contct("--kernels", "corrected")),
@@ -69,6 +79,7 @@ METHODS = {
     "CHOLMOD, updated, path": ("#d68910", cholmod("path, up/downdating")),
     "CHOLMOD, a factor a step": ("#8a6d3b", cholmod("a factor for each step")),
     "CalculiX": ("#444444", ccx),
+    "Siconos": ("#c2185b", siconos),
 }
 
 
@@ -120,8 +131,8 @@ def picture(found):
     for i, (family, title) in enumerate((("rail", "Beam"), ("grid", "Plate"))):
         lines += panel(50 + 820 * i, f"{title}: time", "s", found[family], 1) + panel(450 + 820 * i, f"{title}: memory", "MiB", found[family], 2)
     for i, (name, (colour, _)) in enumerate(METHODS.items()):
-        lines.append(f'<line x1="{50 + 225 * i}" x2="{75 + 225 * i}" y1="330" y2="330" stroke="{colour}" stroke-width="3"/>'
-                     f'<text x="{80 + 225 * i}" y="334">{name}</text>')
+        lines.append(f'<line x1="{50 + 195 * i}" x2="{75 + 195 * i}" y1="330" y2="330" stroke="{colour}" stroke-width="3"/>'
+                     f'<text x="{80 + 195 * i}" y="334">{name}</text>')
     return "\n".join([*lines, "</svg>"]) + "\n"
 
 
