@@ -196,9 +196,10 @@ json load_json(const model& m, const resultant& r, const load* parts) {
 }
 
 json load_json(const model& m, const load_path& loads, int step, double fraction, bool whole) {
+  const resultant r = loads.resultant_at(step, fraction);
+  if (!whole && loads.has_many_parts(step)) return load_json(m, r, nullptr);
   const load l = loads.at(step, fraction);
-  const bool parts = whole || !loads.has_many_parts(step);
-  return load_json(m, loads.resultant_at(step, fraction), parts ? &l : nullptr);
+  return load_json(m, r, &l);
 }
 
 void put_place(json& entry, const model& m, int node, int other) {
