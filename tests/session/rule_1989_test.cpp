@@ -64,7 +64,7 @@ TEST_CASE(
     "value") {
   const both_rules near(divergence("near-tie"));
   REQUIRE(near.wrong().size() == 2);
-  const state_difference& unloaded = near.wrong()[1];
+  const state_difference unloaded = near.wrong()[1];
   CHECK(unloaded.step == 2);
   CHECK(unloaded.what == quantity::w);
   CHECK(unloaded.at == "node 3");
