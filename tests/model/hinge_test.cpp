@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/kernel/call.hpp"
 #include "contct/model/elements.hpp"
 #include "contct/model/extremes.hpp"
 #include "support/matrices.hpp"

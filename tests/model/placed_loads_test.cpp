@@ -179,7 +179,7 @@ plate uneven_grid() {
 }
 
 load rectangle(double pressure, std::array<double, 2> x, std::array<double, 2> y) {
-  return placed({{load_kind::force, x[0], x[1], {pressure}, y}});
+  return placed({{load_kind::force, x[0], x[1], {pressure}, {y[0], y[1]}}});
 }
 
 /// Returns a load's work on x^m y^n, which the elements reproduce exactly.

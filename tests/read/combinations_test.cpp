@@ -1,5 +1,7 @@
 // Tests combinations and trains as steps with factors. bad_combinations.hpp lists the refusals.
 #include "catch.hpp"
+#include "contct/model/line.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_combinations.hpp"
 
@@ -65,6 +67,31 @@ TEST_CASE("a train is placed at `from`, and then every `by` farther as long as `
         std::vector<std::string>{"T at 0.1", "T at 0.2", "T at 0.3"});
   CHECK(places("from = 0\nto = 0.59\nby = 0.3\n") == std::vector<std::string>{"T at 0", "T at 0.3"});
   CHECK(places("from = 0.5\nto = 0.5\nby = 2\n") == std::vector<std::string>{"T at 0.5"});
+}
+
+TEST_CASE("an axle acts at the exact sum of decimals, and does not act beyond the beam by any distance") {
+  const auto axles = [](const std::string& beam, const std::string& numbers) {
+    const problem p = parse_problem("[beam]\n" + beam +
+                                        "\nEI = 1\n[[support]]\nx = 0\nfix = [\"w\", \"theta\"]\n[[train]]\n"
+                                        "name = \"T\"\naxles = [ { at = 1e-17, w = -1 } ]\n" +
+                                        numbers,
+                                    "pb.toml");
+    const auto& b = std::get<contct::beam>(p.geometry.kind);
+    std::vector<std::string> places;
+    for (const load& l : p.steps) {
+      REQUIRE(l.points.size() + l.placed.size() < 2);
+      for (const point_load& at : l.points) places.push_back("node " + std::to_string(at.node + 1));
+      for (const placed_load& at : l.placed)
+        places.push_back(fraction_words(line<rational>(b.x, b.runs).place(at.from) * 1000));
+    }
+    return places;
+  };
+  CHECK(axles("x = [0, 1, 2]", "from = 0\nto = 2\nby = 1\n") ==
+        std::vector<std::string>{"1/100000000000000", "100000000000000001/100000000000000"});
+  CHECK(axles("x = [0, 1e-17, 5]", "from = 0\nto = 3e-30\nby = 1.2345678901234567e-30\n") ==
+        std::vector<std::string>{
+            "node 2", "100000000000012345678901234567/10000000000000000000000000000000000000000000",
+            "50000000000012345678901234567/5000000000000000000000000000000000000000000"});
 }
 
 TEST_CASE("each axle of a train has the factor of the train, and an axle beyond the beam does not act") {

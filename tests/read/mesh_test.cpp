@@ -28,27 +28,63 @@ double longest(const std::vector<double>& x) {
 }  // namespace
 
 TEST_CASE(
-    "a coordinate refers to the node with the same decimal, although the doubles of the mesh are rounded") {
-  for (const auto& [length, elements] : {std::pair(1.0, 10), {0.7, 7}, {1.1, 11}, {2.3, 23}, {12.3, 123}}) {
-    std::vector<double> x;
-    for (int i = 0; i <= elements; ++i) x.push_back(length * i / elements);
-    for (int i = 0; i <= elements; ++i) {
-      const double written = std::stod(std::to_string(i / 10) + "." + std::to_string(i % 10));
-      CHECK(find_coordinate(x, written) == i);
-    }
-    CHECK_FALSE(find_coordinate(x, 0.3 + 1e-14 * length));
-    CHECK_FALSE(find_coordinate(x, -0.1));
-    CHECK_FALSE(find_coordinate(x, length + 0.1));
+    "a coordinate is a node's if both decimals are equal, or if the exact place of a node of equal elements "
+    "rounds to it") {
+  constexpr const char* far = "x = [0, 1e-9, 1e6]";
+  constexpr const char* thirds = "length = 3.5\nelements = 3";               // node 2 is at 7/6
+  constexpr const char* near = "length = 3.9000000000000004\nelements = 3";  // node 2 is 1.3e-16 beyond 1.3
+  struct {
+    const char *beam, *x;
+    int node;  // from 0; -1: none
+    bool has_warning = false;
+  } const rows[] = {
+      {far, "1.0e-9", 1},
+      {far, "1.5e-9", -1},
+      {far, "999999.9999999999", -1},
+      {thirds, "1.16666666666667", 1, true},
+      {thirds, "1.1666666667", -1},
+      {thirds, "1.16666666666666666667", 1, true},
+      {thirds, "3.4999999999999996", -1},
+      {near, "1.3", -1},
+      {near, "1.3000000000000001", 1, true},
+      {"length = 0.7\nelements = 7", "0.3", 3},
+      {"length = 0.7\nelements = 7", "0.30000000000000004", -1},
+      {"length = 28\nelements = 3", "9.333333333333334", 1, true},  // the double nearest to 28 / 3
+      {"length = 246913578024.5\nelements = 2", "123456789012", 1, true},
+  };
+  for (const auto& [lines, x, node, has_warning] : rows) {
+    INFO(lines << ": " << x);
+    const problem p =
+        parse_problem("[beam]\n" + std::string(lines) +
+                          "\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[step]]\npoint = [ { x = " + x +
+                          ", w = 1 } ]\ncurvature = [ { value = 1, to = " + x + " } ]\n",
+                      "pb.toml");
+    const load& l = p.steps.at(0);
+    REQUIRE(l.points.size() + l.placed.size() == 2);
+    CHECK((l.points.empty() ? -1 : l.points[0].node) == node);
+    const beam& b = std::get<beam>(p.geometry.kind);
+    const line<rational> points(b.x, b.runs);
+    const rational to = points.place(l.placed.back().to);
+    CHECK(to == (node < 0 ? decimal_of(std::stod(x)) : points.at(node)));
+    CHECK(std::ranges::count_if(p.warnings, [](const std::string& w) {
+            return w.find("; taken as node 2, at ") != std::string::npos;
+          }) == (has_warning ? 2 : 0));
   }
-  CHECK(0.7 * 3 / 7 != 0.3);
-  CHECK(find_coordinate(std::vector<double>{0.0, 0.1 + 0.2, 1.0}, 0.3) == 1);
-  // The tolerance is relative to the end with the larger magnitude.
-  CHECK(find_coordinate(std::vector<double>{-1000.3, 0.0, 5.0}, 1e-14) == 1);
 }
 
-TEST_CASE("if several nodes are within rounding of a coordinate, the coordinate refers to the nearest one") {
-  const std::vector<double> x = {0.0, 1.0 - 2e-16, 1.0, 1.0 + 4e-16};
-  for (int i = 0; i < 4; ++i) CHECK(find_coordinate(x, x[i]) == i);
+TEST_CASE(
+    "a grid line of equal elements is named by 12 digits of its exact place, and a warning names the line") {
+  const problem p = parse_problem(
+      "[plate]\nsize = [3.5, 7]\nelements = [3, 3]\nD = 1\nnu = 0\n[[support]]\nat = [1.16666666666667, "
+      "2.33333333333]\nfix = \"w\"\n"
+      "[[step]]\nuniform = [ { value = 1, from = [0, 2.33333333333], to = [1.1666666666, 7] } ]\n",
+      "pb.toml");
+  CHECK(p.supports.at(0).node == 5);
+  CHECK(p.steps.at(0).placed.at(0).across[0].point == 1);
+  CHECK(p.steps[0].placed[0].to == 1.1666666666);
+  REQUIRE(p.warnings.size() == 3);
+  CHECK(p.warnings[1] ==
+        "pb.toml:7:25: support[1].at[2]: found 2.33333333333; taken as grid line along y 2, at 7/3");
 }
 
 TEST_CASE("a beam is divided into the fewest equal elements that are not longer than element_size") {
@@ -82,10 +118,19 @@ TEST_CASE("with element_size, nodes listed in x are kept, and the lengths betwee
         std::vector<double>{-1, 0, 0.5, 1.25, 2, 3});
 }
 
-TEST_CASE("a coordinate that occurs in two spellings, or twice up to rounding, becomes one node") {
-  CHECK(nodes_of("length = 1\nelement_size = 1\nEI = 1",
-                 "[[support]]\nx = [0.3, 1.0]\nfix = \"w\"\n[[support]]\nx = [0.30000000000000004, 0]\nfix = "
-                 "\"theta\"\n") == std::vector<double>{0, 0.3, 1});
+TEST_CASE(
+    "two spellings of a coordinate, or of one that rounds to another, become one node, and any other two "
+    "become two") {
+  const auto nodes_with = [](const std::string& first, const std::string& second) {
+    return nodes_of("length = 1\nelement_size = 1\nEI = 1", "[[support]]\nx = [" + first +
+                                                                ", 1.0]\nfix = \"w\"\n[[support]]\nx = [" +
+                                                                second + ", 0]\nfix = \"theta\"\n");
+  };
+  CHECK(nodes_with("0.3", "0.30") == std::vector<double>{0, 0.3, 1});
+  CHECK(nodes_with("0.3", "0.30000000000000004") == std::vector<double>{0, 0.3, 0.30000000000000004, 1});
+  CHECK(nodes_with("0.333333333333", "0.33333333333333331") == std::vector<double>{0, 1.0 / 3, 1});
+  CHECK(nodes_with("0.33333333333", "0.33333333333333331") ==
+        std::vector<double>{0, 0.33333333333, 1.0 / 3, 1});
 }
 
 TEST_CASE("with element_size, a node number in the file is a number in the finished mesh") {

@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const model a_beam{beam{{0.0, 0.7 * 3 / 7, 0.5, 2.0}, {1, 1, 1}}};
+const model a_beam{beam{{0.0, 0.3, 0.5, 2.0}, {1, 1, 1}}};
 const model a_plate{plate{{0.0, 0.5, 1.0}, {0.0, 2.0}, 1.0, 0.3}};
 
 model a_matrix() {

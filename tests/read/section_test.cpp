@@ -1,6 +1,7 @@
 // Tests sections, self-weight and hinges of problem files.
 #include "catch.hpp"
 #include "contct/model/elements.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/read/problem_file.hpp"
 #include "read/bad_inputs.hpp"
 #include "support/matrices.hpp"

@@ -89,12 +89,19 @@ class line {
     return number_of<Number>(p.start) + length * static_cast<int>(point - p.first) / p.run.elements;
   }
 
-  /// The exact coordinate of the point whose rounded coordinate is `x`; if there is no such point, the
-  /// decimal of `x`.
-  [[nodiscard]] Number place(double x) const {
-    const auto at_or_above = std::lower_bound(x_.begin(), x_.end(), x);
-    if (at_or_above == x_.end() || *at_or_above != x) return number_of<Number>(x);
-    return at(static_cast<std::size_t>(at_or_above - x_.begin()));
+  [[nodiscard]] Number place(const line_place& p) const {
+    if (p.point >= 0) return at(p.point);
+    auto sum = number_of<Number>(p.x);
+    for (const double more : p.more) sum += number_of<Number>(more);
+    return sum;
+  }
+
+  /// The last point that is not after `place`, whose rounded value is `near`; 0 if all points are after it.
+  [[nodiscard]] std::size_t point_before(const Number& place, double near) const {
+    std::size_t next = std::upper_bound(x_.begin(), x_.end(), near) - x_.begin();
+    while (next < size() && at(next) <= place) ++next;
+    while (next > 1 && at(next - 1) > place) --next;
+    return std::max<std::size_t>(next, 1) - 1;
   }
 
   /// The distance from point `interval` to the next point, without rounding the points.

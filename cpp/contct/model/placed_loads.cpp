@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "contct/model/line.hpp"
@@ -13,27 +12,41 @@ namespace {
 
 using exact_poly = rational_vector;
 
-/// The first and the last interval of a line that a load from `from` to `to` acts on. If `from` equals `to`,
-/// first and last are the interval that contains this place.
-std::pair<int, int> intervals_of(const std::vector<double>& x, double from, double to) {
-  const auto most = static_cast<std::ptrdiff_t>(x.size()) - 2;
-  const std::ptrdiff_t first = std::upper_bound(x.begin(), x.end(), from) - x.begin() - 1;
-  const std::ptrdiff_t last = std::lower_bound(x.begin(), x.end(), to) - x.begin() - 1;
-  const std::ptrdiff_t begin = std::clamp<std::ptrdiff_t>(first, 0, most);
-  return {static_cast<int>(begin), static_cast<int>(std::clamp<std::ptrdiff_t>(last, begin, most))};
+/// The part of a line that a load acts on: from the share `from` of interval `first` to the share `to` of
+/// interval `last`. For a load at one place, the two intervals and shares are equal.
+struct loaded_part {
+  int first, last;
+  rational from = 0;
+  rational to = 1;
+
+  [[nodiscard]] std::array<rational, 2> in(int i) const {
+    return {i == first ? from : rational(0), i == last ? to : rational(1)};
+  }
+  [[nodiscard]] bool covers(int i) const { return (i != first || from == 0) && (i != last || to == 1); }
+};
+
+loaded_part part_between(const line<rational>& points, const line_place& from, const line_place& to) {
+  const auto interval_at = [&points](const rational& at, double near) {
+    return std::min(static_cast<int>(points.point_before(at, near)), points.intervals() - 1);
+  };
+  const auto share_at = [&points](const rational& at, int i) {
+    return rational((at - points.at(i)) / points.length(i));
+  };
+  const rational begin = points.place(from);
+  const rational end = points.place(to);
+  loaded_part p{interval_at(begin, from.x), interval_at(end, to.x)};
+  p.from = share_at(begin, p.first);
+  p.to = share_at(end, p.last);
+  if (p.to != 0 || p.last == p.first) return p;
+  --p.last;
+  p.to = 1;
+  return p;
 }
 
-/// The part of interval `i` between `from` and `to`, as shares of the interval's length.
-std::array<rational, 2> part_of(const line<rational>& points, const std::vector<double>& x, int i,
-                                double from, double to) {
-  const auto share = [&](double at) { return (points.place(at) - points.at(i)) / points.length(i); };
-  return {from > x[i] ? share(from) : rational(0), to < x[i + 1] ? share(to) : rational(1)};
-}
-
-/// A load in rational numbers. A load on whole elements reaches from minus to plus infinity.
+/// A load in rational numbers.
 struct source {
   load_kind what;
-  double from, to;
+  loaded_part part;
   exact_poly values;
 };
 
@@ -48,16 +61,15 @@ struct acting {
 class beam_sources {
  public:
   beam_sources(const beam& b, const load& l) : beam_(b), points_(b.x, b.runs) {
-    constexpr double everywhere = std::numeric_limits<double>::infinity();
     for (const distributed_load& d : l.distributed) {
       if (d.elements.empty()) on_all_.push_back(all_.size());
       for (const int e : d.elements) put_on(e);
-      all_.push_back({load_kind::force, -everywhere, everywhere, coefficients_of<rational>(d)});
+      all_.push_back({load_kind::force, {0, b.elements() - 1}, coefficients_of<rational>(d)});
     }
     for (const placed_load& p : l.placed) {
-      const auto [first, last] = intervals_of(b.x, p.from, p.to);
-      for (int e = first; e <= last; ++e) put_on(e);
-      all_.push_back({p.what, p.from, p.to, coefficients_of<rational>(p)});
+      const loaded_part part = part_between(points_, p.from, p.to);
+      for (int e = part.first; e <= part.last; ++e) put_on(e);
+      all_.push_back({p.what, part, coefficients_of<rational>(p)});
     }
   }
 
@@ -70,7 +82,7 @@ class beam_sources {
     std::vector<acting> all;
     for (const std::size_t i : sources_on(e)) {
       const source& s = all_[i];
-      acting a{s.what, part_of(points_, beam_.x, e, s.from, s.to), s.values};
+      acting a{s.what, s.part.in(e), s.values};
       if (s.what == load_kind::force && s.values.size() > 1)
         a.values = formulas::in_element<rational>(s.values, points_.at(e), h(e));
       all.push_back(std::move(a));
@@ -82,9 +94,7 @@ class beam_sources {
   /// piece. Not every such case is recognised.
   [[nodiscard]] bool are_alike(int e, int other) const {
     const auto is_same_on_both = [&](std::size_t i) {
-      const source& s = all_[i];
-      return s.values.size() == 1 && s.from <= beam_.x[std::min(e, other)] &&
-             s.to >= beam_.x[std::max(e, other) + 1];
+      return all_[i].values.size() == 1 && all_[i].part.covers(e) && all_[i].part.covers(other);
     };
     const bool have_own = !on_.empty();
     return (!have_own || on_[e] == on_[other]) && beam_.is_alike(e, other) && points_.are_equal(e, other) &&
@@ -172,16 +182,16 @@ void add_rectangle(const plate& p, const placed_load& l, std::vector<rational>& 
   const line<rational> along_x(p.x, p.x_runs);
   const line<rational> along_y(p.y, p.y_runs);
   const rational pressure = coefficients_of<rational>(l)[0];
-  const auto [left, right] = intervals_of(p.x, l.from, l.to);
-  const auto [below, above] = intervals_of(p.y, l.across[0], l.across[1]);
+  const loaded_part x = part_between(along_x, l.from, l.to);
+  const loaded_part y = part_between(along_y, l.across[0], l.across[1]);
   const auto from_middle = [](const std::array<rational, 2>& shares) {
     return std::array<rational, 2>{2 * shares[0] - 1, 2 * shares[1] - 1};
   };
   const auto is_whole = [](const std::array<rational, 2>& at) { return at[0] == -1 && at[1] == 1; };
-  for (int j = below; j <= above; ++j) {
-    const auto eta = from_middle(part_of(along_y, p.y, j, l.across[0], l.across[1]));
-    for (int i = left; i <= right; ++i) {
-      const auto xi = from_middle(part_of(along_x, p.x, i, l.from, l.to));
+  for (int j = y.first; j <= y.last; ++j) {
+    const auto eta = from_middle(y.in(j));
+    for (int i = x.first; i <= x.last; ++i) {
+      const auto xi = from_middle(x.in(i));
       const int e = j * (p.columns() - 1) + i;
       if (is_whole(xi) && is_whole(eta)) {
         whole[e] += pressure;

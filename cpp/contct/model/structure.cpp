@@ -23,7 +23,8 @@ load mix(const load& before, const load& after, double fraction) {
     for (const auto& [place, value] : at) (sum.*values).push_back({place.first, place.second, value});
   }
   std::map<std::vector<int>, std::vector<double>> distributed;
-  std::map<std::tuple<load_kind, double, double, std::array<double, 2>>, std::vector<double>> placed;
+  std::map<std::tuple<load_kind, line_place, line_place, std::array<line_place, 2>>, std::vector<double>>
+      placed;
   for (const auto& [part, share] : shares) {
     for (const distributed_load& d : part->distributed)
       add_polynomial(distributed[d.elements], d.polynomial, share);

@@ -47,14 +47,23 @@ struct distributed_load {
 /// imposed curvature of a beam, as by a temperature gradient.
 enum class load_kind { force, point, moment, curvature };
 
-/// A load that need not follow the mesh. A coordinate that equals the coordinate of a node or grid line means
-/// this node or line exactly; any other coordinate means its decimal.
+/// An exact place along a line: its point `point`, from 0; if this is -1, the sum of the decimals `x` and
+/// `more`.
+struct line_place {
+  line_place(double at = 0.0) : x(at) {}  // NOLINT(google-explicit-constructor): a number is a place
+  double x;                               ///< rounded
+  int point = -1;
+  std::vector<double> more = {};
+  auto operator<=>(const line_place&) const = default;
+};
+
+/// A load that need not follow the mesh.
 struct placed_load {
   load_kind what = load_kind::force;
-  double from = 0.0, to = 0.0;     ///< along x, from < to; equal for a point between nodes
-  std::vector<double> polynomial;  ///< for a force along a beam as in distributed_load; otherwise one number
-  std::array<double, 2> across{};  ///< a plate's rectangle: from and to along y
-  double factor = 1.0;             ///< multiplies `polynomial`, as decimals
+  line_place from, to;                 ///< along x, from < to; equal for a point between nodes
+  std::vector<double> polynomial;      ///< for a force along a beam as in distributed_load; or one number
+  std::array<line_place, 2> across{};  ///< a plate's rectangle: from and to along y
+  double factor = 1.0;                 ///< multiplies `polynomial`, as decimals
 };
 
 /// `polynomial` times `factor`, in doubles.

@@ -80,6 +80,15 @@ std::optional<decimal> decimal_in(std::string_view literal) {
                  w->last + static_cast<std::int64_t>(w->digits.size() - last - 1)};
 }
 
+/// The decimal of the finite x with `behind` digits behind the first; the shortest one without `behind`.
+template <class... Behind>
+decimal printed(double x, Behind... behind) {
+  std::array<char, 64> text{};
+  char* const last = text.data() + text.size();
+  const auto end = std::to_chars(text.data(), last, x, std::chars_format::scientific, behind...);
+  return *decimal_in(std::string_view(text.data(), end.ptr - text.data()));
+}
+
 }  // namespace
 
 std::optional<int> last_written_digit(std::string_view literal) {
@@ -90,17 +99,21 @@ std::optional<int> last_written_digit(std::string_view literal) {
 }
 
 decimal shortest_decimal(double x) {
-  std::array<char, 64> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific);
-  return *decimal_in(std::string_view(text.data(), end.ptr - text.data()));
+  return printed(x);
 }
 
-bool is_shortest(std::string_view literal, double x) {
+int significant_digits(std::string_view literal) {
+  const std::optional<written_decimal> w = written_in(literal);
+  const std::size_t zeros = w ? w->digits.find_first_not_of('0') : std::string::npos;
+  return zeros == std::string::npos ? 0 : static_cast<int>(w->digits.size() - zeros);
+}
+
+bool stands_for(std::string_view literal, double x) {
   // No two decimals of up to 15 digits read as the same normal double.
   constexpr int always_kept = 15;
   if (std::ranges::count_if(literal, is_digit) <= always_kept && std::isnormal(x)) return true;
   const std::optional<decimal> written = decimal_in(literal);
-  return !written || *written == shortest_decimal(x);
+  return !written || *written == shortest_decimal(x) || *written == printed(x, most_digits - 1);
 }
 
 std::string rounding_words(std::string_view literal, double x) {
@@ -110,7 +123,7 @@ std::string rounding_words(std::string_view literal, double x) {
   const auto end = std::abs(x) < 1e16
                        ? std::to_chars(shortest.data(), last, x)
                        : std::to_chars(shortest.data(), last, x, std::chars_format::scientific);
-  return "found " + printable(literal) + "; " + std::string(rounding_word) + ", " +
+  return "found " + printable(literal) + "; the shortest decimal of its double, " +
          std::string(shortest.data(), end.ptr) + ", is used everywhere";
 }
 

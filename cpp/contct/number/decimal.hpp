@@ -25,11 +25,16 @@ struct decimal {
 /// The shortest decimal that reads as the finite `x`.
 [[nodiscard]] decimal shortest_decimal(double x);
 
-/// True if `literal` is the shortest decimal of its double `x`, or if it is not a decimal.
-[[nodiscard]] bool is_shortest(std::string_view literal, double x);
+/// So many significant digits identify any double.
+inline constexpr int most_digits = 17;
 
-/// The words that all warnings of rounding_words contain.
-inline constexpr std::string_view rounding_word = "the shortest decimal of its double";
+/// True if `literal` is the shortest decimal of its double `x`, or x with most_digits, or if it is not a
+/// decimal.
+[[nodiscard]] bool stands_for(std::string_view literal, double x);
+
+/// The number of significant digits of `literal`, as written; 0 for the number 0, or if it is no decimal.
+[[nodiscard]] int significant_digits(std::string_view literal);
+
 /// The warning that `literal` is not the shortest decimal of `x`: "found 0.10000000000000000555; the shortest
 /// decimal of its double, 0.1, is used everywhere".
 [[nodiscard]] std::string rounding_words(std::string_view literal, double x);

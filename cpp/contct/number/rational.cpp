@@ -171,6 +171,10 @@ std::string short_words(const rational& x, int digits) {
     const auto counted = static_cast<int>(words.size()) - (x < 0 ? 1 : 0) - (denominator(x) == 1 ? 0 : 1);
     if (counted <= digits) return words;
   }
+  return rounded_words(x, digits);
+}
+
+std::string rounded_words(const rational& x, int digits) {
   const rational size = abs(x);
   int exponent = leading_exponent(size);
   const rational scaled = size * power_of(10, digits - 1 - exponent);

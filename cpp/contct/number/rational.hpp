@@ -72,6 +72,8 @@ void add(rational_vector& sum, const rational_vector& part, const rational& shar
 /// Otherwise a decimal of `digits` significant digits, rounded half away from 0: "-0.003532909", "3.333e-11".
 /// Trailing zeros are omitted only if the decimal is exact.
 [[nodiscard]] std::string short_words(const rational& x, int digits);
+/// This decimal of x, which is not 0.
+[[nodiscard]] std::string rounded_words(const rational& x, int digits);
 
 /// The length of the numerator or the denominator in bits, whichever is larger.
 [[nodiscard]] std::size_t length_in_bits(const rational& x);

@@ -44,7 +44,8 @@ std::string unique_name(const toml_value& t, std::set<std::string>& names) {
 /// Makes a step for each combination and for each position of a train.
 class combination_reader {
  public:
-  combination_reader(const model& m, const std::vector<load>& cases) : model_(m), cases_(cases) {}
+  combination_reader(const node_reader& nodes, const std::vector<load>& cases)
+      : nodes_(nodes), cases_(cases) {}
 
   void read_combination(const toml_value& t) {
     t.allow_only({"name", "terms"});
@@ -55,9 +56,8 @@ class combination_reader {
 
   void read_train(const toml_value& t) {
     t.allow_only({"name", "axles", "from", "to", "by", "terms", "factor"});
-    const auto* const b = std::get_if<beam>(&model_.kind);
-    if (b == nullptr)
-      t.refuse(std::holds_alternative<plate>(model_.kind) ? "a train on a plate" : "a train with a matrix",
+    if (nodes_.axes().size() != 1)
+      t.refuse(!nodes_.on_matrix() ? "a train on a plate" : "a train with a matrix",
                "a train on a beam; for other structures, a [[combination]] for each place of a load");
     const std::string name = unique_name(t, names_);
     const std::vector<point> axles = read_axles(t["axles"]);
@@ -71,7 +71,7 @@ class combination_reader {
       load l = besides;
       l.name = fmt::format("{} at {}", name, rounded(at));
       l.terms.push_back({name, factor, rounded(at)});
-      for (const point& axle : axles) put_axle(*b, rounded(at + decimal_of(axle.x)), axle.w, factor, l);
+      for (const point& axle : axles) put_axle(at + decimal_of(axle.x), axle.w, factor, l);
       put(t, std::move(l));
     }
   }
@@ -91,7 +91,7 @@ class combination_reader {
   }
 
   void put(const toml_value& t, load l) {
-    refuse_endless_sums(t, model_, l);
+    refuse_endless_sums(t, nodes_.structure(), l);
     steps.push_back(std::move(l));
   }
 
@@ -137,16 +137,24 @@ class combination_reader {
     return static_cast<int>(rounded(rational(numerator(steps) / denominator(steps)))) + 1;
   }
 
-  /// Adds the force factor * w at x, unless x is beyond the beam.
-  static void put_axle(const beam& b, double x, double w, double factor, load& l) {
-    if (x < b.x.front() || x > b.x.back()) return;
-    if (const std::optional<int> node = find_coordinate(b.x, x))
+  /// Adds the force factor * w at the exact place `at`, unless it is beyond the beam.
+  void put_axle(const rational& at, double w, double factor, load& l) const {
+    const line<rational>& points = nodes_.axes()[0].points();
+    if (at < points.at(0) || at > points.at(points.size() - 1)) return;
+    line_place x(rounded(at));
+    if (const std::optional<int> node = nodes_.axes()[0].find(at, x.x)) {
       l.points.push_back({*node, 0, w, factor});
-    else
-      l.placed.push_back({load_kind::point, x, x, {w}, {}, factor});
+      return;
+    }
+    rational rest = at - decimal_of(x.x);
+    for (double next = rounded(rest); next != 0.0; next = rounded(rest)) {
+      x.more.push_back(next);
+      rest -= decimal_of(next);
+    }
+    l.placed.push_back({load_kind::point, x, x, {w}, {}, factor});
   }
 
-  const model& model_;
+  const node_reader& nodes_;
   const std::vector<load>& cases_;
   std::set<std::string> names_;  // names of combinations and trains
 };
@@ -174,7 +182,7 @@ std::vector<load> read_steps(const toml_value& top, const node_reader& nodes, co
   std::set<std::string> names;
   for (const toml_value& t : cases) (void)unique_name(t, names);
   p.cases = read_loads(cases, nodes, files, p);
-  combination_reader reader(p.geometry, p.cases);
+  combination_reader reader(nodes, p.cases);
   for (const toml_value& t : top["combination"].optional_tables()) reader.read_combination(t);
   for (const toml_value& t : top["train"].optional_tables()) reader.read_train(t);
   return std::move(reader.steps);

@@ -40,7 +40,7 @@ bool is_like_header(std::string_view line) {
 
 constexpr std::size_t least_bytes_of_entry = 6;  // "1 1 1" and a line end
 
-/// Reads lines with numbers, and counts the numbers that are not the shortest decimal of their double. `warn`
+/// Reads lines with numbers, and counts the numbers that do not stand for their double. `warn`
 /// adds one warning, with the first such number and the count.
 class number_lines : public field_lines {
  public:
@@ -48,7 +48,7 @@ class number_lines : public field_lines {
 
   double number(std::size_t i, std::string_view what, bool fortran = false) {
     const double value = real(i, what, fortran);
-    if (!is_shortest(field(i), value) && rounded_++ == 0)
+    if (!stands_for(field(i), value) && rounded_++ == 0)
       first_ = fmt::format("{}:{}: {}", printable(file(), std::string::npos), line(),
                            rounding_words(field(i), value));
     return value;

@@ -3,24 +3,43 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "contct/number/decimal.hpp"
 #include "contct/read/node_reader.hpp"
 
 namespace contct {
 namespace {
 
-/// The largest difference at which two coordinates count as equal decimals.
+/// The largest difference between a coordinate of the mesh in doubles and a decimal that replaces it.
 double rounding_of(std::span<const double> among) {
   return 4 * std::numeric_limits<double>::epsilon() *
          std::max(std::abs(among.front()), std::abs(among.back()));
 }
 
+int digits_of(const toml_value& named) {
+  const written_number* const written = named.written();
+  return std::min(written != nullptr ? written->digits : significant_digits(named.found()), most_digits);
+}
+
+/// True if the number x of so many digits is the exact place of a node, rounded to these digits or to a
+/// double.
+bool is_rounded(double x, int digits, const rational& place) {
+  constexpr int least_digits = 12;
+  return digits >= least_digits && place != 0 &&
+         (rounded(place) == x || number_in<double>(rounded_words(place, digits)) == x);
+}
+
+/// Minus the number of digits, and the number.
+using named_coordinate = std::pair<int, double>;
+
 /// The values of every key x, except that of [beam], and the ends of the pieces of EI or section.
-std::vector<double> named_coordinates(const toml_value& beam, const toml_value& top) {
-  std::vector<double> named;
+std::vector<named_coordinate> named_coordinates(const toml_value& beam, const toml_value& top) {
+  std::vector<named_coordinate> named;
   const auto take = [&named](const toml_value& t, const char* key) {
     if (!t.has(key)) return;
-    for (const toml_value& x : t[key].each(any_real.words)) named.push_back(x.real(any_real));
+    for (const toml_value& x : t[key].each(any_real.words))
+      named.emplace_back(-digits_of(x), x.real(any_real));
   };
   for (const char* key : {"support", "contact", "bed", "hinge"})
     for (const toml_value& t : top[key].optional_tables()) take(t, "x");
@@ -34,19 +53,19 @@ std::vector<double> named_coordinates(const toml_value& beam, const toml_value& 
   return named;
 }
 
-/// Joins `named` and `ends`, ascending, each coordinate once. Omits coordinates outside the ends, which are
-/// refused when their tables are read.
-std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector<double> named) {
-  std::erase_if(named, [&ends](double x) {
-    return x < ends.front() || x > ends.back() || find_coordinate(ends, x).has_value();
-  });
+/// Joins `named` and `ends`, ascending. A coordinate that another one with as many digits or more rounds to
+/// is the same node. Omits coordinates outside the ends, which are refused when their tables are read.
+std::vector<double> corners_of_mesh(const std::vector<double>& ends, std::vector<named_coordinate> named) {
+  std::set<double> corners(ends.begin(), ends.end());
   std::ranges::sort(named);
-  const double same = rounding_of(ends);
-  named.erase(std::unique(named.begin(), named.end(), [same](double a, double b) { return b - a <= same; }),
-              named.end());
-  named.insert(named.end(), ends.begin(), ends.end());
-  std::ranges::sort(named);
-  return named;
+  for (const auto& [minus_digits, x] : named) {
+    if (x < ends.front() || x > ends.back()) continue;
+    const auto above = corners.lower_bound(x);
+    if (*above != x && !is_rounded(x, -minus_digits, decimal_of(*above)) &&
+        !is_rounded(x, -minus_digits, decimal_of(*std::prev(above))))
+      corners.insert(above, x);
+  }
+  return {corners.begin(), corners.end()};
 }
 
 /// The decimal with 15 digits nearest to x, if the difference is at most `same`; otherwise x. A user writes
@@ -65,38 +84,58 @@ bool has_pieces(const toml_value& beam, std::string_view key) {
   return !pieces.empty() && pieces.front().is_table();
 }
 
-std::optional<int> find_coordinate(std::span<const double> among, double x) {
-  const auto above = std::ranges::lower_bound(among, x);
-  std::ptrdiff_t nearest = above - among.begin();
-  if (above == among.end() || (nearest > 0 && x - among[nearest - 1] < among[nearest] - x)) --nearest;
-  if (std::abs(among[nearest] - x) > rounding_of(among)) return std::nullopt;
-  return static_cast<int>(nearest);
+std::string coordinate_row::words(std::size_t node) const {
+  const rational at = points_.at(node);
+  return at == 0 ? "0" : rounded_words(at, most_digits);
 }
 
-void coordinate_row::refuse_outside(const toml_value& named, double x) const {
-  if (x < values.front() || x > values.back())
-    named.refuse(fmt::format("{}, which is outside the structure", x),
-                 fmt::format("a number from {} to {}", values.front(), values.back()));
+std::optional<int> coordinate_row::find(const rational& at, double near) const {
+  const std::size_t before = points_.point_before(at, near);
+  if (points_.at(before) != at) return std::nullopt;
+  return static_cast<int>(before);
 }
 
-double coordinate_row::place_of(const toml_value& named) const {
+std::optional<int> coordinate_row::find(const toml_value& named) const {
   const double x = named.real(any_real);
-  if (const auto found = find_coordinate(values, x)) return values[*found];
-  refuse_outside(named, x);
-  return x;
+  const rational at = decimal_of(x);
+  if (const auto found = find(at, x)) return found;
+  const std::size_t last = points_.size() - 1;
+  const std::size_t before = points_.point_before(at, x);
+  const bool is_next = before < last && points_.at(before + 1) - at < at - points_.at(before);
+  const std::size_t nearest = before + (is_next ? 1 : 0);
+  if (is_even_ && is_rounded(x, digits_of(named), points_.at(nearest))) {
+    if (written_number* const written = named.written())
+      written->taken_as = fmt::format("; taken as {} {}, at {}", what_, nearest + 1,
+                                      short_words(points_.at(nearest), most_digits));
+    return static_cast<int>(nearest);
+  }
+  if (at < points_.at(0) || at > points_.at(last))
+    named.refuse(fmt::format("{}, which is outside the structure", x),
+                 fmt::format("a number from {} to {}", words(0), words(last)));
+  return std::nullopt;
+}
+
+line_place coordinate_row::place(std::size_t node) const {
+  line_place p(rounded(points_.at(node)));
+  if (decimal_of(p.x) != points_.at(node)) p.point = static_cast<int>(node);
+  return p;
+}
+
+line_place coordinate_row::place_of(const toml_value& named) const {
+  const std::optional<int> node = find(named);
+  return node ? place(*node) : line_place(named.real(any_real));
 }
 
 int coordinate_row::index_of(const toml_value& named) const {
+  if (const auto found = find(named)) return *found;
   const double x = named.real(any_real);
-  if (const auto found = find_coordinate(values, x)) return *found;
-  refuse_outside(named, x);
-  const std::ptrdiff_t right = std::ranges::lower_bound(values, x) - values.begin();
-  const auto words = [this](std::ptrdiff_t i) {
-    return fmt::format("{:.12g}", values[i]) + (what == "node" ? fmt::format(" (node {})", i + 1) : "");
+  const std::size_t left = points_.point_before(decimal_of(x), x);
+  const auto node_words = [this](std::size_t i) {
+    return words(i) + (what_ == "node" ? fmt::format(" (node {})", i + 1) : "");
   };
-  named.refuse(fmt::format("{}, where there is no {}", x, what),
-               fmt::format("the coordinate of a {}; the nearest are {} and {}; {}", what, words(right - 1),
-                           words(right), remedy));
+  named.refuse(fmt::format("{}, where there is no {}", x, what_),
+               fmt::format("the coordinate of a {}; the nearest are {} and {}; {}", what_, node_words(left),
+                           node_words(left + 1), remedy_));
 }
 
 mesh_line even_line(double length, int elements) {

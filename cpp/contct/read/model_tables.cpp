@@ -40,12 +40,13 @@ template <class Read>
 void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::string_view> keys,
                  const Read& read) {
   int end = 0;
+  const coordinate_row nodes = nodes_along(b);
   keys.insert(keys.begin(), "to");
   for (const toml_value& piece : pieces.tables()) {
     piece.allow_only(keys);
     const toml_value to = piece["to"];
     (void)to.required("the coordinate at which this piece ends");
-    const int next = nodes_along(b.x).index_of(to);
+    const int next = nodes.index_of(to);
     if (next <= end) to.refuse(fmt::format("more than {}, where this piece begins", b.x[end]));
     read(piece, next - end);
     end = next;

@@ -17,17 +17,18 @@ std::string_view list_words(std::string_view key) {
   return key == "x" ? "a number, or a list of numbers" : "a list of labels";
 }
 
-int grid_point(const plate& p, const toml_value& named) {
-  const std::vector<toml_value> point = named.entries(point_words, 2, 2);
+std::vector<coordinate_row> axes_of(const model& m) {
   constexpr std::string_view remedy = "grid lines are set by x and y, or elements, in [plate]";
-  const int i = coordinate_row{p.x, "grid line along x", remedy}.index_of(point[0]);
-  const int j = coordinate_row{p.y, "grid line along y", remedy}.index_of(point[1]);
-  return p.node_at(i, j);
+  if (const auto* b = std::get_if<beam>(&m.kind)) return {nodes_along(*b)};
+  if (const auto* p = std::get_if<plate>(&m.kind))
+    return {{p->x, p->x_runs, "grid line along x", remedy}, {p->y, p->y_runs, "grid line along y", remedy}};
+  return {};
 }
 
 }  // namespace
 
-node_reader::node_reader(const model& m) : structure_(m), matrix_(std::get_if<assembled>(&m.kind)) {
+node_reader::node_reader(const model& m)
+    : structure_(m), axes_(axes_of(m)), matrix_(std::get_if<assembled>(&m.kind)) {
   if (on_matrix()) {
     for (const std::string& label : matrix_->labels) dofs_.emplace(label, static_cast<int>(dofs_.size()));
     keys_ = {"dof", "dofs"};
@@ -53,9 +54,11 @@ std::string_view node_reader::key_in(const toml_value& t) const {
 }
 
 int node_reader::node_at(const toml_value& named) const {
-  if (const auto* b = std::get_if<beam>(&structure_.kind)) return nodes_along(b->x).index_of(named);
-  if (const auto* p = std::get_if<plate>(&structure_.kind)) return grid_point(*p, named);
-  return dof_at(named);
+  if (axes_.empty()) return dof_at(named);
+  if (axes_.size() == 1) return axes_[0].index_of(named);
+  const std::vector<toml_value> point = named.entries(point_words, 2, 2);
+  const int i = axes_[0].index_of(point[0]);
+  return std::get<plate>(structure_.kind).node_at(i, axes_[1].index_of(point[1]));
 }
 
 std::string node_reader::labels_allowed() const {

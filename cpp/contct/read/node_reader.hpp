@@ -9,37 +9,45 @@
 #include <unordered_map>
 #include <vector>
 
-#include "contct/model/problem.hpp"
+#include "contct/model/line.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/read/toml_reader.hpp"
 
 namespace contct {
 
 inline constexpr int most_elements = 2'000'000;
 
-/// The index, from 0, of x in the ascending coordinates `among`; empty if x is not one of the coordinates. A
-/// coordinate of a mesh has two roundings: 3 * 0.7 / 7 is not the double nearest to 0.3. So x may differ from
-/// a coordinate by 4 machine epsilons times the larger magnitude of the two ends.
-[[nodiscard]] std::optional<int> find_coordinate(std::span<const double> among, double x);
+/// The nodes or grid lines along a line, which a number in a problem file may name. The number is the node's
+/// if it equals the node's exact place as a decimal. With equal parts, whose places may have no end as a
+/// decimal, also if it has 12 digits or more and the place rounds to these digits; this draws a warning.
+class coordinate_row {
+ public:
+  /// `values`: ascending, at least two. `what`: "node" or "grid line". `remedy`: how to add a coordinate.
+  coordinate_row(std::span<const double> values, std::span<const even_run> runs, std::string_view what,
+                 std::string_view remedy)
+      : points_(values, runs), is_even_(!runs.empty()), what_(what), remedy_(remedy) {}
 
-/// Coordinates that a value in a problem file may name.
-struct coordinate_row {
-  std::span<const double> values;  ///< ascending, at least two
-  std::string_view what;           ///< "node" or "grid line"
-  std::string_view remedy;         ///< advice in messages: how to add a coordinate
-
-  /// The index, from 0, of the coordinate equal to `named`. Refuses any other number; the message names the
-  /// two nearest coordinates.
+  [[nodiscard]] const line<rational>& points() const { return points_; }
+  /// The index, from 0, of the node at `named`, or at the exact place `at`, whose rounded value is `near`;
+  /// empty if there is none. Refuses numbers outside the line.
+  [[nodiscard]] std::optional<int> find(const toml_value& named) const;
+  [[nodiscard]] std::optional<int> find(const rational& at, double near) const;
+  /// As `find`, but refuses a number that is not a node's; the message names the two nearest nodes.
   [[nodiscard]] int index_of(const toml_value& named) const;
-  /// The coordinate equal to `named`; if there is none, `named` itself, which must be between the first and
-  /// the last coordinate.
-  [[nodiscard]] double place_of(const toml_value& named) const;
+  /// The place of a node, or the node at `named`, or else the decimal `named`.
+  [[nodiscard]] line_place place(std::size_t node) const;
+  [[nodiscard]] line_place place_of(const toml_value& named) const;
 
  private:
-  void refuse_outside(const toml_value& named, double x) const;
+  [[nodiscard]] std::string words(std::size_t node) const;
+
+  line<rational> points_;
+  bool is_even_;
+  std::string_view what_, remedy_;
 };
 
-[[nodiscard]] inline coordinate_row nodes_along(std::span<const double> x) {
-  return {x, "node", "element_size in [beam] puts a node at every x that the file names"};
+[[nodiscard]] inline coordinate_row nodes_along(const beam& b) {
+  return {b.x, b.runs, "node", "element_size in [beam] puts a node at every x that the file names"};
 }
 
 /// True if `key` (EI or section) of the table [beam] is a list of pieces, each with its end `to`.
@@ -76,6 +84,8 @@ class node_reader {
 
   [[nodiscard]] const model& structure() const { return structure_; }
   [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
+  /// The nodes along x of a beam; the grid lines along x and y of a plate; empty for a matrix.
+  [[nodiscard]] const std::vector<coordinate_row>& axes() const { return axes_; }
 
   /// The dofs of a matrix, from 0, that `named` lists by label [count]: one for all pairs, or one for each.
   [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;
@@ -95,6 +105,7 @@ class node_reader {
   [[nodiscard]] std::string labels_allowed() const;
 
   const model& structure_;
+  std::vector<coordinate_row> axes_;
   const assembled* matrix_;                         // null: the structure is a beam or a plate
   std::unordered_map<std::string_view, int> dofs_;  // by label; empty if labels are numbers
   std::vector<std::string_view> keys_;              // the key for a single node first

@@ -40,8 +40,10 @@ double rounded_down(double x) {
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
-  problem_reader(const toml::table& document, std::string_view file, reach allowed)
-      : files_(file, allowed), top_(document, file) {}
+  /// `numbers`: numbers_in of the document.
+  problem_reader(const toml::table& document, std::string_view file, reach allowed,
+                 std::vector<written_number>& numbers)
+      : files_(file, allowed), top_(document, file, numbers) {}
 
   problem read() {
     top_.allow_only({"title", "units", "beam", "plate", "matrix", "calculix", "hinge", "support", "contact",
@@ -291,8 +293,9 @@ class problem_reader {
 
 problem parse_problem(std::string_view text, std::string_view file, reach allowed) {
   const toml::table document = parse_toml(text, file);
-  problem p = problem_reader(document, file, allowed).read();
-  std::ranges::move(rounding_warnings(document, text, file), std::back_inserter(p.warnings));
+  std::vector<written_number> numbers = numbers_in(document, text);
+  problem p = problem_reader(document, file, allowed, numbers).read();
+  std::ranges::move(rounding_warnings(numbers, file), std::back_inserter(p.warnings));
   return p;
 }
 

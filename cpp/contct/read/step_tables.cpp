@@ -184,24 +184,22 @@ class step_reader {
   /// is the start of the beam or the lower left corner of the plate, a missing `to` the opposite end or
   /// corner.
   void read_extent(const toml_value& t, placed_load& p) const {
-    std::vector<coordinate_row> axes;
-    if (const beam* const b = of_beam()) axes = {nodes_along(b->x)};
-    if (const plate* const of = of_plate())
-      axes = {{of->x, "grid line along x", ""}, {of->y, "grid line along y", ""}};
+    const std::vector<coordinate_row>& axes = nodes_.axes();
     const auto coordinates = [&](const char* key) {
       return axes.size() == 1 ? std::vector{t[key]}
                               : t[key].entries("a corner of the rectangle, [x, y]", 2, 2);
     };
-    std::array<double, 2> from{};
-    std::array<double, 2> to{};
+    std::array<line_place, 2> from{};
+    std::array<line_place, 2> to{};
     for (std::size_t i = 0; i < axes.size(); ++i)
-      from[i] = t.has("from") ? axes[i].place_of(coordinates("from")[i]) : axes[i].values.front();
+      from[i] = t.has("from") ? axes[i].place_of(coordinates("from")[i]) : axes[i].place(0);
     for (std::size_t i = 0; i < axes.size(); ++i)
-      to[i] = t.has("to") ? axes[i].place_of(coordinates("to")[i]) : axes[i].values.back();
+      to[i] =
+          t.has("to") ? axes[i].place_of(coordinates("to")[i]) : axes[i].place(axes[i].points().size() - 1);
     for (std::size_t i = 0; i < axes.size(); ++i)
-      if (!(from[i] < to[i]))
+      if (axes[i].points().place(from[i]) >= axes[i].points().place(to[i]))
         coordinates(t.has("to") ? "to" : "from")[i].refuse(
-            fmt::format("{}", to[i]), fmt::format("more than {}, where this part begins", from[i]));
+            fmt::format("{}", to[i].x), fmt::format("more than {}, where this part begins", from[i].x));
     p.from = from[0];
     p.to = to[0];
     p.across = {from[1], to[1]};
@@ -222,11 +220,11 @@ class step_reader {
       return all;
     }
     t.refuse_beside({"node", "nodes"}, "x", "either x, or node or nodes");
-    std::set<double> seen;
+    std::set<line_place> seen;
     for (const toml_value& named : t["x"].each("a number, or a list of numbers")) {
-      const double x = nodes_along(b->x).place_of(named);
-      const std::optional<int> node = find_coordinate(b->x, x);
-      if (!seen.insert(x).second)
+      const double x = named.real(any_real);
+      const std::optional<int> node = nodes_.axes()[0].find(named);
+      if (!seen.insert(node ? nodes_.axes()[0].place(*node) : line_place(x)).second)
         named.refuse(node ? place_words(nodes_.structure(), *node) + ", a second time"
                           : fmt::format("{} a second time", x),
                      "each place once");

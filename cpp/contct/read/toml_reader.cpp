@@ -97,6 +97,10 @@ std::pair<int, int> range_in(std::string_view text, int count) {
           number_in<int>(text.substr(dots + 2)).value_or(0)};
 }
 
+std::pair<int, int> position_of(const written_number& n) {
+  return {n.line, n.column};
+}
+
 }  // namespace
 
 std::string indexed(std::string_view key, std::size_t from_zero) {
@@ -115,6 +119,13 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
         "{}: not TOML: {}{}", position(file, at), printable(e.description(), longest),
         has_decimal_comma(line) ? point_not_comma : quotes_hint(line, at.column, e.description())));
   }
+}
+
+written_number* toml_value::written() const {
+  if (numbers_ == nullptr) return nullptr;
+  const std::pair at(static_cast<int>(at_.line), static_cast<int>(at_.column));
+  const auto found = std::ranges::lower_bound(*numbers_, at, {}, &position_of);
+  return found == numbers_->end() || position_of(*found) != at ? nullptr : &*found;
 }
 
 std::string toml_value::found() const {
@@ -328,10 +339,10 @@ class text_walk {
 /// Appends every finite number under `node`, whose key is `key`. A whole number may be hexadecimal, so its
 /// value in decimal, not its literal, is compared with the shortest decimal.
 void append_numbers(const toml::node& node, const std::string& key, std::vector<written_number>& numbers) {
-  const auto append = [&](double value, bool is_meant) {
+  const auto append = [&](double value, const std::string& whole) {
     const toml::source_position& at = node.source().begin;
     numbers.push_back({key, value, node.is_integer(), static_cast<int>(at.line), static_cast<int>(at.column),
-                       0, "", is_meant});
+                       0, "", stands_for(whole, value), significant_digits(whole)});
   };
   if (const toml::table* const table = node.as_table()) {
     for (const auto& [name, entry] : *table)
@@ -341,9 +352,9 @@ void append_numbers(const toml::node& node, const std::string& key, std::vector<
     for (std::size_t i = 0; i < array->size(); ++i) append_numbers(*array->get(i), indexed(key, i), numbers);
   } else if (const auto* const whole = node.as_integer()) {
     const auto value = static_cast<double>(whole->get());
-    append(value, is_shortest(std::to_string(whole->get()), value));
+    append(value, std::to_string(whole->get()));
   } else if (const auto* const real = node.as_floating_point()) {
-    if (std::isfinite(real->get())) append(real->get(), true);
+    if (std::isfinite(real->get())) append(real->get(), "");
   }
 }
 
@@ -352,25 +363,29 @@ void append_numbers(const toml::node& node, const std::string& key, std::vector<
 std::vector<written_number> numbers_in(const toml::table& document, std::string_view text) {
   std::vector<written_number> numbers;
   append_numbers(document, "", numbers);
-  std::ranges::sort(numbers, {}, [](const written_number& n) { return std::pair(n.line, n.column); });
+  std::ranges::sort(numbers, {}, position_of);
   text_walk walk(text);
   for (written_number& n : numbers) {
     n.literal = walk.number_at(n.line, n.column);
     n.length = static_cast<int>(n.literal.size());
-    if (!n.is_whole) n.is_shortest = is_shortest(n.literal, n.value);
+    if (n.is_whole) continue;
+    n.stands_for_value = stands_for(n.literal, n.value);
+    n.digits = significant_digits(n.literal);
   }
   return numbers;
 }
 
-std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
+std::vector<std::string> rounding_warnings(const std::vector<written_number>& numbers,
                                            std::string_view file) {
   constexpr std::size_t most = 10;
   std::vector<std::string> warnings;
   std::size_t count = 0;
-  for (const written_number& n : numbers_in(document, text))
-    if (!n.is_shortest && count++ < most)
-      warnings.push_back(
-          fmt::format("{}:{}:{}: {}: {}", file, n.line, n.column, n.key, rounding_words(n.literal, n.value)));
+  for (const written_number& n : numbers) {
+    if ((n.stands_for_value && n.taken_as.empty()) || count++ >= most) continue;
+    const std::string words =
+        n.stands_for_value ? "found " + printable(n.literal) : rounding_words(n.literal, n.value);
+    warnings.push_back(fmt::format("{}:{}:{}: {}: {}{}", file, n.line, n.column, n.key, words, n.taken_as));
+  }
   if (count > most)
     warnings.back() += fmt::format(" (the first {} of {} such numbers are shown)", most, count);
   return warnings;

@@ -36,6 +36,18 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// The positions of nodes in a tree that toml++ did not parse.
 using toml_places = std::map<const toml::node*, toml::source_position>;
 
+/// A number in a file, and its position.
+struct written_number {
+  std::string key;  ///< "step[1].point[2].w"
+  double value = 0;
+  bool is_whole = false;
+  int line = 0, column = 0, length = 0;  ///< line and column from 1; column in code points
+  std::string_view literal = {};         ///< as written
+  bool stands_for_value = true;          ///< see stands_for
+  int digits = 0;                        ///< see significant_digits
+  std::string taken_as = {};             ///< the place that the number means; empty: the number itself
+};
+
 /// A value of a TOML file, and its name: "contact[2].face", or "" for the file itself. For a missing key
 /// there is a toml_value too; reading it is refused. Every refusal is an input_error with file, line and
 /// column. The document and the name of the file must outlive this object.
@@ -43,6 +55,11 @@ class toml_value {
  public:
   toml_value(const toml::table& document, std::string_view file)
       : node_(&document), at_(document.source().begin), file_(file) {}
+  /// With the document's numbers_in, which must outlive this object, too.
+  toml_value(const toml::table& document, std::string_view file, std::vector<written_number>& numbers)
+      : toml_value(document, file) {
+    numbers_ = &numbers;
+  }
   /// For a tree that toml++ did not parse; `places` must outlive this object, too.
   toml_value(const toml::table& document, std::string_view file, const toml_places& places)
       : node_(&document), file_(file), places_(&places) {}
@@ -50,6 +67,8 @@ class toml_value {
   /// The value as a number, a whole number, text, or an index in `choices`. Refuses any other value.
   [[nodiscard]] double real(const real_range& range) const;
   [[nodiscard]] int integer(int least, int most) const;
+  /// This number as it is written; null if the numbers of the document are not known.
+  [[nodiscard]] written_number* written() const;
   [[nodiscard]] std::string text(std::string_view allowed = "text") const;
   [[nodiscard]] std::size_t choice(std::initializer_list<std::string_view> choices) const;
 
@@ -123,6 +142,7 @@ class toml_value {
   std::string name_;
   std::string_view file_;
   const toml_places* places_ = nullptr;
+  std::vector<written_number>* numbers_ = nullptr;
 };
 
 /// Parses a document. Throws input_error with line and column.
@@ -153,22 +173,12 @@ class named_files {
   std::shared_ptr<std::vector<std::string>> all_ = std::make_shared<std::vector<std::string>>();
 };
 
-/// A number in a file, and its position.
-struct written_number {
-  std::string key;  ///< "step[1].point[2].w"
-  double value = 0;
-  bool is_whole = false;
-  int line = 0, column = 0, length = 0;  ///< line and column from 1; column in code points
-  std::string_view literal = {};         ///< as written
-  bool is_shortest = true;               ///< the literal is the shortest decimal of its double
-};
-
 /// All finite numbers of a document, in the order of the file. `text`: the text of the document.
 [[nodiscard]] std::vector<written_number> numbers_in(const toml::table& document, std::string_view text);
 
-/// A warning for each number of the document that is not the shortest decimal of its double, in the order of
-/// the file; if there are many, only the first ten and the count. `text`: the text of the document.
-[[nodiscard]] std::vector<std::string> rounding_warnings(const toml::table& document, std::string_view text,
+/// A warning for each number that does not stand for its double, or is taken as another place, in the order
+/// of the file; if there are many, only the first ten and the count.
+[[nodiscard]] std::vector<std::string> rounding_warnings(const std::vector<written_number>& numbers,
                                                          std::string_view file);
 
 }  // namespace contct

@@ -40,12 +40,12 @@ load_words motion_words(const model& m, const std::string& verb, const std::vect
 load_words words_for(const model& m, const placed_load& p) {
   const double value = values_of(p)[0];
   if (p.what == load_kind::point || p.what == load_kind::moment)
-    return {p.what == load_kind::point ? "w " : "theta ", value, fmt::format(" at x = {:.6g}", p.from)};
+    return {p.what == load_kind::point ? "w " : "theta ", value, fmt::format(" at x = {:.6g}", p.from.x)};
   const bool of_plate = std::holds_alternative<plate>(m.kind);
   return {p.what == load_kind::force ? "uniform " : "curvature ", value,
-          of_plate ? fmt::format(" from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", p.from, p.across[0], p.to,
-                                 p.across[1])
-                   : fmt::format(" from {:.6g} to {:.6g}", p.from, p.to)};
+          of_plate ? fmt::format(" from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", p.from.x, p.across[0].x,
+                                 p.to.x, p.across[1].x)
+                   : fmt::format(" from {:.6g} to {:.6g}", p.from.x, p.to.x)};
 }
 
 load_words words_for(const model& m, const load& l, const resultant& r) {

@@ -157,14 +157,14 @@ void put_values(json& entry, const std::vector<double>& polynomial) {
 void put_placed(json& out, const model& m, const placed_load& p) {
   const std::vector<double> values = values_of(p);
   if (p.what == load_kind::point || p.what == load_kind::moment) {
-    out["point"].push_back({{"x", p.from}, {p.what == load_kind::point ? "w" : "theta", values[0]}});
+    out["point"].push_back({{"x", p.from.x}, {p.what == load_kind::point ? "w" : "theta", values[0]}});
     return;
   }
   json& entry = out[p.what == load_kind::force ? "uniform" : "curvature"].emplace_back();
   put_values(entry, values);
   const bool of_plate = std::holds_alternative<plate>(m.kind);
-  entry["from"] = of_plate ? json({p.from, p.across[0]}) : json(p.from);
-  entry["to"] = of_plate ? json({p.to, p.across[1]}) : json(p.to);
+  entry["from"] = of_plate ? json({p.from.x, p.across[0].x}) : json(p.from.x);
+  entry["to"] = of_plate ? json({p.to.x, p.across[1].x}) : json(p.to.x);
 }
 
 }  // namespace

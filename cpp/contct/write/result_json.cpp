@@ -386,11 +386,7 @@ class result_writer {
       members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
-    std::vector<std::string> warnings = warnings_of(r_);
-    // The report omits warnings of rounded decimals: they do not change any digit that it shows.
-    const auto is_rounding = [](const std::string& w) { return w.find(rounding_word) != std::string::npos; };
-    if (parts_ == result_parts::report) std::erase_if(warnings, is_rounding);
-    members["warnings"] = warnings;
+    members["warnings"] = warnings_of(r_);
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},
                     {"calls_made", r_.record_of_calls().all_calls},
