@@ -184,7 +184,9 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.allowed = allowed_.of(b, prover_->extent());
   c.worst_share = worst_share(c.error, c.allowed);
   c.problem = worst_bound(c.error, c.allowed, &problem_);
-  if (c.problem.empty() && b.wrong_status) c.problem = status_words(*b.wrong_status, s);
+  c.rule =
+      c.problem.empty() && b.wrong_status ? "a pair in contact at its face, a separated pair before it" : "";
+  if (!c.rule.empty()) c.problem = status_words(*b.wrong_status, s);
   c.certified = c.problem.empty();
   c.displacement_error = share_of(c.error[quantity::w], c.allowed[quantity::w]);
   c.shape_error = c.worst_share;
@@ -199,6 +201,7 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
   measure_state(s, load, c);
   const bool no_equilibrium = answer.how == outcome::no_equilibrium;
   const std::string of_proof = std::exchange(c.problem, "");
+  const std::string rule_of_proof = std::exchange(c.rule, "");
   if (no_equilibrium) {
     c.problem =
         "there is no equilibrium: no support and no face stops a rigid-body motion on which the load does "
@@ -218,7 +221,10 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
                                 c.displacement_error * largest_length() >
                                     c.error[quantity::w].value_or(std::numeric_limits<double>::infinity());
   const bool of_bounds = c.proved && !of_proof.empty();
-  if (c.problem.empty() || (of_bounds && !no_equilibrium && reference_is_off)) c.problem = of_proof;
+  if (c.problem.empty() || (of_bounds && !no_equilibrium && reference_is_off)) {
+    c.problem = of_proof;
+    c.rule = rule_of_proof;
+  }
   c.certified = c.problem.empty();
 }
 

@@ -48,6 +48,7 @@ struct certificate {
   double worst_share = 0.0;  ///< the largest error relative to the size of its kind
   std::shared_ptr<const step_proof> proof;  ///< the data that prove the bounds; null unless proofs are kept
   std::string problem;                      ///< what is wrong, in words; empty if certified
+  std::string rule;                         ///< what is allowed instead; empty: errors up to certified_share
   int pulling = -1;   ///< not certified: the pair in contact that pulls most, from 0; -1: none
   double pull = 0.0;  ///< the tensile force of that pair
 };

@@ -46,6 +46,10 @@ std::vector<std::string> first_of(std::vector<std::string> lines) {
   return lines;
 }
 
+std::string allowed_words(const certificate& c) {
+  return c.rule.empty() ? percent_words(certified_share) : c.rule;
+}
+
 /// The pair in contact that pulls most, in words; empty if none pulls.
 std::string pull_words(const certificate& c, const problem& p) {
   if (c.pulling < 0) return "";
@@ -96,7 +100,7 @@ std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
   const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->certified; });
   if (bad != steps.end()) {
     return {fmt::format("{} is NOT certified: {}", name_of(bad), (*bad)->problem),
-            "allowed: " + percent_words(certified_share)};
+            "allowed: " + allowed_words(**bad)};
   }
   double worst = 0.0;
   const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
@@ -131,7 +135,7 @@ std::vector<std::string> certificate_complaints(const run_result& r) {
     const int step = r.record.steps[i].end.step;
     if (c && !c->certified)
       lines.push_back(fmt::format("{} is not certified: {}; allowed: {}{}{}", step_words(r.what, step),
-                                  c->problem, percent_words(certified_share), pull_words(*c, r.what),
+                                  c->problem, allowed_words(*c), pull_words(*c, r.what),
                                   worst_until(step, *c, r.what, r.early)));
   }
   return starts_from_zero(r.what) ? first_of(std::move(lines)) : lines;
