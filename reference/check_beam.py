@@ -1,10 +1,11 @@
 """Makes the nodes and elements of a beam in fractions, for check_proof.py; also reads lists of a problem file."""
 import re
 from bisect import bisect_left
+from decimal import ROUND_HALF_UP, Context, Decimal
 from fractions import Fraction as F
 from math import ceil, comb
 
-from check_plate import dot, need, positive, real
+from check_plate import Even, dot, need, parts, positive, real
 
 
 def listed(x):
@@ -20,22 +21,31 @@ def only(table, keys):
 def numbers(which, count):
     """Returns indices from 0 for different numbers from 1 to `count`, given as a list, "a..b" or "all"."""
     if isinstance(which, str):
-        first, last = (1, count) if which == "all" else map(int, re.fullmatch(r"(\d+)\.\.(\d+)", which).groups())
-        which = list(range(first, last + 1))
-    need(which and all(type(x) is int and 1 <= x <= count for x in which) and len(set(which)) == len(which), f"{which}: not from 1 to {count}")
+        ends = re.fullmatch(r"(\d{1,9})\.\.(\d{1,9})", "1..%d" % count if which == "all" else which)
+        which = list(range(int(ends[1]), min(int(ends[2]), count + 1) + 1)) if ends else []
+    need(which and all(type(x) is int and 1 <= x <= count for x in which) and len(set(which)) == len(which), f"{which}: not different numbers from 1 to {count}")
     return [x - 1 for x in which]
 
 
-def same(line):
-    """Returns the distance within which coordinates are equal: 2^-50 of the end with the larger magnitude."""
-    return F(1, 2**50) * max(abs(line[0]), abs(line[-1]))
+def digits(x):
+    """Returns the number of significant digits of x as written, at most 17."""
+    return min(17, len(Decimal(x).as_tuple().digits))
+
+
+def rounds_to(place, x):
+    """Returns True if x has 12 digits or more, and `place`, rounded to as many digits or to a double, is x as a double."""
+    if not place or digits(x) < 12:
+        return False
+    shown = Context(prec=digits(x), rounding=ROUND_HALF_UP).divide(Decimal(place.numerator), Decimal(place.denominator))
+    return float(x) in (float(shown), float(place))
 
 
 def find(line, x):
-    """Returns the index of the coordinate that equals x, or None. The coordinates increase."""
-    i = bisect_left(line, x)
-    near = min((k for k in (i - 1, i) if 0 <= k < len(line)), key=lambda k: abs(line[k] - x))
-    return near if abs(line[near] - x) <= same(line) else None
+    """Returns the index of the coordinate that x names, a number of the file or a sum of them (F), or None. They increase."""
+    at = real(x)
+    i = bisect_left(line, at)
+    near = min((k for k in (i - 1, i) if 0 <= k < len(line)), key=lambda k: abs(line[k] - at))
+    return near if line[near] == at or (at is not x and isinstance(line, Even) and rounds_to(line[near], x)) else None
 
 
 class Beam:
@@ -121,7 +131,7 @@ def hinges(t, x):
     found = []
     for part in t.get("hinge", []):
         need(len(only(part, {"node", "nodes", "x"})) == 1, "not one of node, nodes and x")
-        found += [find(x, real(at)) for at in listed(part["x"])] if "x" in part else numbers(listed(part["node"]) if "node" in part else part["nodes"], len(x))
+        found += [find(x, at) for at in listed(part["x"])] if "x" in part else numbers(listed(part["node"]) if "node" in part else part["nodes"], len(x))
     need(all(node is not None and 0 < node < len(x) - 1 for node in found) and len(set(found)) == len(found), "a hinge that is at no inner node")
     return set(found)
 
@@ -130,15 +140,19 @@ def named(of, t):
     """Returns every x of supports, pairs, hinges, loads and ends of pieces."""
     tables = [part for key in ("support", "contact", "bed", "hinge") for part in t.get(key, [])]
     tables += [part for step in t.get("step", []) + t.get("case", []) for key in ("point", "settlement", "move") for part in step.get(key, [])]
-    return [real(x) for part in tables for x in listed(part.get("x", []))] + [real(piece["to"]) for piece in pieces(of)]
+    return [x for part in tables for x in listed(part.get("x", []))] + [piece["to"] for piece in pieces(of)]
 
 
 def sized(of, t, ends):
     """Returns nodes at `ends`, at every x of `named` between the ends, and in equal parts between these points."""
-    inside = sorted(x for x in set(named(of, t)) if ends[0] < x < ends[-1] and find(ends, x) is None)
-    corners = sorted(ends + [x for i, x in enumerate(inside) if i == 0 or x - inside[i - 1] > same(ends)])
+    corners = list(ends)
+    for x in sorted(named(of, t), key=lambda x: (-digits(x), real(x))):  # the longest first: a shorter one may round to it
+        i = bisect_left(corners, real(x))
+        if 0 < i < len(corners) and corners[i] != real(x) and not any(rounds_to(corner, x) for corner in corners[i - 1:i + 1]):
+            corners.insert(i, real(x))
     counts = [max(1, ceil((float(b) - float(a)) / float(of["element_size"]) - 1e-9)) for a, b in zip(corners, corners[1:])]
-    return corners[:1] + [a + (b - a) * i / n for a, b, n in zip(corners, corners[1:], counts) for i in range(1, n + 1)]
+    need(sum(counts) <= 2_000_000, "element_size makes more than 2000000 elements")
+    return Even(corners[:1] + [a + (b - a) * i / n for a, b, n in zip(corners, corners[1:], counts) for i in range(1, n + 1)])
 
 
 def places(of, t):
@@ -147,15 +161,16 @@ def places(of, t):
     need(of.keys() - {"EI", "section"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
     if "element_size" in of:
         return sized(of, t, [real(x) for x in of.get("x", [0, of.get("length")])])
-    return [real(x) for x in of["x"]] if "x" in of else [real(of["length"]) * i / of["elements"] for i in range(of["elements"] + 1)]
+    return [real(x) for x in of["x"]] if "x" in of else parts(of["length"], of["elements"])
 
 
-def beam(of, t):
-    """Returns a node's dof names, [x], the nodes' tributary lengths, and (element, dofs, left end) of each element."""
+def beam(of, t, count=None):
+    """Raises ValueError unless there are `count` element results, if it is given. Returns a node's dof names, [x], the nodes' tributary lengths, and (element, dofs, left end) of each element."""
     x = places(of, t)
+    need(len(x) > 1 and count in (None, 4 * (len(x) - 1)), "a beam with another number of elements than in the proof file")
     if pieces(of):
-        ends = [0] + [find(x, real(piece["to"])) for piece in pieces(of)]
-        need(ends[-1] == len(x) - 1, "pieces that do not end where the beam ends")
+        ends = [0] + [find(x, piece["to"]) for piece in pieces(of)]
+        need(None not in ends and ends == sorted(set(ends)) and ends[-1] == len(x) - 1, "pieces that are not from node to node, or do not end where the beam ends")
         EI = [stiffness(piece) for piece, a, b in zip(pieces(of), ends, ends[1:]) for _ in range(a, b)]
     elif "section" in of:
         EI = [stiffness(only(of["section"], {"E", "I", "W", "A", "weight"}))] * (len(x) - 1)

@@ -2,6 +2,7 @@
 
 The element (Adini, Clough, Melosh) follows from monomials, without the program's formulas.
 """
+from decimal import Decimal
 from fractions import Fraction as F
 from math import perm
 
@@ -15,9 +16,9 @@ def need(holds, words):
 
 
 def real(x):
-    """Returns the exact value of a number in a file: the shortest decimal that is read as the same double."""
-    need(type(x) is not bool and isinstance(x, (int, F, bytes)), f"{x!r}: not a number")
-    return F(repr(float(x)))
+    """Returns the exact value of a number in a file: the shortest decimal that is read as the same double; F as it is."""
+    need(type(x) is not bool and isinstance(x, (int, Decimal, bytes, F)), f"{x!r}: not a number")
+    return x if isinstance(x, F) else F(repr(float(x)))
 
 
 def positive(x):
@@ -83,20 +84,32 @@ class Plate:
                 + [("moment", D * (1 - nu) * t, twists) for t in xy])
 
 
+class Even(list):
+    """Coordinates of equal parts, whose places may have no end as a decimal."""
+
+
+def parts(length, elements):
+    """Returns the coordinates of equal elements from 0 to `length`."""
+    need(type(elements) is int and 0 < elements <= 2_000_000, f"{elements!r} elements: not from 1 to 2000000")
+    return Even(positive(real(length)) * i / elements for i in range(elements + 1))
+
+
 def line(of, key, i):
     """Returns the coordinates of grid lines, given one by one or in equal parts, and their tributary lengths."""
-    size, parts = (of["size"][i], of["elements"][i]) if key not in of else (0, 1)
-    x = [real(v) for v in of[key]] if key in of else [real(size) * k / parts for k in range(parts + 1)]
+    need(key in of or len(of["size"]) == len(of["elements"]) == 2, "size or elements: not two numbers")
+    x = [real(v) for v in of[key]] if key in of else parts(of["size"][i], of["elements"][i])
+    need(len(x) > 1, f"{key}: fewer than two coordinates")
     return x, [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])]
 
 
-def plate(of):
-    """Returns a node's dof names, [x, y], the nodes' tributary areas, and (element, dofs, left end) of each element."""
+def plate(of, count=None):
+    """Raises ValueError unless there are `count` element results, if it is given. Returns a node's dof names, [x, y], the nodes' tributary areas, and (element, dofs, left end) of each element."""
     grid, material = of.keys() & {"x", "y", "size", "elements"}, of.keys() - {"x", "y", "size", "elements"}
     need(grid in ({"x", "y"}, {"size", "elements"}) and material - {"weight"} in ({"D", "nu"}, {"E", "nu", "thickness"})
          and ("D" not in of or "weight" not in of), "a plate of two forms")
     (x, width), (y, height), nu = line(of, "x", 0), line(of, "y", 1), real(of["nu"])
     need(-1 < nu <= F(1, 2), f"nu is {nu}")
+    need(count in (None, 12 * (len(x) - 1) * (len(y) - 1)), "a plate with another number of elements than in the proof file")
     D = real(of["D"]) if "D" in of else positive(real(of["E"])) * real(of["thickness"])**3 / (12 * (1 - nu * nu))
     weight = positive(real(of["weight"])) * real(of["thickness"]) if "weight" in of else None
     elements, made = [], {}

@@ -12,27 +12,32 @@ def one_each(values, nodes):
     return [real(x) for x in (values if isinstance(values, list) else [values] * len(nodes))]
 
 
-def combinations(t, line):
+def combinations(t, lines):
     """Returns a list of (table of loads, factor) for each combination and each place of a train."""
+    for tables in (t.get("case", []), t.get("combination", []) + t.get("train", [])):
+        names = [c["name"] for c in tables]
+        need(all(type(name) is str and name.strip() for name in names) and len(set(names)) == len(names), f"names that are no text, or not unique: {names}")
     cases = {c["name"]: {key: value for key, value in c.items() if key != "name"} for c in t.get("case", [])}
-    need(len(cases) == len(t.get("case", [])) and "step" not in t, "two cases of one name, or steps beside combinations")
+    need("step" not in t, "steps beside combinations")
 
     def terms(c):
-        return [(cases[name], real(factor)) for name, factor in c.get("terms", {}).items()]
+        need(c["terms"] and c["terms"].keys() <= cases.keys(), f"terms of {c['name']}: not factors of one case or more")
+        return [(cases[name], real(factor)) for name, factor in c["terms"].items()]
     steps = [terms(only(c, {"name", "terms"})) for c in t.get("combination", [])]
     for train in t.get("train", []):
-        only(train, {"name", "axles", "from", "to", "by", "terms", "factor"})
-        first, last, by, factor = (real(x) for x in (train["from"], train["to"], train["by"], train.get("factor", 1)))
-        for k in range(int((last - first) / positive(by)) + 1):
-            at = [(first + k * by + real(axle["at"]), axle["w"]) for axle in train["axles"]]
-            steps.append(terms(train) + [({"point": [{"x": x, "w": w}]}, factor) for x, w in at if line[0] <= x <= line[-1]])
+        need(len(lines) == 1 and only(train, {"name", "axles", "from", "to", "by", "terms", "factor"})["axles"], "a train without axles or a beam")
+        line, first, last, by, factor = lines[0], *(real(x) for x in (train["from"], train["to"], train["by"], train.get("factor", 1)))
+        need(first <= last and (last - first) / positive(by) < 10000, "a train whose `to` is before `from`, or with more than 10000 places")
+        for k in range(int((last - first) / by) + 1):
+            at = [(first + k * by + real(axle["at"]), axle["w"]) for axle in train["axles"] if only(axle, {"at", "w"})]
+            steps.append((terms(train) if "terms" in train else []) + [({"point": [{"x": x, "w": w}]}, factor) for x, w in at if line[0] <= x <= line[-1]])
     return steps
 
 
 class Problem:
     """K by rows, supports, pairs and loads in fractions."""
 
-    def __init__(self, t, folder):
+    def __init__(self, t, folder, count=None):
         only(t, TOP)
         need(len(t.keys() & {"beam", "plate", "matrix"}) == 1, "not one structure")
         need("hinge" not in t or "beam" in t, "a hinge without a beam")
@@ -41,12 +46,13 @@ class Problem:
             self.K, t = matrix(t["matrix"], t, folder)
             self.names, self.lines, share, self.elements, self.span = ["w"], [], [F(1)] * len(self.K), [], F(0)
         else:
-            self.names, self.lines, share, self.elements = plate(t["plate"]) if "plate" in t else beam(t["beam"], t)
+            self.names, self.lines, share, self.elements = plate(t["plate"], count) if "plate" in t else beam(t["beam"], t, count)
             self.K = [{i: F(0)} for i in range(len(share) * len(self.names))]
             self.span = max(line[-1] - line[0] for line in self.lines)
             self.of_elements = (4 if "beam" in t else 12) * len(self.elements)
-        self.steps, self.n, self.count = combinations(t, self.lines and self.lines[0]) if t.keys() & {"combination", "train"} else t["step"], len(self.K), len(share)
-        need(self.steps, "no step")
+        combined = t.keys() & {"combination", "train"}
+        self.steps, self.n, self.count = combinations(t, self.lines) if combined else t["step"], len(self.K), len(share)
+        need(type(self.steps) is list and self.steps and (combined or "case" not in t), "no step, or cases without combinations")
         self.told_faces = []
         for element, dofs, _ in self.elements:
             for i, j, k in ((i, j, k) for i, row in zip(dofs, element.stiffness) for j, k in zip(dofs, row)):
@@ -85,9 +91,11 @@ class Problem:
             faces = one_each(c["face"], nodes)
         others = (c["other"] if len(c["other"]) > 1 else c["other"] * len(nodes)) if "other" in c else [None] * len(nodes)
         for node, x, k, other in zip(nodes, faces, stiffness, others, strict=True):
+            n, state = {"above": 1, "below": -1}[surface], c.get("state", "separated")
+            need(n * x >= 0 and (state == "separated" or (state == "contact" and x == 0)), f"a face at {x} {surface}, {state}, of the undeformed structure")
             need(other is None or (other != node and not {node, other} & self.fixed), "a pair of a dof with itself, or with a fixed one")
             if self.dof(node, "w") not in without:
-                self.pairs.append((self.dof(node, "w"), {"above": 1, "below": -1}[surface], x, positive(k)))
+                self.pairs.append((self.dof(node, "w"), n, x, positive(k)))
                 self.others.append(other)
 
     def seen(self, i, u):
@@ -95,7 +103,7 @@ class Problem:
         return u[self.pairs[i][0]] - (0 if self.others[i] is None else u[self.others[i]])
 
     def polynomial(self, coefficients):
-        need(len(self.lines) == 1 and coefficients, "a polynomial that is not along a beam")
+        need(len(self.lines) == 1 and 0 < len(coefficients) < 22, "a polynomial that is not along a beam, or without 1 to 21 coefficients")
         return [real(a) for a in coefficients]
 
     def dof(self, node, name):
@@ -113,7 +121,7 @@ class Problem:
         if not named or named[0] in ("node", "nodes"):
             return numbers([t["node"]] if "node" in t else t.get("nodes", otherwise), self.count)
         points = [[x] for x in listed(t["x"])] if "x" in t else t["at"] if isinstance(t["at"][0], list) else [t["at"]]
-        found = [[find(line, real(x)) for line, x in zip(self.lines, point, strict=True)] for point in points]
+        found = [[find(line, x) for line, x in zip(self.lines, point, strict=True)] for point in points]
         need(found and all(None not in at for at in found), "a place where there is no node")
         return numbers([1 + sum(i * stride for i, stride in zip(at, (1, len(self.lines[0])))) for at in found], self.count)
 
@@ -158,16 +166,16 @@ class Problem:
             for e, shares in self.parts(only(part, {"value", "from", "to"})):
                 add(e, self.elements[e][0].bent(real(part["value"]), *shares[0]))
         points = step.get("point", [])
-        for part, x in ((part, real(x)) for part in points if len(self.lines) == 1 for x in listed(part.get("x", []))):
+        for part, x in ((part, x) for part in points if len(self.lines) == 1 for x in listed(part.get("x", []))):
             if find(self.lines[0], x) is None:
-                e, t = self.inside(0, x)
+                e, t = self.inside(0, real(x))
                 need(only(part, {"x", *self.names}).keys() & set(self.names), "a load of no dof")
                 add(e, self.elements[e][0].point(real(part.get("w", 0)), real(part.get("theta", 0)), t))
         for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
             f[dof] += force
         for part in points:
             if len(self.lines) == 1 and "x" in part:  # loads between nodes are already in f
-                part = part | {"x": [x for x in listed(part["x"]) if find(self.lines[0], real(x)) is not None]}
+                part = part | {"x": [x for x in listed(part["x"]) if find(self.lines[0], x) is not None]}
             for dof, value in self.at_dofs(part) if part.get("x", True) != [] else []:
                 f[dof] += value
         for part in step.get("settlement", []):
@@ -184,6 +192,7 @@ class Problem:
     def inside(self, i, x):
         """Returns the interval of line i that contains x, and the share of the interval before x."""
         line = self.lines[i]
+        need(line[0] <= x <= line[-1], f"a load at {x}, which is outside the structure")
         e = next(k for k in range(len(line) - 1) if line[k] <= x <= line[k + 1])
         return e, (x - line[e]) / (line[e + 1] - line[e])
 
@@ -191,8 +200,8 @@ class Problem:
         """Returns the elements between "from" and "to", with the shares of their sides where the part begins and ends."""
         sides = []
         for i, line in enumerate(self.lines):
-            ends = [real(part[key] if len(self.lines) == 1 else part[key][i]) if key in part else line[k] for key, k in (("from", 0), ("to", -1))]
-            ends = [x if find(line, x) is None else line[find(line, x)] for x in ends]
+            named = [(part[key] if len(self.lines) == 1 else part[key][i]) if key in part else line[k] for key, k in (("from", 0), ("to", -1))]
+            ends = [line[find(line, x)] if find(line, x) is not None else real(x) for x in named]
             need(line[0] <= ends[0] < ends[1] <= line[-1], "a load from a place that is not before its end")
             sides.append([(e, [min(max((x - a) / (b - a), F(0)), F(1)) for x in ends]) for e, (a, b) in enumerate(zip(line, line[1:])) if ends[0] < b and a < ends[1]])
         if len(sides) == 1:

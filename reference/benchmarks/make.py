@@ -9,6 +9,7 @@ reference/verification.toml, which tests/lab/write_exact.py computes by `contct 
 import json
 import sys
 import tomllib
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -88,7 +89,7 @@ def numbers(checks):
 
 def problem_of(file):
     """Returns a problem file as plain data."""
-    toml = tomllib.loads(file.read_text(), parse_float=Fraction)
+    toml = tomllib.loads(file.read_text(), parse_float=Decimal)
     problem = Problem(toml, file.parent)
     labels = (file.parent / toml["matrix"]["dofs"]).read_text().split() if "dofs" in toml.get("matrix", {}) else []
     if "matrix" in toml and not labels:

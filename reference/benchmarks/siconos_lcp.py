@@ -11,7 +11,7 @@ all springs, the displacements u0 at z = 0, the faces c, and n = +1 for a face a
 import json
 import sys
 import tomllib
-from fractions import Fraction
+from decimal import Decimal
 from pathlib import Path
 
 import numpy
@@ -29,7 +29,7 @@ class Structure:
     """A problem's K, and the compliance of its free dofs with the springs of all pairs."""
 
     def __init__(self, file):
-        toml = tomllib.loads(file.read_text(), parse_float=Fraction)
+        toml = tomllib.loads(file.read_text(), parse_float=Decimal)
         self.problem = problem = Problem(toml, file.parent)
         self.K = numpy.zeros((problem.n, problem.n))
         for i, row in enumerate(problem.K):

@@ -7,6 +7,7 @@ import contextlib
 import copy
 import io
 import json
+import random
 import re
 import shutil
 import subprocess
@@ -14,6 +15,8 @@ import sys
 import tempfile
 import tomllib
 import unittest.mock
+from decimal import Decimal
+from fractions import Fraction as F
 from pathlib import Path
 
 program, reference = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
@@ -159,7 +162,7 @@ def check_semidefinite(folder):
         entries = lower.split("|")
         n = entries[-1].split()[0]
         (Path(folder) / "K.mtx").write_text("\n".join(["%%MatrixMarket matrix coordinate real symmetric", f"{n} {n} {len(entries)}", *entries, ""]))
-        if check_proof.semidefinite(check_proof.Problem(tomllib.loads(problem.read_text()), folder)) is not wanted:
+        if check_proof.semidefinite(check_proof.Problem(tomllib.loads(problem.read_text(), parse_float=Decimal), folder)) is not wanted:
             fail(f"{name}: positive semidefinite is not {wanted}")
         if name == "a free chain":
             chain = Path(folder) / "chain.toml"
@@ -216,6 +219,105 @@ def check_forms(folder):
     if missing or len(keys) < 40 or len(texts) < 17:
         fail(f"of {len(keys)} keys of the manual {missing} are in none of its {len(texts)} examples")
     print(f"{len(texts)} examples with {len(keys)} keys are read as the program reads them")
+    return texts
+
+
+CANTILEVER = "[beam]\n{}\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
+POINT, PART, SUPPORT = "[[step]]\npoint = [ {{ x = {}, w = -1 }} ]\n", "[[step]]\nuniform = [ {{ value = -1, from = {}, to = {} }} ]\n", "[[support]]\nx = {}\nfix = \"w\"\n[[step]]\nuniform = -1\n"
+TRAIN = "[[case]]\nname = \"G\"\nuniform = -1\n[[combination]]\nname = \"A\"\nterms = {{ G = 1.35 }}\n[[train]]\nname = \"T\"\naxles = [ {{ at = {}, w = -1 }} ]\nfrom = {}\nto = {}\nby = {}\n"
+HAIR, THIRDS, LONG, SIZED = "x = [0, 1e-9, 1e6]", "length = 3.5\nelements = 3", "length = 3.9000000000000004\nelements = 3", "length = 3.5\nelement_size = 1.2"
+# Cantilevers, and the exact moments of the clamp in each step; None: program and checker refuse the problem.
+PLACES = [
+    (HAIR, POINT.format("1.5e-9"), [F("1.5e-9")]), (HAIR, POINT.format("1.0000000000000002e-9"), [F("1.0000000000000002e-9")]),
+    (HAIR, PART.format("1e-9", "1.5e-9"), [F("0.625e-18")]), (HAIR, POINT.format("[1e-9, 1.5e-9, 999999.9999999999]"), [F("1000000.0000000024")]),
+    (HAIR, SUPPORT.format("1.5e-9"), None), (HAIR, POINT.format("[1e-9, 1.0e-9]"), None), (HAIR, POINT.format("1000000.0000000001"), None),
+    (THIRDS, POINT.format("1.16666666666667"), [F(7, 6)]), (THIRDS, POINT.format("1.1666666666666667"), [F(7, 6)]),
+    (THIRDS, POINT.format("1.16666666667"), [F(7, 6)]), (THIRDS, POINT.format("1.1666666667"), [F("1.1666666667")]),
+    (THIRDS, POINT.format("1.16666666666668"), [F("1.16666666666668")]), (THIRDS, SUPPORT.format("1.1666666667"), None),
+    (THIRDS, POINT.format("[1.16666666666667, 1.1666666666666667]"), None), (THIRDS, PART.format("0", "1.16666666667"), [F(49, 72)]),
+    ("length = 28\nelements = 3", POINT.format("9.333333333333334"), [F(28, 3)]),  # the double nearest to the node
+    ("length = 0.7\nelements = 7", POINT.format("[0.1, 0.3, 0.7]"), [F("1.1")]), ("length = 0.7\nelements = 7", POINT.format("0.30000000000000004"), [F("0.30000000000000004")]),
+    (LONG, POINT.format("1.3"), [F("1.3")]), (LONG, SUPPORT.format("1.3"), None), (LONG, PART.format("1.3", "2.6"), [F("2.535")]),  # nodes are rounded to 1.3 and 2.6
+    (LONG, POINT.format("[1.3, 1.3000000000000001]"), [F("2.6") + F(4, 3) / 10**16]), (LONG, POINT.format("1.30000000000000"), [F("1.3") + F(4, 3) / 10**16]),
+    (SIZED, PART.format("1.16666666667", "3.5"), [(F("12.25") - F(49, 36)) / 2]), (SIZED, POINT.format("[1.2, 1.2000002]"), [F("2.4000002")]),
+    (SIZED, POINT.format("[1.23456789012346, 1.2345678901234567]"), None),  # one node
+    ("x = [0, 1, 2]", TRAIN.format(0, "0.3", "0.55", "0.1"), [F("2.7"), F("0.3"), F("0.4"), F("0.5")]), ("x = [0, 1, 2]", TRAIN.format(0, 0, "0.3", "0.1"), [F("2.7"), 0, F("0.1"), F("0.2"), F("0.3")]),
+    ("x = [0, 1, 2]", TRAIN.format("1e-17", 2, 2, 1), [F("2.7"), 0]), ("x = [0, 1, 2]", TRAIN.format("1e-17", 1, 2, 1), [F("2.7"), 1 + F("1e-17"), 0]),
+    ("x = [0, 1000.5, 1001]", TRAIN.format(0, "1000.2", 1001, "0.12345678901234"), [F("1.35") * 1001**2 / 2] + [F("1000.2") + k * F("0.12345678901234") for k in range(7)]),
+    (THIRDS, TRAIN.format("1.16666666666667", 0, 0, 1), [F("1.35") * 49 / 8, F("1.16666666666667")]),  # the sum of an axle is not rounded
+    ("x = [0, 1, 2]", TRAIN.format(0, 2, -1, 1), None), ("x = [0, 1, 2]", TRAIN.format(0, 0, 2, "1e-9"), None),
+    *[("x = [0, 1, 2]", TRAIN.format(0, 0, 2, 1).replace(old, new, 1), None) for old, new in (
+        ('"T"', '"A"'), ('name = "A"\n', ""), ("terms = { G = 1.35 }", ""), ("{ G = 1.35 }", "{}"), ("{ G", "{ H"), ('"T"', '" "'), ("w = -1 }", "w = -1, x = 1 }"), ("[[combination]]", "[[step]]"))],
+]
+
+
+def check_places(folder):
+    """Tests that the program and check_proof.py refuse the same places and trains, and put the others where their decimals are."""
+    problem = Path(folder) / "place.toml"
+    for beam, rest, moments in PLACES:
+        problem.write_text(CANTILEVER.format(beam) + rest)
+        proof = proof_of(problem, folder, "--kernels", "corrected")
+        try:
+            read = check_proof.Problem(tomllib.loads(problem.read_text(), parse_float=Decimal), folder)
+            refusal = [read.loads(step) for step in read.steps] and None
+        except Exception as why:
+            refusal = check_proof.words_of(why)
+        if (proof is None) != (moments is None) or (refusal is None) != (moments is not None):
+            fail(f"{problem.read_text()}\nthe program {'refuses' if proof is None else 'accepts'} it; the checker: {refusal}")
+        elif proof and (verdict(problem, proof, folder)[0] != 0 or len(proof["steps"]) != len(moments) or any(
+                abs(F(step["reactions"][1]) - moment) > min(step["error"]["moment"], 1e-14 * max(abs(moment), 1e-10))
+                for step, moment in zip(proof["steps"], moments))):
+            fail(f"{problem.read_text()}\n{verdict(problem, proof, folder)}; moments {[step['reactions'][1] for step in proof['steps']]} for {list(map(float, moments))}")
+    print(f"{len(PLACES)} places and trains are refused by both, or where their decimals are")
+
+
+def doctored(text, chance):
+    """Returns the problem file with one number, word, text or mark replaced."""
+    tokens = list(re.finditer(r'(?P<text>"[^"]*")|(?P<word>[A-Za-z_]\w*)|(?P<number>[-+]?\d[\w.+-]*)|(?P<mark>[][{}=,])', text))
+    at = chance.choice(tokens)
+    new = ["", at[0] * 2, "0", "1e400", "nan", "true", "[]", '"x"', "-1", "1e-17", "99999999999999999999"]
+    if at["number"] or chance.random() < 0.7:
+        new = [other[0] for other in tokens if other.lastgroup == at.lastgroup and other[0] != at[0]] or new
+    if at["number"]:
+        new += 5 * [f"{at[0]}1", f"-{at[0]}", f"1{at[0]}", at[0].replace("1", "2"), at[0].replace(".", ".0"), str(float(at[0]) * (1 + 1e-15))]
+    return text[:at.start()] + chance.choice(new) + text[at.end():]
+
+
+def meaning_of(text, folder):
+    p = check_proof.Problem(tomllib.loads(text, parse_float=Decimal), folder)
+    return p.K, p.supports, p.others, [(p.loads(step), p.pairs) for step in p.steps]
+
+
+def agree(proof, other):
+    """Returns True if the numbers of two proof files differ by no more than the sums of their bounds."""
+    kinds = {"displacement": ("w", "slope"), "force": ("force",), "reactions": ("reaction", "moment"), "elements": ("moment", "shear")}
+    return len(proof["steps"]) == len(other["steps"]) and all(
+        abs(a - b) <= sum(max(step["error"].get(kind) or 0 for kind in kinds[key]) for step in (s, t))
+        for s, t in zip(proof["steps"], other["steps"]) for key in kinds if key in s and t["error"] for a, b in zip(s[key], t[key], strict=True))
+
+
+def check_doctored(folder, texts, count=2000):
+    """Tests that check_proof.py refuses a right proof of a doctored problem, unless its numbers are right for this problem too."""
+    problem, chance, refused, same, solved = Path(folder) / "doctored.toml", random.Random(2026), 0, 0, 0
+    originals = []
+    for text in texts:
+        problem.write_text(text := re.sub(r"#.*", "", text))
+        originals.append((text, proof_of(problem, folder, "--kernels", "corrected"), meaning_of(text, folder)))
+    for i in range(count):
+        text, proof, meant = originals[i % len(originals)]
+        problem.write_text(now := doctored(text, chance))
+        code, said = verdict(problem, proof, folder)
+        if code == 1 and "REFUSED: " in said:
+            refused += 1
+        elif meaning_of(now, folder) == meant:
+            same += 1
+        elif (other := proof_of(problem, folder, "--kernels", "corrected")) and agree(proof, other):
+            solved += 1
+        else:
+            fail(f"accepted with the proof of another problem: {now}\n{said}")
+    if refused < count / 2 or same < count / 50 or solved < 1:
+        fail(f"of {count} doctored problems only {refused} are refused, {same} mean the same, {solved} have the same numbers")
+    print(f"{count} problems are doctored: {refused} are refused, {same} mean the same, {solved} have the same numbers")
 
 
 def check_faults(folder):
@@ -289,6 +391,7 @@ with tempfile.TemporaryDirectory() as scratch:
     check_reference(scratch)
     check_faults(scratch)
     check_semidefinite(scratch)
-    check_forms(scratch)
+    check_places(scratch)
+    check_doctored(scratch, check_forms(scratch))
 print("FAILED" if failed else "passed")
 sys.exit(1 if failed else 0)
