@@ -154,7 +154,7 @@ TEST_CASE("if the deflection grows between two nodes, the largest deflection is 
   std::vector<double> u;
   for (const double x : b.x) u.insert(u.end(), {x * x, 2 * x});
   const beam_lines lines(b, {}, u);
-  const value_range w = deflections_between(b, lines, u, 1, 3);
+  const value_range w = deflections_between(lines, u, 1, 3);
   CHECK(w.least.value == 1.0);
   CHECK(w.least.node == 1);
   CHECK(w.most.value == 16.0);
@@ -196,4 +196,54 @@ TEST_CASE("if the largest deflection is just before the end of an element, the e
   CHECK(w.most.x == Approx(t).epsilon(1e-6));
   CHECK(w.most.value == Approx(-0.24 + 0.91 * t - 0.24 * std::pow(t, 4)).epsilon(1e-12));
   CHECK(w.most.value > 0.43);
+}
+
+TEST_CASE("the place of an extreme is the first of all places whose values are equal except for rounding") {
+  const auto point = [](double x, double value) { return placed_load{load_kind::point, x, x, {value}}; };
+  struct expected {
+    std::string_view name;
+    double least, most;  // x
+  };
+  struct example {
+    std::vector<double> x;
+    load acting;
+    std::vector<support> supports;
+    std::vector<expected> places;
+  };
+  const auto loaded = [](std::vector<placed_load> placed, std::vector<point_load> points = {}) {
+    load l{std::move(points), {}};
+    l.placed = std::move(placed);
+    return l;
+  };
+  const std::vector<support> ends = {{0, 0, true}, {1, 0, true}};
+  const std::vector<support> three = {{0, 0, true}, {3, 0, true}};
+  const std::vector<support> clamped = {{0, 0, true}, {0, 1, true}};
+  const example examples[] = {
+      // A constant shear on both sides of a load, in one element, in several, and on an overhang without
+      // shear.
+      {{0, 10}, loaded({point(3.3, -7.5)}), ends, {{"shear", 3.3, 0}, {"moment", 0, 3.3}, {"w", 4.55, 0}}},
+      {{0, 1.1, 2.3, 10}, loaded({point(3.3, -7.5)}), three, {{"shear", 3.3, 0}, {"moment", 0, 3.3}}},
+      {{0, 0.7, 1.3, 2.9}, loaded({}, {{1, 0, 0.3}}), clamped, {{"shear", 0, 0.7}, {"moment", 0.7, 0}}},
+      {{0, 0.7, 1.3, 2.9}, loaded({}, {{3, 0, 0.3}}), clamped, {{"shear", 0, 0}, {"moment", 2.9, 0}}},
+      // A constant moment over several elements, from a moment at the end.
+      {{0, 0.7, 1.3, 2.9}, loaded({}, {{3, 1, 0.3}}), clamped, {{"moment", 0, 0}}},
+      // A constant moment between two equal loads, inside and at nodes.
+      {{0, 9}, loaded({point(3.1, -7.7), point(5.9, -7.7)}), ends, {{"moment", 0, 3.1}, {"shear", 5.9, 0}}},
+      {{0, 3.1, 5.9, 9}, loaded({}, {{1, 0, -7.7}, {2, 0, -7.7}}), three, {{"moment", 0, 3.1}}},
+      // A rigid part, w = 0 up to a load, and extremes just inside an element.
+      {{0, 1.7, 2.2, 3.9}, loaded({}, {{1, 0, -1}}), three, {{"w", 1.8735, 0}, {"moment", 0, 1.7}}},
+  };
+  int compared = 0;
+  for (const example& e : examples) {
+    const beam b{e.x, std::vector<double>(e.x.size() - 1, 1e4)};
+    const auto all = ranges_of({b}, e.acting, displaced(b, e.supports, e.acting), {});
+    for (const expected& at : e.places) {
+      const value_range found = range_named(all, at.name);
+      CAPTURE(&e - examples, at.name, found.least.value, found.most.value);
+      CHECK(found.least.x == Approx(at.least).margin(0.01));
+      CHECK(found.most.x == Approx(at.most).margin(0.01));
+      compared += 2;
+    }
+  }
+  CHECK(compared == 30);
 }

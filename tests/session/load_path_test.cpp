@@ -15,11 +15,13 @@ TEST_CASE("the load at an event is described with the keys of the problem file")
       parse_problem(with("point = [ { node = 3, w = -60.0 } ]", "uniform = -8"), "pb.toml");
   CHECK(load_path(uniform).words_at(1, 0.5, 24) == "uniform -4");
   const problem mixed = parse_problem(with("point = [", "uniform = -8\npoint = ["), "pb.toml");
-  // Numbers have six digits. If the text is too long, the place is omitted first, and then the kind.
+  // Numbers have six digits. If the text is too long, the place is omitted first, then digits, then the kind.
   CHECK(load_path(p).words_at(1, 1.0 / 3, 24) == "w -20 at node 3");
   CHECK(load_path(p).words_at(1, 0.123456, 20) == "w -7.40736 at node 3");
   CHECK(load_path(p).words_at(1, 0.123456, 19) == "w -7.40736");
-  CHECK(load_path(p).words_at(1, 0.123456, 8) == "-7.40736");
+  CHECK(load_path(p).words_at(1, 0.123456, 9) == "w -7.41");
+  CHECK(load_path(p).words_at(1, 0.000123456, 12) == "w -0.00741");
+  CHECK(load_path(mixed).words_at(1, 0.123456, 8) == "-9.38266");
   CHECK(load_path(p).words_at(1, 0.123456, 3).empty());
   CHECK(load_path(mixed).words_at(1, 1.0, 24) == "force -76");
   // From -60 to 10 the load is 0 at a share of 6/7, where its computed sum is only rounding.
@@ -47,6 +49,29 @@ TEST_CASE("the description of a load that is not at a node has the coordinates o
         "uniform -2.5 from (0.5, 0.25) to (1, 0.75)");
 }
 
+TEST_CASE("a load of several parts without a force is described by the largest of its first kind") {
+  const std::string beam = with("point = [ { node = 3, w = -60.0 } ]", "");
+  std::string many = "curvature = [ ";
+  for (int i = 0; i < 40; ++i) many += "{ value = 1e-5, from = 0.0, to = 0.5 }, ";
+  const std::pair<std::string, std::string> loads[] = {
+      {"curvature = [ { value = 1.5e-5 }, { value = -2.5e-5, from = 0, to = 1 } ]", "curvature -2.5e-05"},
+      {"curvature = [ { value = 1.5e-5, from = 0, to = 1 } ]\nsettlement = [ { node = 1, w = -1 } ]",
+       "curvature 1.5e-05 from 0 to 1"},
+      {"point = [ { node = 2, theta = 1 }, { node = 3, theta = -2 } ]", "theta -2"},
+      {"point = [ { x = 0.5, theta = 1 }, { node = 3, theta = 1 } ]", "theta 1"},
+      {"settlement = [ { node = 1, w = -1 }, { node = 1, theta = 3 } ]", "settle theta 3"},
+      {"settlement = [ { node = 1, w = -1 } ]\nmove = [ { node = 3, w = -3 } ]", "settle w -1 at node 1"},
+      {"point = [ { node = 2, w = 1 }, { node = 3, w = -1 } ]", "force 0"},
+      {"uniform = [ { polynomial = [1, 2] } ]", "force 6"},
+      {"uniform = [ { polynomial = [1, 2], from = 0, to = 1 } ]", "force 2"},
+      {many + "]", "curvature 1e-05"}};
+  for (const auto& [text, words] : loads) {
+    const problem p = parse_problem(beam + text + "\n", "pb.toml");
+    CAPTURE(text);
+    CHECK(load_path(p).words_at(1, 1.0, 60) == words);
+  }
+}
+
 TEST_CASE("the load on a plate is described as a force, or as wx or wy at a node") {
   const problem p = parse_problem(good_plate, "pb.toml");
   CHECK(load_path(p).words_at(1, 1.0, 24) == "force -3");
@@ -70,6 +95,10 @@ TEST_CASE(
   CHECK(loads.resultant_at(2, 0.25).force == -40.0);
   CHECK(loads.resultant_at(2, 0.25).moments == std::vector<double>{-80.0});
   CHECK_FALSE(loads.has_many_parts(2));
+  problem far = p;  // after a large moment about x = 0, a small one keeps its digits
+  std::get<beam>(far.geometry.kind).x = {1e9, 1e9 + 1, 1e9 + 2};
+  far.steps[1].points = {{1, 0, -2.7}, {2, 0, 2.7}};
+  CHECK(load_path(far).resultant_at(2, 1.0).moments == std::vector<double>{2.7});
 }
 
 TEST_CASE("a list of loaded elements is written as a range if their numbers are consecutive") {

@@ -25,6 +25,11 @@ inline const std::string propped_cantilever =
     "[beam]\nlength = 2.0\nelements = 2\nEI = 100.0\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n"
     "[[support]]\nnode = 3\nfix = [\"w\"]\n[[step]]\nuniform = -8.0\n";
 
+/// Two spans of 6, of which the first is loaded: the reactions are 52.5, 75 and -7.5.
+inline const std::string loaded_span =
+    "[beam]\nlength = 12\nelements = 12\nEI = 3e4\n[[support]]\nx = [0, 6, 12]\nfix = \"w\"\n"
+    "[[step]]\nuniform = [ { value = -20, from = 0, to = 6 } ]\n";
+
 /// A run with everything that outputs need: of FORTRAN with C++ in lockstep, or of one other kernel alone.
 struct a_run {
   const problem what;

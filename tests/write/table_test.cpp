@@ -1,4 +1,6 @@
 // Tests the tables of a run. tests/app tests whole runs of the program.
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 #include "catch.hpp"
@@ -238,9 +240,61 @@ TEST_CASE("The detailed printed tables have every pair, reaction and end of an e
     CHECK(end - at <= 80);
 }
 
-TEST_CASE("A value that is only rounding of earlier larger values is printed as 0, and no place is given") {
-  CHECK_THAT(rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = 1e-15\n").text,
-             Contains("        moment        0\n") && Contains("        reaction      0\n"));
+TEST_CASE("a value is printed as 0, without a place, only if it is 0, however large earlier values were") {
+  const std::string text =
+      rows_for(std::string(propped_cantilever) + "[[step]]\nuniform = -8e-15\n[[step]]\nuniform = 0\n",
+               "corrected")
+          .text;
+  CHECK_THAT(text, Contains("        moment        -4e-15            node 1, x = 0\n") &&
+                       Contains("        reaction      1e-14             node 1\n") &&
+                       Contains("        moment        0\n") && Contains("        reaction      0\n"));
+}
+
+TEST_CASE("the printed table has the reactions of both signs with their supports, also of all combinations") {
+  CHECK_THAT(rows_for(loaded_span).text, Contains("        reaction      75                node 7\n"
+                                                  "        and           -7.5              node 13\n"));
+  std::string cases = loaded_span +
+                      "[[combination]]\nname = \"A\"\nterms = { G = 1 }\n"
+                      "[[combination]]\nname = \"B\"\nterms = { G = 2 }\n";
+  cases.replace(cases.find("[[step]]"), 8, "[[case]]\nname = \"G\"");
+  CHECK_THAT(rows_for(cases).text,
+             Contains("least reaction    -15                 node 13, x = 12        B\n") &&
+                 Contains("largest reaction  150                 node 7, x = 6          B\n"));
+  cases += "[[contact]]\nx = 3\nsurface = \"below\"\nface = 0\nstiffness = 1e5\n";
+  CHECK_THAT(rows_for(cases).text, Contains(" pair 1, node 4, x = 3"));
+}
+
+TEST_CASE(
+    "the statuses and counts of pairs are the same in the table, in JSON and in CSV, however a step ends") {
+  const std::string one_pair =
+      "[beam]\nlength = 1\nelements = 1\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[contact]]\nnode = 2\n"
+      "surface = \"below\"\nface = 0\nstiffness = 10\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n";
+  const std::string lifted = one_pair + "[[step]]\npoint = [ { node = 2, w = 1 } ]\n";
+  const std::string two_pairs =
+      "[beam]\nx = [0, 1, 2]\nEI = 100\n[[contact]]\nnodes = [1, 3]\nsurface = \"below\"\nface = 0\n"
+      "stiffness = 10\n[[step]]\nuniform = -1\n[[step]]\npoint = [ { node = 3, w = 1 } ]\n";
+  const std::pair<std::string, std::string> examples[] = {
+      {one_pair, "1 of 1"}, {lifted, "0 of 1"}, {two_pairs, "1 of 2"}, {loaded_and_freed, "1 of 2"}};
+  int compared = 0;
+  for (const auto& [text, count] : examples) {
+    for (const std::string leads : {"fortran", "corrected"}) {
+      const a_run r(text, leads);
+      CAPTURE(text, leads);
+      const std::string printed = table_of(r.result, {100, false}, false).text;
+      const std::size_t last = printed.rfind("   end  ");
+      CHECK(printed.substr(last + 8, count.size()) == count);
+      const tables t = tables_of(r);
+      const auto pairs = static_cast<std::ptrdiff_t>(r.what.pairs.size());
+      std::ptrdiff_t in_csv = 0;
+      for (auto of = t.pairs.end() - pairs; of != t.pairs.end(); ++of)
+        in_csv += (*of)[5] == "contact" ? 1 : 0;
+      CHECK(fmt::format("{} of {}", in_csv, pairs) == count);
+      const structure_state& end = r.result.record.steps.back().end;
+      CHECK(fmt::format("{} of {}", end.pairs_in_contact(), pairs) == count);
+      ++compared;
+    }
+  }
+  CHECK(compared == 8);
 }
 
 TEST_CASE(

@@ -41,18 +41,17 @@ std::vector<double> zeros_of(const poly& p) {
   return zeros;
 }
 
-/// The least and the largest of the values of one quantity. Values that agree to within `equal_values`, as at
-/// symmetric places, count as equal: the place of the first is shown.
+/// Finds the least and the largest of the values of one quantity, taken in the order of their places. The
+/// place of an extreme is the first with a value equal to it: see tie_of.
 class extremes {
  public:
-  extremes(std::string_view name, const placed_value& first)
-      : name_(name), least_{first, first.value}, most_{first, first.value} {}
+  explicit extremes(std::string_view name) : name_(name) {}
 
-  /// Takes the value v. If v equals the extreme so far, the place of the extreme is kept, unless this place
-  /// is at x >= `from`, in the same piece as v.
-  void take(const placed_value& v, double from = std::numeric_limits<double>::infinity()) {
-    if (v.value < least_.shown.value) least_.follow(v, from);
-    if (v.value > most_.shown.value) most_.follow(v, from);
+  /// `varies`: v is on one polynomial with the value before it, and the polynomial is not constant.
+  void take(const placed_value& v, bool varies = false) {
+    all_.push_back({v, varies});
+    least_ = std::min(least_, v.value);
+    most_ = std::max(most_, v.value);
   }
 
   /// Takes the quantity `of` / `over` along element `e` of a beam. `left_value` and `right_value`, the values
@@ -65,34 +64,45 @@ class extremes {
         for (double& coefficient : p) coefficient /= over;
       const bool first = &line == &pieces.front();
       const bool last = &line == &pieces.back();
-      take({first ? left_value : p.front(), line.left, 0.0, first ? e : -1}, line.left);
-      take({last ? right_value : polynomial_at(p, 1.0), line.right, 0.0, last ? e + 1 : -1}, line.left);
+      const placed_value right{last ? right_value : polynomial_at(p, 1.0), line.right, 0.0,
+                               last ? e + 1 : -1};
+      take({first ? left_value : p.front(), line.left, 0.0, first ? e : -1});
       const poly hull = bernstein_of(p);
       const auto [least, most] = std::ranges::minmax(hull);
-      if (least >= least_.shown.value && most <= most_.shown.value) continue;
-      for (const double t : zeros_of(derivative(p)))
-        take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, line.left);
+      const bool varies = most - least > tie_of(std::max(std::abs(least), std::abs(most)), 0.0);
+      if (least < std::min(least_, right.value) || most > std::max(most_, right.value))
+        for (const double t : zeros_of(derivative(p)))
+          take({polynomial_at(p, t), line.left + t * line.h, 0.0, -1}, varies);
+      take(right, varies);
     }
   }
 
-  [[nodiscard]] value_range range() const { return {name_, least_.shown, most_.shown}; }
+  [[nodiscard]] value_range range() const { return {name_, first_at(-1), first_at(1)}; }
 
  private:
-  struct extreme {
-    placed_value shown;
-    double at_place;  // the value at the place shown; rounding may make `shown.value` more extreme
-
-    void follow(const placed_value& v, double from) {
-      const bool equal = std::abs(v.value - at_place) <= equal_values * std::abs(v.value);
-      shown.value = v.value;
-      if (equal && shown.x < from) return;
-      shown = v;
-      at_place = v.value;
-    }
+  struct candidate {
+    placed_value at;
+    bool varies;
   };
-  static constexpr double equal_values = 1e-9;
+
+  /// The first place of the largest value (side = 1) or of the least (-1). Between neighbours on one
+  /// polynomial there is no further extreme, so that of neighbours equal to the extreme the best is taken.
+  [[nodiscard]] placed_value first_at(int side) const {
+    const double extreme = side > 0 ? most_ : least_;
+    const double tie = tie_of(std::abs(extreme), std::max(std::abs(least_), std::abs(most_)));
+    const auto equals = [&](const candidate& c) { return side * (extreme - c.at.value) <= tie; };
+    auto found = std::ranges::find_if(all_, equals);
+    if (found == all_.end()) return all_.front().at;  // no value is finite
+    for (auto next = found + 1; next != all_.end() && next->varies && equals(*next); ++next)
+      if (side * (next->at.value - found->at.value) > tie_of(0.0, std::abs(extreme))) found = next;
+    placed_value at = found->at;
+    at.value = extreme;
+    return at;
+  }
+
   std::string_view name_;
-  extreme least_, most_;
+  std::vector<candidate> all_;
+  double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;
 };
 
 double w_at(std::span<const double> u, std::size_t node) {
@@ -134,14 +144,14 @@ std::vector<value_range> ranges_in(const plate& p, std::span<const double> u,
     return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
   };
   std::vector<value_range> all;
-  extremes w("w", at(0, u[0]));
-  for (int node = 1; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
+  extremes w("w");
+  for (int node = 0; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
   all.push_back(w.range());
   element_results moments = results_in_elements(model{p}, {}, u);
   if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
   const auto add = [&](const element_results& of, std::size_t first_name) {
     for (std::size_t name = first_name; name < of.names.size(); ++name) {
-      extremes found(of.names[name], at(0, of.at(0, name)[0]));
+      extremes found(of.names[name]);
       for (int e = 0; e < p.elements(); ++e)
         for (std::size_t k = 0; k < 4; ++k) found.take(at(p.corners_of(e)[k], of.at(e, name)[k]));
       all.push_back(found.range());
@@ -156,13 +166,11 @@ std::vector<value_range> ranges_in(const plate& p, std::span<const double> u,
 }  // namespace
 
 std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines, std::span<const double> u) {
-  const element_line first = lines.at(0);
-  const auto start = [&](double value) { return placed_value{value, b.x.front(), 0.0, 0}; };
-  extremes w("w", start(u[0]));
-  extremes moment("moment", start(first.moment.front()));
-  extremes shear("shear", start(first.shear.front()));
+  extremes w("w");
+  extremes moment("moment");
+  extremes shear("shear");
+  extremes stress("stress");
   const bool has_stress = !b.sections.empty() && b.sections.front().W > 0.0;
-  extremes stress("stress", start(has_stress ? first.moment.front() / b.sections.front().W : 0.0));
   for (int e = 0; e < b.elements(); ++e) {
     const std::vector<element_line> pieces = lines.pieces(e);
     const auto shears = lines.ends().at(e, 0);
@@ -185,9 +193,8 @@ std::vector<value_range> ranges_of(const model& m, const load& l, std::span<cons
     return ranges_of(*b, beam_lines(*b, l, u, element_values), u);
   if (const auto* const p = std::get_if<plate>(&m.kind)) return ranges_in(*p, u, element_values);
   if (deflecting.empty()) return {};
-  const auto at = [&](int dof) { return placed_value{u[dof], 0.0, 0.0, dof}; };
-  extremes w("w", at(deflecting.front()));
-  for (const int dof : deflecting) w.take(at(dof));
+  extremes w("w");
+  for (const int dof : deflecting) w.take({u[dof], 0.0, 0.0, dof});
   return {w.range()};
 }
 
@@ -213,9 +220,8 @@ std::vector<double> extreme_places(const element_line& line) {
   return {places.begin(), places.end()};
 }
 
-value_range deflections_between(const beam& b, const beam_lines& lines, std::span<const double> u, int first,
-                                int last) {
-  extremes w("w", {w_at(u, first), b.x[first], 0.0, first});
+value_range deflections_between(const beam_lines& lines, std::span<const double> u, int first, int last) {
+  extremes w("w");
   for (int e = first; e < last; ++e)
     w.take_element(lines.pieces(e), e, &element_line::w, w_at(u, e), w_at(u, e + 1));
   return w.range();
@@ -306,7 +312,7 @@ element_line beam_lines::at(int e) const {
   element_line line;
   line.left = beam_.x[e];
   line.h = h_[e];
-  line.right = line.left + line.h;
+  line.right = beam_.x[e + 1];
   if (const auto* const on = is_broken(e) ? nullptr : pieces_at(pieces_, e)) {
     line.load = in_doubles(on->front().q);
     line.load_size = on->front().size;

@@ -1,6 +1,7 @@
 // Results for a whole structure: the deflected lines of beams, and the extremes of each quantity.
 #pragma once
 
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <map>
 #include <optional>
@@ -72,24 +73,31 @@ struct placed_value {
   int node = -1;
 };
 
+/// The difference up to which values of magnitude `size` are equal, as at symmetric places, if the quantity
+/// has values of magnitude `largest`, and so rounding of that magnitude.
+[[nodiscard]] inline double tie_of(double size, double largest) {
+  return std::max(1e-9 * size, 0x1p-48 * largest);
+}
+
 /// The least and the largest value of one quantity.
 struct value_range {
   std::string_view name;
   placed_value least, most;
 
-  /// `least` or `most`, whichever has the larger magnitude.
-  [[nodiscard]] const placed_value& largest() const { return -least.value > most.value ? least : most; }
+  /// `least` or `most`, whichever has the larger magnitude; of equal magnitudes the positive value.
+  [[nodiscard]] const placed_value& largest() const {
+    return -least.value > (1 + 1e-9) * most.value ? least : most;
+  }
 };
 
 /// The least and the largest deflection between node `first` and node `last` > `first`.
-[[nodiscard]] value_range deflections_between(const beam& b, const beam_lines& lines,
-                                              std::span<const double> u, int first, int last);
+[[nodiscard]] value_range deflections_between(const beam_lines& lines, std::span<const double> u, int first,
+                                              int last);
 
 /// The extremes of each quantity. Beams: "w", "moment" and "shear" over the whole length, and "stress" if W
 /// is known. Plates: "w" at nodes, "mx", "my" and "mxy" at the corners of elements, and "s1", "s2" and
 /// "von_mises" if the thickness is known. A matrix: "w", the displacements of the dofs in `deflecting`. If
-/// values are equal (relative difference up to 1e-9), the place is that of the first. `element_values`: see
-/// beam_lines.
+/// values are equal (see tie_of), the place is that of the first. `element_values`: see beam_lines.
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
                                                  std::span<const int> deflecting,
                                                  std::span<const double> element_values = {});

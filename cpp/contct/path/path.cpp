@@ -25,6 +25,7 @@ class path {
   path_end follow_step(int step, const load_history& total_load) {
     path_end end;
     std::optional<reached_state> state;
+    reported_.reset();
     try {
       end = loop(step, total_load);
       state = reached();
@@ -61,8 +62,9 @@ class path {
   }
 
   /// Ends the path in a mechanism. Puts the pairs of the last separation back in contact, so that their
-  /// springs hold the structure without force.
+  /// springs hold the structure without force; they are reported as separated.
   path_end set_free() {
+    reported_ = now_.status;
     for (const int pair : now_.last_opened) now_.status[pair] = in_contact;
     now_.find_events();
     now_.switch_springs();
@@ -101,7 +103,7 @@ class path {
       end.has_equilibrium = ends_(end.step, nullptr).exists;
     }
     if (reached)
-      now_.tell_end({end.step, end.fraction, reached->u, now_.status, reached->rcond});
+      now_.tell_end({end.step, end.fraction, reached->u, reported_.value_or(now_.status), reached->rcond});
     else
       end = {path_status::not_factored, end.step, end.fraction, {}, {}, end.has_equilibrium};
     return concluded(std::move(end));
@@ -142,6 +144,7 @@ class path {
   int increments_allowed_;
   bool by_1989_rule_;
   path_state now_;
+  std::optional<std::vector<int>> reported_;  // statuses after the last increment, if set_free changed them
   end_finder ends_;
   std::unique_ptr<path_policy> policy_;
 };

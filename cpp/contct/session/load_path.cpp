@@ -27,16 +27,6 @@ struct load_words {
   std::string after{};
 };
 
-/// The words for a load of only settlements or only moves of faces: for the largest of several.
-load_words motion_words(const model& m, const std::string& verb, const std::vector<nodal_value>& all) {
-  const auto amount = [](const nodal_value& g) { return product_of<double>(g.value, g.factor); };
-  const auto& g = *std::ranges::max_element(all, {}, [&](const auto& one) { return std::abs(amount(one)); });
-  if (all.size() > 1) return {verb, amount(g)};
-  const std::string name =
-      std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
-  return {verb + name, amount(g), " at " + place_words(m, g.node)};
-}
-
 load_words words_for(const model& m, const placed_load& p) {
   const double value = values_of(p)[0];
   if (p.what == load_kind::point || p.what == load_kind::moment)
@@ -48,24 +38,36 @@ load_words words_for(const model& m, const placed_load& p) {
                    : fmt::format(" from {:.6g} to {:.6g}", p.from.x, p.to.x)};
 }
 
+load_words words_for(const model& m, const std::string& verb, const nodal_value& g) {
+  const std::string name =
+      std::holds_alternative<assembled>(m.kind) ? "" : fmt::format("{} ", dof_names(m)[g.dof]);
+  return {verb + name, product_of<double>(g.value, g.factor), " at " + place_words(m, g.node)};
+}
+
+/// The words for the only part of a load; for the resultant of several forces; or, without forces, for the
+/// largest moment, or else the largest curvature, settlement or move of a face.
 load_words words_for(const model& m, const load& l, const resultant& r) {
-  const bool of_matrix = std::holds_alternative<assembled>(m.kind);
-  const auto kinds = std::ranges::count(std::array{l.points.empty(), l.distributed.empty(), l.placed.empty(),
-                                                   l.settlements.empty(), l.moves.empty()},
-                                        false);
-  if (kinds == 1) {
-    if (l.placed.size() == 1 && l.placed[0].polynomial.size() == 1) return words_for(m, l.placed[0]);
-    if (!l.settlements.empty()) return motion_words(m, "settle ", l.settlements);
-    if (!l.moves.empty()) return motion_words(m, "move face ", l.moves);
-    if (l.points.size() == 1) {
-      const point_load& p = l.points[0];
-      return {of_matrix ? "" : fmt::format("{} ", dof_names(m)[p.dof]), product_of<double>(p.value, p.factor),
-              " at " + place_words(m, p.node)};
-    }
-    if (l.distributed.size() == 1 && l.distributed[0].polynomial.size() == 1)
-      return {"uniform ", l.distributed[0].polynomial[0]};
-  }
-  return {of_matrix ? "sum " : "force ", r.force};
+  std::array<std::vector<load_words>, 5> kinds;  // forces, moments, curvatures, settlements, moves
+  for (const distributed_load& d : l.distributed) kinds[0].push_back({"uniform ", d.polynomial[0]});
+  for (const point_load& p : l.points) kinds[p.dof == 0 ? 0 : 1].push_back(words_for(m, "", p));
+  for (const placed_load& p : l.placed)
+    kinds[p.what == load_kind::curvature ? 2
+          : p.what == load_kind::moment  ? 1
+                                         : 0]
+        .push_back(words_for(m, p));
+  for (const prescribed_displacement& g : l.settlements) kinds[3].push_back(words_for(m, "settle ", g));
+  for (const face_move& g : l.moves) kinds[4].push_back(words_for(m, "move face ", g));
+  std::size_t parts = 0;
+  for (const auto& kind : kinds) parts += kind.size();
+  const auto varies = [](const auto& list) { return !list.empty() && list[0].polynomial.size() > 1; };
+  const bool is_summed = !kinds[0].empty() && (parts > 1 || varies(l.distributed) || varies(l.placed));
+  const auto kind = std::ranges::find_if_not(kinds, &std::vector<load_words>::empty);
+  if (is_summed || kind == kinds.end())
+    return {std::holds_alternative<assembled>(m.kind) ? "sum " : "force ", r.force};
+  load_words& largest =
+      *std::ranges::max_element(*kind, {}, [](const load_words& w) { return std::abs(w.value); });
+  if (kind->size() > 1) largest.after.clear();
+  return largest;
 }
 
 /// Returns x, or 0 if x is only the rounding of numbers of magnitude `size`.
@@ -73,8 +75,10 @@ double without_rounding(double x, double size) {
   return std::abs(x) <= 32 * std::numeric_limits<double>::epsilon() * size ? 0.0 : x;
 }
 
+/// The value at a share of the way from a to b: exactly b at share 1, however large a is.
 double between(double a, double b, double share) {
-  return without_rounding(a + share * (b - a), std::max(std::abs(a), std::abs(b)));
+  const double rest = (1.0 - share) * a;
+  return without_rounding(rest + share * b, std::max(std::abs(rest), std::abs(share * b)));
 }
 
 }  // namespace
@@ -115,15 +119,17 @@ bool load_path::has_many_parts(int step) const {
 }
 
 std::string load_path::words_at(int step, double fraction, int width) const {
+  const bool is_sum =
+      has_many_parts(step) && (total_of(step).force != 0.0 || total_of(step_before(step)).force != 0.0);
   const auto words_of = [&](double share) {
-    const load l = has_many_parts(step) ? load{} : at(step, share);
-    return words_for(problem_.geometry, l, resultant_at(step, share));
+    return words_for(problem_.geometry, is_sum ? load{} : at(step, share), resultant_at(step, share));
   };
   load_words w = words_of(fraction);
   w.value = without_rounding(w.value, std::max(std::abs(words_of(0.0).value), std::abs(words_of(1.0).value)));
   const auto fits = [width](const std::string& text) { return static_cast<int>(text.size()) <= width; };
   const std::string number = fmt::format("{:.6g}", w.value);
-  for (std::string text : {w.before + number + w.after, w.before + number, number})
+  const std::string rough = w.before + fmt::format("{:.3g}", w.value);
+  for (std::string text : {w.before + number + w.after, w.before + number, rough, number})
     if (fits(text)) return text;
   return "";
 }

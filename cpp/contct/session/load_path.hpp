@@ -23,8 +23,9 @@ class load_path {
   /// True if the load at either end of the step has over 32 parts. Scattered elements are separate parts.
   [[nodiscard]] bool has_many_parts(int step) const;
 
-  /// The load in words: "w -15 at node 3", "uniform -768", or the resultant force of a mixed load, with at
-  /// most six digits. Only the number, or "", if the words do not fit into `width` characters.
+  /// The load in words: "w -15 at node 3", "uniform -768", the resultant force of a mixed load, or the
+  /// largest curvature of several, with six digits. If this does not fit into `width` characters, it has no
+  /// place, three digits, no kind, or nothing.
   [[nodiscard]] std::string words_at(int step, double fraction, int width) const;
 
  private:

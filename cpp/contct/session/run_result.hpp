@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -33,6 +34,7 @@ struct structure_state {
   std::optional<end_numbers> numbers = {};  ///< empty: computed from `displacement`
 
   [[nodiscard]] bool closed(std::size_t pair) const { return isep[pair] == in_contact; }
+  [[nodiscard]] std::ptrdiff_t pairs_in_contact() const { return std::ranges::count(isep, in_contact); }
 };
 
 /// One increment of the path, with facts about the last call before the increment.

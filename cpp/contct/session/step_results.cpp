@@ -32,9 +32,9 @@ double deflection_of(const problem& p, std::span<const double> u, int node) {
 std::vector<int> deflecting_nodes(const problem& p) {
   std::vector<char> is_length(nodes(p.geometry), 1);
   const auto* a = std::get_if<assembled>(&p.geometry.kind);
-  if (a != nullptr && (a->places.known() || !p.pairs.empty())) {
+  if (a != nullptr && a->places.known()) {
     for (std::size_t dof = 0; dof < is_length.size(); ++dof)
-      is_length[dof] = a->places.known() && a->places.dofs[dof].is_length() ? 1 : 0;
+      is_length[dof] = a->places.dofs[dof].is_length() ? 1 : 0;
     for (const contact_pair& pair : p.pairs)
       for (const int node : {pair.node, pair.other})
         if (node >= 0) is_length[node] = 1;
@@ -71,13 +71,28 @@ std::optional<std::size_t> step_results::hardest_pair() const {
   return hardest;
 }
 
-std::optional<std::size_t> step_results::hardest_support(const problem& p) const {
-  std::optional<std::size_t> hardest;
-  for (std::size_t i = 0; i < reactions.size(); ++i)
-    if (p.supports[i].dof == 0 &&
-        (!hardest || std::abs(reactions[i]) > above_ties * std::abs(reactions[*hardest])))
-      hardest = i;
-  return hardest;
+std::optional<std::size_t> extreme_support(const problem& p, int side,
+                                           const std::function<double(std::size_t)>& force_of) {
+  const auto* const a = std::get_if<assembled>(&p.geometry.kind);
+  std::optional<std::size_t> most;
+  for (std::size_t i = 0; i < p.supports.size(); ++i) {
+    const bool is_moment = p.supports[i].dof != 0 || (a != nullptr && a->places.known() &&
+                                                      a->places.dofs[p.supports[i].node].direction > 3);
+    const double force = force_of(i);
+    if (!is_moment && (!most || side * (force - force_of(*most)) > tie_of(std::abs(force), 0.0))) most = i;
+  }
+  return most;
+}
+
+std::vector<std::size_t> step_results::hardest_supports(const problem& p) const {
+  const auto force_of = [this](std::size_t i) { return reactions[i]; };
+  const auto up = extreme_support(p, 1, force_of);
+  if (!up) return {};
+  std::vector<std::size_t> all = {*up, *extreme_support(p, -1, force_of)};
+  if (-reactions[all[1]] > above_ties * reactions[all[0]]) std::swap(all[0], all[1]);
+  const auto [most, other] = std::pair(reactions[all[0]], reactions[all[1]]);
+  if (most * other >= 0.0 || std::abs(other) <= tie_of(0.0, std::abs(most))) all.pop_back();
+  return all;
 }
 
 pair_reading reading_of(const contact_pair& p, double w, bool closed) {
@@ -114,11 +129,18 @@ step_results results_of(const problem& p, const load& l, const structure_state& 
 
 std::optional<force_balance> balance_of(const problem& p, const load& l, const step_results& r) {
   if (std::holds_alternative<assembled>(p.geometry.kind)) return {};
-  force_balance sums{resultant_of(p.geometry, l).force, 0.0, 0.0};
+  std::vector<double> held;
+  std::vector<double> pressed;
   for (std::size_t i = 0; i < r.reactions.size(); ++i)
-    if (p.supports[i].dof == 0) sums.reactions += r.reactions[i];
-  for (std::size_t i = 0; i < r.pairs.size(); ++i) sums.contact -= p.pairs[i].surface * r.pairs[i].force;
-  return sums;
+    if (p.supports[i].dof == 0) held.push_back(r.reactions[i]);
+  for (std::size_t i = 0; i < r.pairs.size(); ++i) pressed.push_back(-p.pairs[i].surface * r.pairs[i].force);
+  const auto sum_of = [](const std::vector<double>& forces) {  // 0 if the sum is only rounding
+    const double sum = std::accumulate(forces.begin(), forces.end(), 0.0);
+    const auto add_size = [](double size, double x) { return size + std::abs(x); };
+    const double size = std::accumulate(forces.begin(), forces.end(), 0.0, add_size);
+    return std::abs(sum) <= tie_of(0.0, size) ? 0.0 : sum;
+  };
+  return force_balance{resultant_of(p.geometry, l).force, sum_of(held), sum_of(pressed)};
 }
 
 std::vector<bed_reading> beds_in(const problem& p, const step_results& r, const structure_state& s) {
@@ -169,7 +191,7 @@ std::optional<penetration> deepest_penetration(const problem& p, const load& l, 
     const contact_pair& right = pairs[order[i + 1]];
     if (left.surface != right.surface || left.face != right.face || left.node == right.node) continue;
     if (std::min(order[i], order[i + 1]) >= contacts_of(p)) continue;  // a bed, whose pairs yield
-    const value_range w = deflections_between(*b, lines, u, left.node, right.node);
+    const value_range w = deflections_between(lines, u, left.node, right.node);
     const placed_value& outmost = left.surface == face_above ? w.most : w.least;
     const double at_pairs = std::max(
         {0.0, beyond(left, deflection_of(p, u, left.node)), beyond(right, deflection_of(p, u, right.node))});
@@ -199,12 +221,25 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// Widens the extreme `known` (side = 1: the largest value, -1: the least) to the value `now` of state `s`.
+/// Of values that are equal (tie_of, with the largest magnitude so far), the first keeps its place and state.
+template <class Value>
+void take(envelope::reached<Value>& known, int side, Value now, const structure_state& s, auto number_of,
+          double largest = 0.0) {
+  const double value = number_of(now);
+  if (!(side * (value - number_of(known.value)) > 0.0)) return;
+  const bool is_equal = known.step > 0 && std::abs(value - known.first) <= tie_of(std::abs(value), largest);
+  if (!is_equal) known = {now, s.step, s.number, value};
+  number_of(known.value) = value;
+}
+
 /// Widens the range `known` to the values `least` and `most` of state `s`.
 template <class Value>
 void take(envelope::range<Value>& known, const Value& least, const Value& most, const structure_state& s,
-          auto size_of) {
-  if (size_of(least) < size_of(known.least.value)) known.least = {least, s.step, s.number};
-  if (size_of(most) > size_of(known.most.value)) known.most = {most, s.step, s.number};
+          auto number_of) {
+  const double largest = std::max({0.0, -number_of(known.least.value), number_of(known.most.value)});
+  take(known.least, -1, least, s, number_of, largest);
+  take(known.most, 1, most, s, number_of, largest);
 }
 
 /// Widens the ranges of `all` by the results `r` of state `s`. The first state replaces infinite values.
@@ -218,7 +253,7 @@ void take(envelope& all, const step_results& r, const structure_state& s) {
   for (std::size_t i = 0; i < r.ranges.size(); ++i)
     take(all.values[i], r.ranges[i].least, r.ranges[i].most, s, std::mem_fn(&placed_value::value));
   for (std::size_t i = 0; i < r.pairs.size(); ++i)
-    if (r.pairs[i].force > all.pairs[i].value) all.pairs[i] = {r.pairs[i].force, s.step, s.number};
+    take(all.pairs[i], 1, r.pairs[i].force, s, std::identity{});
   for (std::size_t i = 0; i < r.reactions.size(); ++i)
     take(all.reactions[i], r.reactions[i], r.reactions[i], s, std::identity{});
 }

@@ -1,6 +1,7 @@
 // Results of a state: extremes, reactions and contact forces; and of a whole path: its envelope.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -21,7 +22,7 @@ namespace contct {
 [[nodiscard]] std::size_t contacts_of(const problem& p);
 
 /// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs of
-/// pairs and, if places are known, dofs along an axis; all dofs if there are neither.
+/// pairs and dofs along an axis, if places are known; otherwise all dofs.
 [[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);
 
 /// The name of a node in tables: its number, from 1, or its label in a matrix.
@@ -60,9 +61,14 @@ struct step_results {
 
   /// The pair with the largest contact force; empty if no force is positive.
   [[nodiscard]] std::optional<std::size_t> hardest_pair() const;
-  /// The support with the largest force; moments on supports do not count.
-  [[nodiscard]] std::optional<std::size_t> hardest_support(const problem& p) const;
+  /// The support with the largest force and, if others have forces of the other sign, the largest of these.
+  /// Moments on supports do not count.
+  [[nodiscard]] std::vector<std::size_t> hardest_supports(const problem& p) const;
 };
+
+/// The first support with the largest force (side = 1) or the least (-1); moments do not count.
+[[nodiscard]] std::optional<std::size_t> extreme_support(const problem& p, int side,
+                                                         const std::function<double(std::size_t)>& force_of);
 
 /// The results of state `s` under load `l`. numbers_of computes no ranges, stresses and pieces.
 [[nodiscard]] step_results numbers_of(const problem& p, const load& l, const structure_state& s);
@@ -107,11 +113,13 @@ struct penetration {
 /// The least and largest values on a path: after its increments, if path_states finds their displacements,
 /// and at the ends of its steps. Of combinations only the ends under full load count.
 struct envelope {
-  /// A value with its step and increment, from 1; increment 0: the step ended without an increment.
+  /// A value with its place, step and increment, from 1, which are the first of those with an equal value
+  /// (see tie_of). Increment 0: the step ended without an increment.
   template <class Value>
   struct reached {
     Value value;
     int step = 0, increment = 0;
+    double first = 0.0;  ///< the value in this step and increment
   };
   template <class Value>
   struct range {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -50,16 +49,6 @@ int widest_event(const problem& p) {
   return static_cast<int>(widest);
 }
 
-/// The largest magnitude of each quantity so far, by name. Values that are only its rounding print as 0.
-using sizes_so_far = std::map<std::string, double, std::less<>>;
-
-/// Returns `value`, or 0 if `value` is only rounding of the larger values of this name. Updates `sizes`.
-double without_rounding(std::string_view name, double value, sizes_so_far& sizes) {
-  double& size = sizes[std::string(name)];
-  size = std::max(size, std::abs(value));
-  return std::abs(value) <= 1e-12 * size ? 0.0 : value;
-}
-
 /// The range of the moment (mx, my or mxy of a plate) with the largest magnitude; null without moments.
 const value_range* bending(const std::vector<value_range>& ranges) {
   const value_range* most = nullptr;
@@ -74,29 +63,28 @@ const value_range* bending(const std::vector<value_range>& ranges) {
 
 /// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
 /// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and the other extremes.
-std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width,
-                                       sizes_so_far& sizes, bool all) {
+std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width, bool all) {
   std::vector<std::string> lines;
   const auto add = [&](std::string_view name, double value, const std::string& unit, const std::string& at) {
-    const std::string with_unit = fmt::format("{:.6g}{}", value, unit);
+    const std::string with_unit = fmt::format("{:.6g}{}", value + 0.0, unit);  // never -0
     std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, at);
     line.erase(line.find_last_not_of(' ') + 1);
     if (static_cast<int>(line.size()) > width) line = fmt::format("{} {}, {}", name, with_unit, at);
     lines.push_back(std::move(line));
   };
   const auto add_range = [&](std::string_view name, const value_range& v) {
-    const bool is_least = -v.least.value > (1 + 1e-9) * v.most.value;  // of equal sizes the positive value
-    const placed_value& first = is_least ? v.least : v.most;
-    const placed_value& other = is_least ? v.most : v.least;
-    const double most = without_rounding(name, first.value, sizes);
-    add(name, most, unit_words(p, v.name, first.node), most == 0.0 ? "" : place_words(p.geometry, first));
-    const double least = without_rounding(name, other.value, sizes);
-    if (all && least != 0.0 && std::abs(least - most) > 1e-9 * std::abs(most))
-      add("and", least, unit_words(p, v.name, other.node), place_words(p.geometry, other));
+    const placed_value& first = v.largest();
+    const placed_value& other = &first == &v.least ? v.most : v.least;
+    const double size = std::abs(first.value);
+    add(name, first.value, unit_words(p, v.name, first.node),
+        size == 0.0 ? "" : place_words(p.geometry, first));
+    // If there is only rounding beside the largest value, there is no second extreme.
+    if (all && std::abs(other.value) > tie_of(0.0, size) &&
+        std::abs(other.value - first.value) > tie_of(size, size))
+      add("and", other.value, unit_words(p, v.name, other.node), place_words(p.geometry, other));
   };
   const auto add_force = [&](std::string_view name, double force, int node, const std::string& at) {
-    const double value = without_rounding(name, force, sizes);
-    add(name, value, unit_words(p, "force", node), value == 0.0 ? "" : at);
+    add(name, force, unit_words(p, "force", node), force == 0.0 ? "" : at);
   };
   const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
   if (!r.ranges.empty()) add_range(of_matrix ? "u" : "w", r.ranges.front());
@@ -109,8 +97,10 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
   if (const auto pair = r.hardest_pair())
     add_force("contact force", r.pairs[*pair].force, p.pairs[*pair].node,
               fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
-  if (const auto i = r.hardest_support(p))
-    add_force("reaction", r.reactions[*i], p.supports[*i].node, place_words(p.geometry, p.supports[*i].node));
+  std::string_view name = "reaction";
+  for (const std::size_t i : r.hardest_supports(p))
+    add_force(std::exchange(name, "and"), r.reactions[i], p.supports[i].node,
+              place_words(p.geometry, p.supports[i].node));
   constexpr std::size_t most_faces = 4;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < r.pairs.size() && all; ++i)
@@ -123,12 +113,11 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
 
 /// The sums of loads, reactions and contact forces, and the results of each bed.
 std::vector<std::string> sum_lines(const problem& p, const load& acting, const structure_state& s,
-                                   const step_results& r, sizes_so_far& sizes) {
+                                   const step_results& r) {
   std::vector<std::string> lines;
   const auto words = [&](std::string_view name, double sum) {
-    return fmt::format("{} {:.6g}{}", name, without_rounding("sums", sum, sizes), unit_words(p, "force"));
+    return fmt::format("{} {:.6g}{}", name, sum + 0.0, unit_words(p, "force"));
   };
-  for (const double force : r.reactions) (void)without_rounding("sums", force, sizes);
   if (const auto sums = balance_of(p, acting, r))
     lines.push_back(fmt::format("{:<14}{}, {}, {}", "sums", words("loads", sums->loads),
                                 words("reactions", sums->reactions), words("contact", sums->contact)));
@@ -241,6 +230,11 @@ class table_printer {
     return run_.beside ? "1989" : run_.compared ? "kernels" : "";
   }
 
+  /// The displacements of a matrix are u, as in the rows of steps.
+  [[nodiscard]] std::string_view shown_name(std::string_view quantity) const {
+    return quantity == "w" && std::holds_alternative<assembled>(problem_.geometry.kind) ? "u" : quantity;
+  }
+
   /// Prints a step. Increments at the beginning of the step (see first_load) share one row.
   void print_step(std::size_t number) {
     const step_record& s = run_.record.steps[number];
@@ -349,14 +343,10 @@ class table_printer {
   }
 
   void print_end(const step_record& s, const std::optional<certificate>& judged) {
-    // A pair that separates at the end of a path keeps its status, without force, and is not counted.
-    auto closed = std::ranges::count(s.end.isep, in_contact);
-    if (!s.increments.empty())
-      for (const event& e : s.increments.back().events)
-        if (e.what == change::break_ && s.end.closed(e.pair)) --closed;
     std::string label = events_below_ ? "end " : "   end  ";
     const int width = terminal_.width - static_cast<int>(label.size());
-    std::vector<std::string> items = {fmt::format("{} of {} in contact", closed, s.end.isep.size())};
+    std::vector<std::string> items = {
+        fmt::format("{} of {} in contact", s.end.pairs_in_contact(), s.end.isep.size())};
     if (judged) items.push_back(digits_words(*judged));
     items.emplace_back(!judged ? "no certificate" : judged->certified ? "certified" : "NOT certified");
     if (const std::string& name = problem_.steps[s.end.step - 1].name; !name.empty())
@@ -372,9 +362,8 @@ class table_printer {
     const load acting = loads_.at(s.end.step, s.end.fraction);
     const step_results r = results_of(problem_, acting, s.end);
     for (std::size_t i = 0; i < r.ranges.size(); ++i) extremes_[i].emplace_back(s.end.step, r.ranges[i]);
-    std::vector<std::string> lines = largest_lines(problem_, r, width, sizes_, whole_ends_);
-    if (whole_ends_)
-      std::ranges::move(sum_lines(problem_, acting, s.end, r, sizes_), std::back_inserter(lines));
+    std::vector<std::string> lines = largest_lines(problem_, r, width, whole_ends_);
+    if (whole_ends_) std::ranges::move(sum_lines(problem_, acting, s.end, r), std::back_inserter(lines));
     for (const std::string& unbroken : lines)
       for (const std::string& line : wrap({unbroken}, width))
         text_ += painted(terminal_, paint::strong, label + line) + '\n';
@@ -418,36 +407,46 @@ class table_printer {
       if (!r.ranges.empty()) {
         const value_range* const moment = bending(r.ranges);
         const value_range& range = moment != nullptr ? *moment : r.ranges.front();
-        largest = fmt::format("{} {:.6g}", range.name, range.largest().value);
+        largest = fmt::format("{} {:.6g}", shown_name(range.name), range.largest().value + 0.0);
         place = place_words(problem_.geometry, range.largest());
       }
       text_ += fmt::format("{:<{}}  {:>4}  {:>7}  {:<20}{:<18} {}\n",
                            printable(problem_.steps[s.end.step - 1].name, name_width_at_most - 3), width,
-                           s.increments.size(), std::ranges::count(s.end.isep, in_contact), largest, place,
-                           verdict);
+                           s.increments.size(), s.end.pairs_in_contact(), largest, place, verdict);
     }
   }
 
   /// Prints the least and largest value of each quantity, each with its combination.
   void print_envelope() {
     const envelope e = envelope_of(run_);
+    if (e.states == 0) return;
     std::string lines;
-    const auto add = [&](const std::string& what, double value, const std::string& place, int step,
-                         std::string_view quantity) {
+    const auto add = [&](const std::string& what, const placed_value& at, int step, std::string_view quantity,
+                         const std::string& before = "") {
       lines += fmt::format("{:<17} {:<19} {:<22} {}\n", what,
-                           fmt::format("{:.6g}{}", value, unit_words(problem_, quantity)), place,
+                           fmt::format("{:.6g}{}", at.value + 0.0, unit_words(problem_, quantity, at.node)),
+                           before + place_words(problem_.geometry, at),
                            on_one_line(problem_.steps[step - 1].name));
+    };
+    const auto at_node = [&](double force, int node) {
+      const place at = place_of_node(problem_.geometry, node);
+      return placed_value{force, at.x, at.y, node};
     };
     for (std::size_t i = 0; i < e.names.size(); ++i)
       for (const auto& [word, at] :
            {std::pair("least", &e.values[i].least), std::pair("largest", &e.values[i].most)})
-        add(fmt::format("{} {}", word, e.names[i]), at->value.value,
-            place_words(problem_.geometry, at->value), at->step, e.names[i]);
+        add(fmt::format("{} {}", word, shown_name(e.names[i])), at->value, at->step, e.names[i]);
     const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
-    if (force != e.pairs.end() && force->value > 0.0)
-      add("largest contact", force->value, fmt::format("pair {}", force - e.pairs.begin() + 1), force->step,
-          "force");
-    if (lines.empty()) return;
+    if (const auto pair = static_cast<std::size_t>(force - e.pairs.begin());
+        force != e.pairs.end() && force->value > 0.0)
+      add("largest contact", at_node(force->value, problem_.pairs[pair].node), force->step, "force",
+          fmt::format("pair {}, ", pair + 1));
+    for (const int side : {-1, 1}) {
+      const auto of = [&](std::size_t i) { return side < 0 ? e.reactions[i].least : e.reactions[i].most; };
+      if (const auto i = extreme_support(problem_, side, [&of](std::size_t k) { return of(k).value; }))
+        add(side < 0 ? "least reaction" : "largest reaction",
+            at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, "force");
+    }
     text_ += '\n';
     print_heading("all combinations");
     text_ += lines;
@@ -457,11 +456,11 @@ class table_printer {
   void print_extremes() {
     for (const auto& [number, of_steps] : extremes_) {
       text_ += '\n';
-      print_heading(fmt::format("{:<8}  {:>12}  {:<24}  {:>12}  at", of_steps.front().second.name, "least",
-                                "at", "largest"));
+      print_heading(fmt::format("{:<8}  {:>12}  {:<24}  {:>12}  at", shown_name(of_steps.front().second.name),
+                                "least", "at", "largest"));
       for (const auto& [step, v] : of_steps)
-        text_ += fmt::format("step {:<3}  {:>12.6g}  {:<24}  {:>12.6g}  {}\n", step, v.least.value,
-                             place_words(problem_.geometry, v.least), v.most.value,
+        text_ += fmt::format("step {:<3}  {:>12.6g}  {:<24}  {:>12.6g}  {}\n", step, v.least.value + 0.0,
+                             place_words(problem_.geometry, v.least), v.most.value + 0.0,
                              place_words(problem_.geometry, v.most));
     }
   }
@@ -476,7 +475,6 @@ class table_printer {
   int indent_ = 0;                         // indent of the events
   bool events_below_ = false;              // on a narrow terminal events have separate lines
   bool headed_ = false, snapped_ = false;  // true: a heading, a snap was printed
-  sizes_so_far sizes_;
   /// By the index of a quantity in step_results::ranges: each step (from 1) with its range.
   std::map<std::size_t, std::vector<std::pair<int, value_range>>> extremes_;
   std::string text_;

@@ -406,10 +406,13 @@ std::vector<std::string> refinement_words(const run_result& r) {
   const problem& p = r.what;
   std::vector<std::string> items;
   for (const auto& [kind, change, of] : r.refined) {
-    const double shown = change <= 1e-9 * of ? 0.0 : change;
-    items.push_back(fmt::format("{}{} by {:.3g}{} ({:.2g} % of {:.4g})",
-                                items.empty() ? "half the element size changes " : "", kind, shown,
-                                unit_words(p, kind), shown == 0.0 ? 0.0 : 100 * shown / of, of));
+    const double percent = change == 0.0 ? 0.0 : 100 * change / of;
+    const std::string by =
+        0.0 < change && percent <= 1e-7
+            ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit_words(p, kind))
+            : fmt::format("{:.3g}{} ({:.2g} % of {:.4g})", change, unit_words(p, kind), percent, of);
+    items.push_back(
+        fmt::format("{}{} by {}", items.empty() ? "half the element size changes " : "", kind, by));
   }
   if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"

@@ -10,7 +10,7 @@ const digits = (x, count) => minus(String(Number(x.toPrecision(count))));
 const short = (x) => (x === null || x === undefined ? "–" : digits(x, 7));
 const rough = (x) => digits(x, 4);
 const counted = (n, what) => `${n.toLocaleString("en")} ${what}${n === 1 ? "" : "s"}`;
-const sentence = (text) => text[0].toUpperCase() + text.slice(1) + ".";
+const sentence = (text) => (/^contct /.test(text) ? text : text[0].toUpperCase() + text.slice(1)) + "."; // a command keeps its case
 // The word for a displacement: "deflection" of a node, or "displacement" of a dof of a matrix.
 const moves = () => (ofMatrix ? "displacement" : "deflection");
 const unitOf = () => (ofMatrix ? "dof" : "node");
@@ -37,9 +37,9 @@ function placeOf(v) {
   const node = structure.nodes.find((n) => n.x === v.x && (v.y === undefined || n.y === v.y));
   return node === undefined ? `x = ${rough(v.x)}` : placed(node.node);
 }
-// The one of `min` and `max` with the larger magnitude, followed by the other one if their signs differ.
+// The one of `min` and `max` with the larger magnitude (of equal ones `max`), then the other one if their signs differ.
 function toldOf({ min, max }) {
-  const [first, second] = -min.value > max.value ? [min, max] : [max, min];
+  const [first, second] = -min.value > (1 + 1e-9) * max.value ? [min, max] : [max, min];
   return second.value * first.value < -1e-9 * first.value ** 2 ? [first, second] : [first];
 }
 const largestOf = (range) => toldOf(range)[0];

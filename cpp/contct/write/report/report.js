@@ -14,12 +14,12 @@ let followed = null; // the dof of the chart: that with the largest deflection
 const sumOf = (f) => f.load.force ?? f.load.sum ?? 0;
 const measure = (f) => (byForce ? sumOf(f) : f.step === 0 ? 0 : f.step - 1 + f.fraction);
 
-// The dofs that are deflections. In a matrix: dofs of pairs and dofs along an axis; all dofs if there are no such dofs.
+// The dofs that are deflections. In a matrix with known places: dofs of pairs and dofs along an axis.
 function deflections() {
   const paired = new Set(places.pairs.map((p) => p.u));
   const all = places.dofs.map((d, u) => ({ ...d, u }));
   const lengths = all.filter(({ u, at, direction }) => paired.has(u) || (at >= 0 && direction >= 1 && direction <= 3));
-  return lengths.length > 0 ? lengths : all;
+  return structure.places_from ? lengths : all;
 }
 
 function prepareChart() {
