@@ -80,7 +80,8 @@ void print_result(const fuzz_result& r) {
                 {fmt::format("{} calls, {} problems, {:.1f} s", r.calls, r.problems, r.seconds),
                  fmt::format("events: {} make, {} break, {} of them stationary", r.events.make,
                              r.events.break_, r.events.stationary),
-                 fmt::format("each outcome of each IF occurred {} times or more", r.branches.rarest())});
+                 fmt::format("each outcome of each IF occurred {} times or more", r.branches.rarest()),
+                 "ISEP from -2 to 2, ISURF 1 or -1; contct prove covers every ISEP and ISURF"});
   for (const fuzz_follower& f : r.followers)
     print_wrapped(t, f.compared.mismatches == 0 ? paint::good : paint::bad,
                   {follower_words(f, r.request.kernels[0])});

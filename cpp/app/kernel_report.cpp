@@ -53,10 +53,11 @@ std::string report_json(const kernel_report& r) {
       fmt::format(" \"calls\": {},\n \"values_compared\": {},\n \"mismatches\": {},\n \"rung\": \"{}\",\n",
                   r.calls, r.compared.values, r.compared.mismatches, r.rung);
   const std::string at_fault =
-      !r.at_fault ? "null"
-                  : fmt::format(R"({{ "line": {}, "statement": {}, "explained": {}, "differ": {} }})",
-                                r.at_fault->at.number, quoted(r.at_fault->at.statement),
-                                r.at_fault->explained, r.at_fault->differ);
+      !r.at_fault || r.at_fault->at.number == 0
+          ? "null"
+          : fmt::format(R"({{ "line": {}, "statement": {}, "explained": {}, "differ": {} }})",
+                        r.at_fault->at.number, quoted(r.at_fault->at.statement), r.at_fault->explained,
+                        r.at_fault->differ);
   return json_escaped(text +
                       fmt::format(" \"traces\": [{}],\n \"first_mismatch\": [{}],\n \"at_fault\": {}\n}}\n",
                                   joined(traces, ","), joined(first_mismatch, ", "), at_fault));

@@ -99,6 +99,7 @@ exit_status run_command(const replay_options& options) {
       if (!silent)
         print_text(fmt::format("{}: {}\n", whole_line(r.name),
                                painted(t, paints[static_cast<int>(r.what)], r.summary)));
+      flush_standard_output();  // the result comes before the messages
       if (!r.details.empty())
         complain("{}: {}", whole_line(r.name), r.details.substr(0, r.details.size() - 1));
       report.results.push_back(std::move(r));

@@ -4,7 +4,7 @@ The problem of `run`, `exact`, `explain`, `check` and `certify` is a file (a pat
 text of a problem file (a str with a line break), or a dict with the same keys. These functions return the
 program's JSON, with each key as an attribute and as an item. Bad input raises `InputError`. Several threads may call
 the functions.
-reference/python.md has examples and all options.
+reference/python.md has examples; the help of each function has its options.
 """
 from __future__ import annotations
 
@@ -500,6 +500,8 @@ def _source(given: Any, ending: str, what: str, folder: Folder = None, allow_out
     else:
         shown = repr(given) if isinstance(given, str) else f"a {type(given).__name__}"
         or_dict = ", or a dict" if what == "problem" else ""
+        if hasattr(given, "tocoo"):
+            raise TypeError(f"{what}: {_MATRIX}")
         kind: type[Exception] = InputError if isinstance(given, str) else TypeError
         raise kind(f"{what}: found {shown}; allowed: a path or a name that ends in \"{ending}\", a text with a line break"
                    f"{or_dict}")
@@ -521,6 +523,8 @@ def read(path: Union[str, os.PathLike[str]]) -> dict[str, Any]:
             raise InputError(str(error), os.fspath(path), *(map(int, place.groups()) if place else ())) from error
 
 
+_MATRIX = ("found a matrix; allowed: the name of a file in [matrix], which "
+           "scipy.io.mmwrite(FILE, matrix, symmetry=\"symmetric\") writes; only `certify` takes a matrix in memory")
 _ESCAPES: dict[str, str] = {'"': '\\"', "\\": "\\\\", "\b": "\\b", "\t": "\\t", "\n": "\\n", "\f": "\\f", "\r": "\\r"}
 
 
@@ -553,6 +557,8 @@ def _toml_value(value: Any, where: str) -> str:
         return "{ " + ", ".join(inside) + " }" if inside else "{}"
     if isinstance(value, (list, tuple, range)):
         return "[" + ", ".join(_toml_value(item, f"{where}[{i}]") for i, item in enumerate(value, 1)) + "]"
+    if hasattr(value, "tocoo"):
+        raise InputError(f"{where}: {_MATRIX}")
     shown = repr(value) if isinstance(value, (int, Decimal)) or value is None else f"a {type(value).__name__}"
     raise InputError(f"{where}: found {shown}; allowed: true, false, an int of 64 bits, a float, a Decimal, a text, a list, "
                      "a dict, an array")
@@ -586,9 +592,11 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional[str] = None, final_only: bool = False,
         envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
         folder: Folder = None, allow_outside: bool = False) -> Result:
-    """Follow the path of a problem: `contct run`. reference/python.md has the options.
+    """Follow the path of a problem: `contct run`.
 
-    `kernels` are names, or one text with commas; None selects both rules. With `strict`, NotSolved is raised unless all
+    `kernels` are names, or one text with commas; None selects both rules. `engine` is one of `about().engines`.
+    `final_only` computes only the ends of the steps; `envelope` and `states` add the extremes over all increments and
+    the state after each; `max_increments` is the limit of increments (0: the default). With `strict`, NotSolved is raised unless all
     steps are solved and certified and the kernels are equal. `folder` is the folder of files that a text or a dict
     names. Raises InputError for a bad problem or option."""
     source = _source(problem, ".toml", "problem", folder, allow_outside)
@@ -635,7 +643,8 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
     `displacement` has, for each of the first steps, the displacement of every dof under the whole load: w and theta of
     each node of a beam; w, wx and wy of each node of a plate; the rows of a matrix in their order. Values are
     lengths, positive up, and slopes. `problem` may also be a stiffness matrix that has the method `tocoo()`, such as a
-    SciPy sparse matrix; reference/python.md describes the arguments for it. `closed` has the pairs in contact for each
+    SciPy sparse matrix; then `loads` has a number for each dof, `pairs` has tuples (dof, surface, face, stiffness), and
+    `supports` has fixed dofs, or a dict of springs. Rows and dofs are numbered from 0. `closed` has the pairs in contact for each
     state, from 1; None selects the pairs whose faces the state touches or penetrates. The result has `w`, `pairs`,
     `error` and `certificate` of each state, and no increments; its `answer` is the equilibrium.
     """
@@ -690,12 +699,16 @@ def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, sup
     def name_of(dof: Union[int, str], where: str) -> str:
         if isinstance(dof, str):
             return dof
-        if not 0 <= operator.index(dof) < size:
-            raise InputError(f"{where}: found dof {dof}; allowed: a row of the matrix, from 0 to {size - 1}, or a label")
+        if not hasattr(dof, "__index__") or not 0 <= operator.index(dof) < size:
+            raise InputError(f"{where}: found dof {dof!r}; allowed: a row of the matrix, from 0 to {size - 1}, or a label")
         return names[dof]
 
     if not isinstance(loads, Mapping):
-        vector = [float(load) for load in (() if loads is None else loads)]
+        try:
+            vector = [float(load) for load in (() if loads is None else loads)]
+        except (TypeError, ValueError) as error:
+            raise InputError(f"loads: found {getattr(loads, 'shape', loads)}: {error}; allowed: {size} numbers, one for each "
+                             "dof, or a dict of numbers") from error
         if len(vector) != size:
             raise InputError(f"loads: found {_count(len(vector), 'number')}; allowed: {size}, one for each dof, or a dict")
         loads = dict(enumerate(vector))
@@ -706,8 +719,8 @@ def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, sup
     (folder / "labels").write_text("\n".join(names) + "\n")
     contacts = []
     for number, pair in enumerate(pairs, 1):
-        if len(pair) != 4:
-            raise InputError(f"pairs: found {len(pair)} values in pair {number}; allowed: dof, surface, face, stiffness")
+        if isinstance(pair, (str, Mapping)) or not hasattr(pair, "__len__") or len(pair) != 4:
+            raise InputError(f"pairs: found {pair!r} as pair {number}; allowed: (dof, surface, face, stiffness)")
         contacts.append(dict(zip(("dof", "surface", "face", "stiffness"), (name_of(pair[0], f"pair {number}"), *pair[1:]))))
     held = [{"dof": name_of(dof, "supports"), ("fix" if spring is None else "spring"): True if spring is None else spring}
             for dof, spring in springs.items()]

@@ -64,6 +64,9 @@ TEST_CASE(
   CHECK(f.exit == 1);
   CHECK_THAT(f.err, Contains("differs in text, line 1") && Contains("branch margin: "));
   CHECK_THAT(f.out, Contains("mismatch; 6 calls, 24 values compared, 1 mismatch"));
+  const std::string both =
+      shell(std::string(CONTCT_PROGRAM) + " replay " + (dir.path() / "d.trace").string() + " 2>&1").out;
+  CHECK(both.find("mismatch; 6 calls") < both.find("differs in text"));  // the result, then the messages
   CHECK_THAT(dir.read("r.xml"), Contains("failures=\"1\""));
   CHECK_THAT(dir.read("r.md"), Contains("## contct replay: failed"));
 }

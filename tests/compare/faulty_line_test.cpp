@@ -61,11 +61,10 @@ TEST_CASE(
   }
   note(all, four_pairs(2e-9), [](call_outputs&) {});
   REQUIRE(all.found());
-  CHECK(
-      words_of(*all.found()) ==
-      "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 2 values that differ, in 2 call(s); in these "
-      "ABS(GAP) was "
-      "2e-10 to 5e-10");
+  CHECK(words_of(*all.found()) ==
+        "line 33, ELSE IF (ABS(GAP).LT.EPSGAP) THEN: explains all 2 values that differ, in 2 calls; in these "
+        "ABS(GAP) was "
+        "2e-10 to 5e-10");
 }
 
 TEST_CASE(
@@ -82,6 +81,68 @@ TEST_CASE(
   CHECK(line_of(rounded) == 38);
   CHECK(line_of(negative) == 30);
 }
+
+TEST_CASE("line 38 is reported for a kernel that cuts the quotient off at 1 or at 0") {
+  fault_finder at_1, at_0;
+  for (const double gap : {3.0, 5.0, 7.0}) {
+    note(at_1, four_pairs(gap), [](call_outputs& o) { o.ss[2] = 1.0; });
+    note(at_0, four_pairs(-gap), [](call_outputs& o) { o.ss[2] = 0.0; });
+  }
+  CHECK(line_of(at_1) == 38);
+  CHECK(line_of(at_0) == 38);
+}
+
+TEST_CASE(
+    "line 51 is reported for a product instead of the quotient DIFF, which underflows if SMIN is small") {
+  fault_finder all;
+  const std::vector<pair_at<double>> many(200, {0.0, 1.0, 0.5, separated, face_above});
+  for (int times = 0; times < 3; ++times) {
+    note(all, small_call<double>(many).ask(), [](call_outputs&) {});
+    note(all, small_call<double>({{0.0, 1e303, 0.0, separated, face_above}}).ask(), [](call_outputs& o) {
+      REQUIRE(o.smin == 0x2p-1074);
+      o.isep[0] = separated;  // 2^-1073 / 256 is zero
+    });
+  }
+  REQUIRE(all.found());
+  CHECK(words_of(*all.found()) ==
+        "line 51, DIFF = ABS(SS(I) - SMIN) / SMIN: explains all 3 values that differ, in 3 calls; lines 51 "
+        "and 52 "
+        "are computed in another way, which rounds or underflows");
+}
+
+TEST_CASE("an SS that is equal to the mark of an unset SS is not counted as explained") {
+  fault_finder all;
+  const auto first_is_unset = [](call_outputs& o) { o.ss[0] = not_an_answer; };
+  note(all, small_call<double>({{0.0, 1.0, not_an_answer, separated, face_above}}).ask(), first_is_unset);
+  note(all, four_pairs(3.0), [&](call_outputs& o) {
+    first_is_unset(o);
+    o.smin = 1.0;
+    o.isep[0] = separated;
+  });
+  REQUIRE(all.found());
+  CHECK(words_of(*all.found()) == "line 27, DO 10 I = 1, NC: explains the 1 value that differs, in 1 call");
+}
+
+#ifdef __SSE2__
+TEST_CASE("flushed subnormals are reported instead of a line, but not for a kernel that keeps some of them") {
+  fault_finder flushes, tolerates;
+  for (int times = 0; times < 3; ++times) {
+    const small_call<double> tiny = small_call<double>({{0.0, 0x1p-1074, -0.5, separated, face_above}}).ask();
+    const small_call<double> quotient =
+        small_call<double>({{0.0, 0x1p1000, 1e-9, separated, face_above}}).ask();
+    const auto no_response = [](call_outputs& o) { o.ss[0] = 1.0; };
+    note(flushes, tiny, no_response);
+    note(flushes, quotient, [](call_outputs& o) { o = {1.0, {0.0}, {separated}, ""}; });
+    note(tolerates, tiny, no_response);
+    note(tolerates, quotient, [](call_outputs&) {});
+  }
+  REQUIRE(flushes.found());
+  CHECK_THAT(words_of(*flushes.found()),
+             Catch::Matchers::Contains("FTZ or DAZ") &&
+                 Catch::Matchers::Contains("-ffast-math): explains all 6 values"));
+  CHECK(line_of(tolerates) == 31);
+}
+#endif
 
 TEST_CASE("line 52 is reported for a wrong threshold of DIFF, and line 51 for a wrong DIFF") {
   fault_finder threshold, no_threshold;

@@ -62,10 +62,13 @@ TEST_CASE("a kernel command that ends is reported, and the next call starts a ne
 
 TEST_CASE("a kernel command is stopped if it does not answer, closes the pipe or writes too much") {
   const leftovers left;
-  CHECK(put_to_pipe("exec cat >/dev/null") == "it did not answer within 500 ms");
+  const std::string wanted = "; allowed: an answer that ends with the line \"end\", and a flush after it";
+  CHECK(put_to_pipe("exec cat >/dev/null") == "it did not answer within 500 ms: found nothing" + wanted);
   CHECK(put_to_pipe("exec sleep 100 <&- >&-") == "it closed its end of the pipe");
-  CHECK_THAT(put_to_pipe("exec yes 2>/dev/null"), Contains("it answered more than 10") && Contains("bytes"));
-  CHECK(put_to_pipe("printf 'smin 0x1p+0\\n'; exec cat >/dev/null") == "it did not answer within 500 ms");
+  CHECK_THAT(put_to_pipe("exec tr '\\0' y </dev/zero 2>/dev/null"),
+             Contains("it answered more than 10") && Contains("bytes"));
+  CHECK(put_to_pipe("printf 'smin 0x1p+0\\n'; exec cat >/dev/null") ==
+        "it did not answer within 500 ms: found \"smin 0x1p+0\\x0a\"" + wanted);
   left.check();
 }
 
@@ -73,6 +76,18 @@ TEST_CASE("an invalid answer of a kernel command is refused, with what was found
   const auto answering = [](const std::string& text) {
     return put_to_pipe("printf '" + text + "'; exec cat >/dev/null");
   };
+  const std::string pairs = "pair 1 ss 1 isep 1\\npair 2 ss 1 isep -1\\n";
+  CHECK(answering("smin 1\\r\\npair 1 ss 1 isep 1\\r\\npair 2 ss 1 isep -1\\r\\nend\\r\\n").empty());
+  CHECK(answering("smin 1\\rpair 1 ss 1 isep 1\\rpair 2 ss 1 isep -1\\rend\\r") ==
+        "it ends lines with CR alone; allowed: LF, or CR LF");
+  for (const char* number : {"1D0", "1.0D+00", "1,0", "+1", " 1"})
+    CHECK_THAT(answering("smin " + std::string(number) + "\\n" + pairs + "end\\n"),
+               Contains("its answer:1: found smin " + std::string(number) +
+                        "; allowed: \"smin X\", X such as 1.1e-20") &&
+                   Contains("(E, not D)") && Contains("one blank between words"));
+  for (const char* end : {"END", " end", "end ", "done", ""})
+    CHECK_THAT(answering("smin 1\\n" + pairs + end + "\\n"),
+               Contains("its answer:4: found " + std::string(end) + "; allowed: ") && Contains("\"end\""));
   CHECK_THAT(answering("hello\\nend\\n"),
              Contains("gave an invalid answer: its answer:1: found hello; allowed: \"smin X\""));
   CHECK_THAT(answering("smin 1\\nend\\n"),

@@ -76,7 +76,12 @@ def test_supports_of_a_matrix_are_fixed_dofs_or_springs():
 
 @pytest.mark.parametrize("wrong, words", [
     ({"pairs": [(3, "below", 0.0, 1.0)]}, "pair 1: found dof 3; allowed: a row of the matrix, from 0 to 2, or a label"),
-    ({"pairs": [(2, "below", 0.0)]}, "pairs: found 3 values in pair 1; allowed: dof, surface, face, stiffness"),
+    ({"pairs": [(2, "below", 0.0)]}, "pairs: found (2, 'below', 0.0) as pair 1; allowed: (dof, surface, face, stiffness)"),
+    ({"pairs": [{"dof": 2, "surface": "below", "face": 0.0, "stiffness": 1.0}]}, "pairs: found {'dof': 2"),
+    ({"pairs": ["abcd"]}, "pairs: found 'abcd' as pair 1"),
+    ({"pairs": (2, "below", 0.0, 1.0)}, "pairs: found 2 as pair 1"),
+    ({"pairs": [(0.5, "below", 0.0, 1.0)]}, "pair 1: found dof 0.5; allowed: a row of the matrix"),
+    ({"loads": [[0.0], [0.0], [-3.0]]}, "allowed: 3 numbers, one for each dof, or a dict of numbers"),
     ({"pairs": [(2, "beside", 0.0, 1.0)]}, 'contact[1].surface: found "beside"; allowed: "below" or "above"'),
     ({"pairs": [("x", "below", 0.0, 1.0)]}, 'contact[1].dof: found "x"'),
     ({"loads": [1.0]}, "loads: found 1 number; allowed: 3, one for each dof, or a dict"),
@@ -101,6 +106,12 @@ def test_a_matrix_that_is_not_a_stiffness_matrix_is_refused(matrix, words):
     with pytest.raises(contct.InputError) as refused:
         contct.certify(matrix, [0.0, 0.0], pairs=[(0, "below", 0.0, 1.0)], loads=[0.0, -1.0])
     assert words in str(refused.value) and "/" not in str(refused.value)
+
+
+def test_contct_run_refuses_a_matrix_in_memory_and_names_the_function_that_writes_the_file():
+    for problem in CHAIN, {"matrix": {"stiffness": CHAIN}}, {"matrix": CHAIN}:
+        with pytest.raises((contct.InputError, TypeError), match="found a matrix; allowed: .*scipy.io.mmwrite"):
+            contct.run(problem)
 
 
 def test_contct_certify_refuses_loads_of_a_matrix_together_with_a_problem(beam):

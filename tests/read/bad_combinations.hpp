@@ -53,6 +53,12 @@ inline std::vector<bad_input> bad_combinations() {
        "an empty table", "{ G = 1.35 }"},
       {"a case that is not there", cases_with(combination + "terms = { H = 1 }\n"), "17:15",
        "combination[1].terms.H", "no [[case]] of this name", "the name of a [[case]]: G"},
+      {"a train in a combination",
+       train_with(places) + "[[combination]]\nname = \"C\"\nterms = { G = 1, T = 1 }\n", "23:22",
+       "combination[1].terms.T", "a [[train]], which has terms of its own", "the name of a [[case]]: G"},
+      {"a combination in a combination", cases_with(combination + "terms = { C = 1 }\n"), "17:15",
+       "combination[1].terms.C", "a [[combination]], which has terms of its own",
+       "the name of a [[case]]: G"},
       {"a case nearly of this name",
        cases_with("[[case]]\nname = \"crane left\"\nuniform = -1\n[[combination]]\nname = \"C\"\n"
                   "terms = { \"crane lift\" = 1 }\n"),

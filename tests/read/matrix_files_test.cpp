@@ -8,7 +8,9 @@
 
 #include "catch.hpp"
 #include "contct/matrix/stiffness_matrix.hpp"
+#include "contct/text/input_text.hpp"
 #include "read/refusals.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct;
 
@@ -116,6 +118,8 @@ TEST_CASE("a mistake in a Matrix Market matrix is refused with line, what was fo
           {replaced(good_matrix, "3 3 5", "3 3 2147483646"), "K.mtx:7",
            "the end of the file after 5 of 2147483646", "line 2"},
           {replaced(good_matrix, "3 3 5", "3 3 4"), "K.mtx:7", "more than 4 entries", "4, as line 2"},
+          {replaced(good_matrix, "3 3 5\n", "3 3 5\n% forces in N\n"), "K.mtx:3", "a comment",
+           "comments between the header and the size"},
           {good_matrix.substr(0, good_matrix.size() - 1), "K.mtx:7", "\"3 3 1\" without a line end",
            "a line end"},
           {replaced(good_matrix, "2 1 -1", "1 2 -1"), "K.mtx:4", "row 1 and column 2, above",
@@ -207,12 +211,24 @@ TEST_CASE("a file of dof labels has one label a line, and blank lines and surrou
   CHECK(parse_labels("5.1\n5.2 \r\n\n185.3\n", "job.dof") == std::vector<std::string>{"5.1", "5.2", "185.3"});
 }
 
+TEST_CASE("a byte order mark at the start of a file is skipped, unless the file is a trace") {
+  const scratch_folder folder;
+  folder.write("K.dof",
+               "\xEF\xBB\xBF"
+               "5.1\n");
+  folder.write("K.mtx", "\xEF\xBB\xBF" + good_matrix);
+  CHECK(parse_labels(read_input(folder.at("K.dof")), "K.dof") == std::vector<std::string>{"5.1"});
+  CHECK(parse_symmetric(read_input(folder.at("K.mtx")), "K.mtx").order == 3);
+  CHECK(read_input(folder.at("K.dof"), "trace").size() == 7);
+}
+
 TEST_CASE("a mistake in a file of dof labels is refused with line, what was found and what is allowed") {
   check_refusals(
       {
           {"", "K.dof", "no label", "one label a line"},
           {"\n \n", "K.dof", "no label", "one label a line"},
-          {"5.1\n5.2\n5.1\n", "K.dof:3", "label \"5.1\" a second time, after line 1", "each label once"},
+          {"5.1\n5.2\n5.1\n", "K.dof:3", "the label of line 1 a second time", "each label once"},
+          {"tip\nend\nend\n", "K.dof:3", "the label of line 2 a second time", "each label once"},
           {"5.1\n5 2\n", "K.dof:2", "\"5 2\"", "one label a line"},
           {std::string(101, 'n') + "\n", "K.dof:1", "a word of 101 bytes", "at most 100 bytes"},
       },

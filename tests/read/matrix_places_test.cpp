@@ -64,7 +64,7 @@ TEST_CASE("a mistake in a file of coordinates is refused with line, what was fou
           {good_places + "c 1 # 2\n", "K.xyz:5", "a line of 7 bytes", "name x y"},
           {good_places + "c 1 2 3 4\n", "K.xyz:5", "a line of 9 bytes", "name x y"},
           {good_places + "c 1 2 3\n", "K.xyz:5", "3 coordinates for node \"c\"", "2, as in the lines before"},
-          {good_places + "b 1 2\n", "K.xyz:5", "node \"b\" a second time, after line 4", "each node once"},
+          {good_places + "b 1 2\n", "K.xyz:5", "the node of line 4 a second time", "each node once"},
           {good_places + "c nan 2\n", "K.xyz:5", "\"nan\" for x", "finite"},
           {good_places + "c 1 2", "K.xyz:5", "a line of 5 bytes without a line end", "a line end"},
       },

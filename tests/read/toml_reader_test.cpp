@@ -45,7 +45,7 @@ TEST_CASE(
   CHECK(value("n = [1, 2.5]", reals) == std::vector<double>{1.0, 2.5});
   CHECK(value("n = 3", [](const toml_value& t) { return t["n"].integer(3, 3); }) == 3);
   CHECK(refusal("\n n = 3.0", [](const toml_value& t) { return t["n"].integer(1, 5); }) ==
-        "f.toml:2:6: n: found 3; allowed: a whole number from 1 to 5");
+        "f.toml:2:6: n: found 3.0; allowed: a whole number from 1 to 5");
 }
 
 TEST_CASE(

@@ -1,7 +1,7 @@
 """consumers.py ROOT LANGUAGE [PROGRAM [REPLAY]]: tests that the consumer of reference/vectors/consumers in this
 language accepts the correct kernel, and detects each fault of faults.toml. With PROGRAM (contct), `replay` and `fuzz`
 must give the same verdicts on the kernels, and the faulty line of the listing must be that of the mutant with the same
-name. With REPLAY (the static contct-replay), it must give the same verdicts on the kernels as commands. Exit status 77:
+name. Each judge must name the first wrong value of the first wrong call, and its right value. With REPLAY (the static contct-replay), it must give the same verdicts on the kernels as commands. Exit status 77:
 the language is not installed.
 """
 import json
@@ -38,6 +38,7 @@ OUTSIDE = {
     "python": ("", "pipe:python3 contct_kernel.py", 5000),
 }
 EXCEPTION = "python", "s-ge"  # it divides by SMIN = 0, and then has no answer that leads to a line
+FIRST = re.compile(r"^(.+), call (\d+)(?: \(.*\))?: found (SS\((\d+)\)|SMIN|ISEP\((\d+)\)) (\S+), expected (\S+)$", re.M)
 PIPES = {
     "c": (f"cc {STRICT} -I ROOT/cpp -o mine ROOT/reference/adopt/pipe_main.c contct_kernel.c -lm", "./mine"),
     "fortran": (f"gfortran {STRICT} -o mine ROOT/reference/adopt/pipe_main.c contct_kernel.f90 -lm", "./mine"),
@@ -75,6 +76,20 @@ def judgements(root, language, folder, program, replay):
     return found
 
 
+def misnamed(said, document):
+    """Returns what is wrong in a judge's line about the first wrong value, or an empty text."""
+    first = FIRST.search(said)
+    if not first:
+        return "it names no value"
+    case, number, field, pair, toggled, found, expected = first.groups()
+    call = next(call for c in document["cases"] if c["name"] == case for call in c["calls"] if call["call"] == int(number))
+    words = call["ss"]["decimal"][int(pair) - 1] if pair else call["isep_after"][int(toggled) - 1] if toggled else call["smin"]["decimal"]
+    right = float(words)
+    if not (right == float(expected) or right != right != float(expected)):
+        return f"{field}: it names {expected} as right; allowed: {words}"
+    return f"{field}: found equals expected" if float(found) == right and str(float(found)) == str(right) else ""
+
+
 def lines_at_fault(name):
     """Returns the faulty lines of the listing's mutant with this name."""
     table = tomllib.loads((HERE.parent / "mutants/mutants.toml").read_text())
@@ -103,6 +118,9 @@ def main(root, language, program=None, replay=None):
         for who, (status, said, _) in found.items():
             if status != (1 if edit else 0) or (not edit and who == "vectors" and f"{calls} calls" not in said):
                 return f"{language}, {name}, judged by {who}: found exit status {status}, allowed: {1 if edit else 0}\n{said[-2000:]}"
+            wrong = edit and who == "vectors" and (language, name) != EXCEPTION and misnamed(said, document)
+            if wrong or f"{calls} calls, " not in said and who == "vectors":
+                return f"{language}, {name}, judged by {who}: {wrong or 'it ended early'}\n{said[-2000:]}"
             named = {int(line) for line in re.findall(r"at fault: line (\d+),", said)}
             if edit and who != "vectors" and not ((named or (language, name) == EXCEPTION) and named <= lines_at_fault(name)):
                 return f"{language}, {name}, judged by {who}: found lines {named}, allowed: {lines_at_fault(name)}\n{said[-2000:]}"

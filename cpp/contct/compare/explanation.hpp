@@ -20,6 +20,9 @@ struct listing_line {
 
 namespace listing {
 
+/// Not a line, but the mode of arithmetic.
+inline constexpr listing_line flushing{
+    0, "no line of the listing, but subnormals flushed to zero (FTZ or DAZ; build without -ffast-math)"};
 inline constexpr listing_line arguments{19,
                                         "SUBROUTINE CONTCT (DD, DTEST, CC, SS, SMIN, ID, ISEP, ISURF, NC)"};
 inline constexpr listing_line common{20, "COMMON /DOF/ INDOF,NDOFPN"};

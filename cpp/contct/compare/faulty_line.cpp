@@ -6,7 +6,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
 
+#include "contct/compare/compare.hpp"
+#include "contct/kernel/contct.hpp"
 #include "contct/number/bits.hpp"
 #include "contct/text/strings.hpp"
 
@@ -70,6 +75,7 @@ pair_values<Real> values_of(const call<Real>& c, int status, std::size_t i, std:
 }
 
 std::string cited(const listing_line& line) {
+  if (line.number == 0) return std::string(line.statement);
   return "line " + std::to_string(line.number) + ", " + std::string(line.statement);
 }
 
@@ -190,8 +196,8 @@ void suspect::explain(double more_bits, std::int64_t values) {
   bits += more_bits;
 }
 
-suspect& fault_finder::at(const listing_line& line, fault kind) {
-  suspect& s = suspects_[10 * static_cast<std::size_t>(line.number) + kind];
+suspect& fault_finder::at(const listing_line& line, fault kind, std::size_t way) {
+  suspect& s = suspects_[10 * static_cast<std::size_t>(line.number) + kind + way];
   s.line = &line;
   return s;
 }
@@ -228,6 +234,7 @@ void fault_finder::note_call(const call<Real>& c, const answered_call& right, co
   if (!c.cc.empty()) note_loop(c, other.ss);
   note_smallest(other);
   note_toggles<Real>(right, other);
+  if (sizeof(Real) == 8) note_flushing(right, other, differ_ - before);
   if (differ_ == before && right.text && *right.text != other.text) note_text(right, other);
 }
 
@@ -269,6 +276,10 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   could_give(at(l::if_stationary), p.is_stationary ? p.moving : p.at_face, std::abs(p.gap));
   if (!p.is_stationary) {
     could_give(at(l::gap, wrong_sign), -p.moving, p.gap, always_bits);
+    could_give(at(l::moving, other_way, 0), std::min(p.moving, Real(1)),
+               p.gap);  // cut off at 1, at 0, at both
+    could_give(at(l::moving, other_way, 1), std::max(p.moving, Real(0)), p.gap);
+    could_give(at(l::moving, other_way, 2), std::clamp(p.moving, Real(0), Real(1)), p.gap);
     takes_dof(at(l::gap), [d_star = p.d_star](const auto& q) { return q.gap / d_star; });
     return assigns(at(l::moving));
   }
@@ -285,15 +296,19 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
   const std::size_t pairs = ss.size();
-  at(l::do_10).count(ss[0] == not_an_answer, 0.0, always_bits);
-  at(l::do_10, last_pair).count(ss[pairs - 1] == not_an_answer, 0.0, always_bits);
+  const auto left_out = [&](std::size_t i) {  // an SS can be equal to not_an_answer
+    return ss[i] == not_an_answer && c.ss[i] != static_cast<Real>(not_an_answer);
+  };
+  at(l::do_10).count(left_out(0), 0.0, always_bits);
+  at(l::do_10, last_pair).count(left_out(pairs - 1), 0.0, always_bits);
   std::size_t done = pairs;
-  while (done > 0 && ss[done - 1] == not_an_answer) --done;
+  std::int64_t lost = 0;
+  for (; done > 0 && ss[done - 1] == not_an_answer; --done) lost += left_out(done - 1) ? 1 : 0;
   const auto left_at = [&](suspect& s, auto took) {
     std::size_t i = 0;
     while (i < pairs && !took(i)) ++i;
     if (i + 1 == done) left_by_.push_back(&s);
-    if (i + 1 < pairs) s.count(i + 1 == done, 1.0, always_bits, static_cast<std::int64_t>(pairs - done));
+    if (i + 1 < pairs) s.count(i + 1 == done, 1.0, always_bits, lost);
   };
   left_at(at(l::no_response, loop_left), [&](auto i) { return c.dtest[c.dof.dof_of(c.id[i]) - 1] == 0; });
   left_at(at(l::smallest, loop_left), [&](auto i) { return c.ss[i] > Real(0) && c.ss[i] < Real(1); });
@@ -355,11 +370,23 @@ void fault_finder::note_toggles(const answered_call& right, const call_outputs& 
   }
   for (std::size_t i = 0; i < pairs; ++i) {
     note_toggle(right.isep_before[i], other.isep[i], diffs[i], told[i], has_text && i + 1 < 1000);
+    note_other_diffs(other.ss[i], other.smin, told[i] || other.isep[i] != right.isep_before[i]);
     if (toggled[i] == right.isep_before[i]) continue;
     const bool is_left_out = other.isep[i] == right.isep_before[i];
     if (i == 0) at(l::do_30).count(is_left_out, 0.0, always_bits);
     if (i + 1 == pairs) at(l::do_30, last_pair).count(is_left_out, 0.0, always_bits);
   }
+}
+
+/// Judges other formulas for DIFF.LT.EPSMUL, which round or underflow. `went_in`: the outcome for one pair.
+void fault_finder::note_other_diffs(double s, double smin, bool went_in) {
+  constexpr double epsmul = 1.0 / 256.0;
+  const double distance = std::abs(s - smin);
+  const bool outcomes[] = {distance < epsmul * smin, distance * (1.0 / smin) < epsmul,
+                           std::abs(s / smin - 1.0) < epsmul, s < smin * (1.0 + epsmul)};
+  for (std::size_t way = 0; way < std::size(outcomes); ++way)
+    if (outcomes[way] != (distance / smin < epsmul))
+      at(l::diff, other_way, way).count(went_in == outcomes[way], 0.0, always_bits);
 }
 
 /// Judges the ISEP of one pair. `told` is the event that the kernel's text reports.
@@ -386,6 +413,31 @@ void fault_finder::note_toggle(int before, int got, double diff, const std::opti
     at(l::if_separated).explain(first ? 2.0 : 0.0);
 }
 
+/// Judges the mode of arithmetic: subnormal results (FTZ) or operands (DAZ) may be flushed to zero.
+void fault_finder::note_flushing([[maybe_unused]] const answered_call& right,
+                                 [[maybe_unused]] const call_outputs& other,
+                                 [[maybe_unused]] std::int64_t differ) {
+#ifdef __SSE2__
+  std::vector<event> events(other.ss.size());
+  tally unused;
+  for (const unsigned mode : {1U, 2U, 3U}) {  // FTZ, DAZ, both
+    call_outputs flushed{0.0, other.ss, {right.isep_before.begin(), right.isep_before.end()}, ""};
+    call<double> asked = right.c;
+    asked.ss = flushed.ss;
+    asked.isep = flushed.isep;
+    const unsigned usual_mode = _mm_getcsr();
+    _mm_setcsr(usual_mode | (mode & 1U) << 15U | (mode & 2U) << 5U);
+    contct(asked, events);
+    _mm_setcsr(usual_mode);
+    const auto differs = [&](const answer<double>& a) {
+      return compare_answers<double>({asked.smin, asked.ss, asked.isep}, a, unused).has_value();
+    };
+    if (differs({right.c.smin, right.c.ss, right.c.isep}))
+      at(l::flushing, usual, mode).count(!differs({other.smin, other.ss, other.isep}), 0.0, 0.0, differ);
+  }
+#endif
+}
+
 void fault_finder::note_text(const answered_call& right, const call_outputs& other) {
   std::string_view a = *right.text;
   std::string_view b = other.text;
@@ -409,7 +461,11 @@ std::optional<faulty_line> fault_finder::found() const {
   double least = std::numeric_limits<double>::infinity();
   const suspect* best = nullptr;
   for (const suspect& s : suspects_) {
-    if (s.explained == 0) continue;
+    // A kernel that flushes does so in nearly every call in which this matters, unlike a kernel with a wrong
+    // line. What else is wrong in it shows when it no longer flushes.
+    const bool is_line = s.line != &l::flushing;
+    const bool flushes = !is_line && 10 * s.wrong >= 9 * s.reached && 10 * s.explained >= differ_;
+    if (s.explained == 0 || (!is_line && !flushes)) continue;
     double bits = s.bits + unexplained_bits * static_cast<double>(differ_ - s.explained);
     // DIFF tells which executions of IF (DIFF.LT.EPSMUL) are wrong, and ISEP which of IF (ISEP(I).EQ.1), so
     // that no list of wrong executions is needed.
@@ -417,19 +473,22 @@ std::optional<faulty_line> fault_finder::found() const {
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (s.line != &l::if_separated)
       bits += choice_bits(s.reached, s.wrong);
+    if (flushes) bits = -static_cast<double>(s.explained);
     if (bits >= least) continue;
     least = bits;
     best = &s;
   }
   if (best == nullptr) return std::nullopt;
   faulty_line line{*best->line, best->explained, differ_, std::min(differing_calls_, most_calls), ""};
+  if (best->line == &l::diff && best != &suspects_[std::size_t{10} * l::diff.number])
+    line.compared = "lines 51 and 52 are computed in another way, which rounds or underflows";
   const std::string_view statement = line.at.statement;
   const std::size_t open = statement.find("IF (") + 4;
   const auto& [first, last] = best->compared;
   if (open < 4 || !std::isfinite(first) || !std::isfinite(last)) return line;
   char text[100];
   (void)std::snprintf(text, sizeof text, " was %.9g to %.9g", first, last);
-  line.compared = std::string(statement.substr(open, statement.find('.', open) - open)) + text;
+  line.compared = "in these " + std::string(statement.substr(open, statement.find('.', open) - open)) + text;
   return line;
 }
 
@@ -441,10 +500,12 @@ std::string lines_taken(const answered_call& c, int real_bytes, const call_outpu
 
 std::string words_of(const faulty_line& f) {
   std::string words = cited(f.at) + ": explains " +
-                      (f.explained == f.differ ? "all " : std::to_string(f.explained) + " of ") +
-                      std::to_string(f.differ) + " values that differ, in " + std::to_string(f.calls) +
-                      " call(s)";
-  if (!f.compared.empty()) words += "; in these " + f.compared;
+                      (f.explained != f.differ ? std::to_string(f.explained) + " of "
+                       : f.differ > 1          ? "all "
+                                               : "the ") +
+                      counted(f.differ, "value") +
+                      (f.differ == 1 ? " that differs, in " : " that differ, in ") + counted(f.calls, "call");
+  if (!f.compared.empty()) words += "; " + f.compared;
   return words;
 }
 

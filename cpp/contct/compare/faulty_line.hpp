@@ -44,13 +44,13 @@ struct suspect {
 
 /// The line with the fault of the least cost.
 struct faulty_line {
-  listing_line at;
+  listing_line at;                         ///< listing::flushing: no line, but the arithmetic
   std::int64_t explained = 0, differ = 0;  ///< numbers of explained and of differing values
   std::int64_t calls = 0;                  ///< number of calls that differ, 1000 at most
-  std::string compared;                    ///< if `at` is an IF: "ABS(GAP) was 2e-10 to 9e-10"
+  std::string compared;                    ///< if `at` is an IF: "in these ABS(GAP) was 2e-10 to 9e-10"
 };
 
-/// For example "line 30, GAP = CC(I) - DD(NDOF): explains all 12 values that differ, in 5 call(s)".
+/// For example "line 30, GAP = CC(I) - DD(NDOF): explains all 12 values that differ, in 5 calls".
 [[nodiscard]] std::string words_of(const faulty_line& f);
 
 /// Describes the first pair that differs in SS, or else in ISEP: its GAP, DTEST and SSCHK, and the line that
@@ -73,9 +73,10 @@ class fault_finder {
 
  private:
   /// Kinds of faults of a line. Of faults with equal cost, found() names the fault of the earliest line.
-  enum fault : std::uint8_t { usual, last_pair, wrong_sign, wrong_product, any_number, loop_left };
+  enum fault : std::uint8_t { usual, last_pair, wrong_sign, wrong_product, any_number, loop_left, other_way };
 
-  suspect& at(const listing_line& line, fault kind = usual);
+  /// `way`: numbers the other ways to compute what the line computes.
+  suspect& at(const listing_line& line, fault kind = usual, std::size_t way = 0);
   template <class Real>
   void note_call(const call<Real>& c, const answered_call& right, const call_outputs& other);
   template <class Real>
@@ -86,7 +87,9 @@ class fault_finder {
   template <class Real>
   void note_toggles(const answered_call& right, const call_outputs& other);
   void note_toggle(int before, int got, double diff, const std::optional<change>& told, bool has_text);
+  void note_other_diffs(double s, double smin, bool went_in);
   void note_text(const answered_call& right, const call_outputs& other);
+  void note_flushing(const answered_call& right, const call_outputs& other, std::int64_t differ);
   void note_digest(const call_outputs& other);
 
   std::vector<suspect> suspects_ = std::vector<suspect>(std::size_t{10} * (listing::format_60.number + 1));

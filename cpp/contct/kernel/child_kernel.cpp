@@ -29,6 +29,7 @@
 
 #include "contct/kernel/fortran.hpp"
 #include "contct/kernel/trace.hpp"
+#include "contct/text/strings.hpp"
 
 namespace contct {
 namespace {
@@ -166,8 +167,18 @@ class child_process {
   int channel_ = -1;
 };
 
-bool is_whole_answer(std::string_view text) {
-  return text == "end\n" || text.ends_with("\nend\n");
+/// True if the last line of an answer to a call of `pairs` pairs is "end", or another line in its place.
+bool is_whole_answer(std::string_view text, std::size_t pairs) {
+  if (!text.ends_with('\n')) return false;
+  const std::string_view last = text.substr(text.substr(0, text.size() - 1).rfind('\n') + 1);
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  return last == "end\n" || last == "end\r\n" || (lines > pairs + 1 && last.front() != '|');
+}
+
+/// True if a CR in an answer is followed by another character than LF. The last CR may be followed later.
+bool has_bare_cr(std::string_view text) {
+  const std::size_t cr = std::min(text.find('\r'), text.size());
+  return cr + 1 < text.size() && text[cr + 1] != '\n';
 }
 
 /// A kernel in a child process. Calls and answers are trace text.
@@ -196,11 +207,15 @@ class kernel_in_child final : public kernel {
     append_inputs({c, c.isep, {}, ++calls_}, "", asked_);
     // Longer than any valid answer. A kernel that writes without end must not use all memory.
     const std::size_t most_answer = (std::size_t{1} << 20) + 1024 * c.ss.size();
-    sent how = child_->send(asked_, until);
     answered_.clear();
-    while (how == sent::whole && !is_whole_answer(answered_) && answered_.size() <= most_answer)
+    sent how = child_->send(asked_, until);
+    while (how == sent::whole && !is_whole_answer(answered_, c.ss.size()) &&
+           answered_.size() <= most_answer) {
       how = child_->receive(answered_, until);
+      if (has_bare_cr(answered_)) fail("ends lines with CR alone; allowed: LF, or CR LF");
+    }
     if (how != sent::whole) fail_without_answer(how);
+    std::erase(answered_, '\r');
     if (answered_.size() > most_answer) fail("answered more than " + std::to_string(most_answer) + " bytes");
     read_answer(c);
   }
@@ -243,7 +258,10 @@ class kernel_in_child final : public kernel {
   [[noreturn]] void fail_without_answer(sent how) {
     const std::string words = child_->end();
     if (how == sent::late)
-      fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms", true);
+      fail("did not answer within " + std::to_string(limits_.patience.count()) + " ms: found " +
+               (answered_.empty() ? "nothing" : in_quotes(answered_)) +
+               "; allowed: an answer that ends with the line \"end\", and a flush after it",
+           true);
     if (words == child_process::was_stopped)
       fail("closed its end of the pipe", true);  // counts as a timeout: the child was still running
     fail(words);

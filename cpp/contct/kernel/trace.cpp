@@ -341,10 +341,11 @@ void trace_reader::refuse_missing_dofs(const call_inputs<double>& in) const {
 
 void trace_reader::read_answer(call_outputs& out) {
   constexpr int any = std::numeric_limits<int>::max();
+  const std::string numbers = ", X such as 1.1e-20 (E, not D), 0x1.8p-3, inf or nan; one blank between words";
   const std::string_view smin = need_line("\"smin X\"");
-  if (!trace_words(smin).real("smin", out.smin).done()) refuse(smin, "\"smin X\"");
+  if (!trace_words(smin).real("smin", out.smin).done()) refuse(smin, "\"smin X\"" + numbers);
   for (std::size_t i = 0; i < out.ss.size(); ++i) {
-    const std::string allowed = "\"pair " + std::to_string(i + 1) + " ss X isep S\"";
+    const std::string allowed = "\"pair " + std::to_string(i + 1) + " ss X isep S\"" + numbers;
     const std::string_view line = need_line(allowed);
     std::size_t number = 0;
     if (!trace_words(line)

@@ -142,8 +142,8 @@ class fuzzing final : public observer {
     const int most_tries = field == "answer" ? 60 : 4000;  // a kernel that hangs delays each try
     if (auto small = shrunk_case(
             *leader, [&] { return make_(total.name); }, first->calls, field, most_tries)) {
-      lines.push_back("reduced to " + std::to_string(small->calls.size()) + " call(s), " +
-                      std::to_string(small->calls.back().pairs()) + " pair(s): " + words_of(small->what)[0]);
+      lines.push_back("reduced to " + counted(small->calls.size(), "call") + ", " +
+                      counted(small->calls.back().pairs(), "pair") + ": " + words_of(small->what)[0]);
       run_.cases.push_back(std::move(*small));
     } else {
       lines.emplace_back("not reproducible with fresh kernels: the kernel keeps state between calls");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -44,8 +45,12 @@ std::string unique_name(const toml_value& t, std::set<std::string>& names) {
 /// Makes a step for each combination and for each position of a train.
 class combination_reader {
  public:
-  combination_reader(const node_reader& nodes, const std::vector<load>& cases)
-      : nodes_(nodes), cases_(cases) {}
+  combination_reader(const toml_value& top, const node_reader& nodes, const std::vector<load>& cases)
+      : nodes_(nodes), cases_(cases) {
+    for (const char* kind : {"combination", "train"})
+      for (const toml_value& t : top[kind].optional_tables())
+        if (t.has("name")) kinds_.emplace(t["name"].text(), kind);
+  }
 
   void read_combination(const toml_value& t) {
     t.allow_only({"name", "terms"});
@@ -104,7 +109,9 @@ class combination_reader {
     for (const auto& [key, value] : listed) {
       const std::string name = printable(key.str());
       if (std::ranges::find(names, name) == names.end())
-        terms[key.str()].refuse("no [[case]] of this name" + did_you_mean(name, names),
+        terms[key.str()].refuse(kinds_.contains(name)
+                                    ? fmt::format("a [[{}]], which has terms of its own", kinds_.at(name))
+                                    : "no [[case]] of this name" + did_you_mean(name, names),
                                 names.empty() ? "the name of a [[case]]; the file has no [[case]]"
                                               : "the name of a [[case]]: " + joined(names, ", "));
     }
@@ -157,6 +164,7 @@ class combination_reader {
   const node_reader& nodes_;
   const std::vector<load>& cases_;
   std::set<std::string> names_;  // names of combinations and trains
+  std::map<std::string, const char*> kinds_;
 };
 
 /// Refuses [[step]] beside [[combination]] or [[train]], and [[case]] without [[combination]] and [[train]].
@@ -182,7 +190,7 @@ std::vector<load> read_steps(const toml_value& top, const node_reader& nodes, co
   std::set<std::string> names;
   for (const toml_value& t : cases) (void)unique_name(t, names);
   p.cases = read_loads(cases, nodes, files, p);
-  combination_reader reader(nodes, p.cases);
+  combination_reader reader(top, nodes, p.cases);
   for (const toml_value& t : top["combination"].optional_tables()) reader.read_combination(t);
   for (const toml_value& t : top["train"].optional_tables()) reader.read_train(t);
   return std::move(reader.steps);

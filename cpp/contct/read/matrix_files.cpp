@@ -198,6 +198,7 @@ void read_lines(field_lines& lines, int said, std::string_view kind, const Read&
   const std::int64_t size_line = lines.line();
   int count = 0;
   for (; lines.next(); ++count) {
+    if (lines.field(0).front() == '%') lines.refuse("a comment", "comments between the header and the size");
     if (count == said)
       lines.refuse(fmt::format("more than {} {}", said, kind),
                    fmt::format("{}, as line {} declares", said, size_line));
@@ -216,7 +217,7 @@ void refuse_again(const field_lines& lines, std::string_view what, std::string_v
                   line_numbers& line_of) {
   const auto [before, is_new] = line_of.try_emplace(name, lines.line());
   if (!is_new)
-    lines.refuse(fmt::format("{} {} a second time, after line {}", what, field_words(name), before->second),
+    lines.refuse(fmt::format("the {} of line {} a second time", what, before->second),
                  fmt::format("each {} once", what));
 }
 

@@ -73,8 +73,13 @@ int node_reader::dof_at(const toml_value& named) const {
   if (const auto at = dofs_.find(label); at != dofs_.end()) return at->second;
   // "01" and "+1" are not labels: each dof has one label.
   const int number = label.starts_with('0') ? 0 : number_in<int>(label).value_or(0);
+  const bool is_dof = !dofs_.empty() && label.size() > 2 && label[label.size() - 2] == '.' &&
+                      label.find_first_not_of("0123456789.") == std::string::npos;
+  constexpr const char* no_row =
+      ", which has no row: a dof that is fixed or depends on others (*EQUATION, *MPC) has none";
   if (!dofs_.empty() || number < 1 || number > matrix_->dofs())
-    named.refuse(in_quotes(label) + did_you_mean(label, matrix_->labels), labels_allowed());
+    named.refuse(in_quotes(label) + (is_dof ? no_row : did_you_mean(label, matrix_->labels)),
+                 labels_allowed());
   return number - 1;
 }
 

@@ -254,13 +254,16 @@ class step_reader {
     const hold here = held_[node * nodes_.dof_names().size() + dof];
     if (here == hold::fixed) return;
     const std::string what = nodes_.on_matrix() ? "which" : fmt::format("whose {}", name);
-    t[name].refuse(fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
-                               here == hold::spring ? "has a spring, so that its displacement is a result"
-                                                    : "is free, so that its displacement is a result"),
-                   paired_.contains(node) && dof == 0
-                       ? "a dof that a [[support]] fixes; to move the face of a pair, use "
-                         "move, written like settlement"
-                       : "a dof that a [[support]] fixes");
+    t[name].refuse(
+        fmt::format("a settlement of {}, {} {}", place_words(nodes_.structure(), node), what,
+                    here == hold::spring ? "has a spring, so that its displacement is a result"
+                                         : "is free, so that its displacement is a result"),
+        paired_.contains(node) && dof == 0
+            ? "a dof that a [[support]] fixes; to move the face of a pair, use "
+              "move, written like settlement"
+        : here == hold::spring
+            ? "a dof that a [[support]] fixes; if the base of a spring k moves by d, apply the load k d"
+            : "a dof that a [[support]] fixes");
   }
 
   void read_settlements(const toml_value& t, load& l) const {

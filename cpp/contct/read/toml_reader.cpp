@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <unordered_set>
@@ -69,11 +70,71 @@ bool has_decimal_comma(std::string_view line) {
   return false;
 }
 
-/// Line `number` of a text, from 1.
-std::string_view line_of(std::string_view text, std::size_t number) {
-  for (; number > 1 && text.find('\n') != std::string_view::npos; --number)
-    text.remove_prefix(text.find('\n') + 1);
-  return text.substr(0, text.find('\n'));
+/// Goes forward through a text by lines and columns. Both count from 1, columns in code points, as in toml++.
+class text_walk {
+ public:
+  explicit text_walk(std::string_view text) : rest_(text) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  }
+
+  /// The text from this line and column on, which must not be before those of an earlier call.
+  [[nodiscard]] std::string_view at(std::size_t line, std::size_t column) {
+    for (; line_ < line; ++line_, column_ = 1) rest_.remove_prefix(rest_.find('\n') + 1);
+    for (; column_ < column && !rest_.empty(); ++column_) {
+      rest_.remove_prefix(1);
+      while (!rest_.empty() && (static_cast<unsigned char>(rest_.front()) & 0xC0U) == 0x80U)
+        rest_.remove_prefix(1);
+    }
+    return rest_;
+  }
+
+ private:
+  std::string_view rest_;
+  std::size_t line_ = 1, column_ = 1;
+};
+
+/// Characters of word processors, and the character of TOML in their place.
+constexpr std::array<std::string_view, 2> lookalikes[] = {
+    {"\u2212\u2010\u2011\u2012\u2013\u2014", "-"},
+    {"\u201c\u201d\u201e\u201f\u2018\u2019\u201a\u00ab\u00bb", "\""},
+    {"\u00a0\u2002\u2003\u2007\u2009\u200b\u202f\u3000\ufeff", "a blank"}};
+
+/// The description of an error by toml++ in the form of other messages. `here` is the text from its place on.
+std::string syntax_words(std::string_view description, std::string_view here) {
+  const auto byte = [here](std::size_t i) {
+    return i < here.size() ? static_cast<unsigned char>(here[i]) : 0U;
+  };
+  const bool long_character = byte(0) >= 0xe0;
+  const std::string_view first = here.substr(0, long_character ? 3 : 2);
+  const unsigned low = (byte(0) & 0x1fU) << 6U | (byte(1) & 0x3fU);
+  for (const auto& [characters, allowed] : lookalikes)
+    if (byte(0) >= 0xc0 && characters.find(first) != std::string_view::npos)
+      return fmt::format("found {} (U+{:04X}); allowed: {}", in_quotes(first),
+                         long_character ? low << 6U | (byte(2) & 0x3fU) : low, allowed);
+  description.remove_prefix(std::min(description.size(), std::string_view("Error while parsing ").size()));
+  const std::size_t colon = std::min(description.find(": "), description.size());
+  const std::string_view part = description.substr(0, colon);
+  const std::string_view why = description.substr(std::min(colon + 2, description.size()));
+  const std::size_t saw = why.find(", saw ");
+  const bool at_end = std::string_view("\r\n#").find(here.substr(0, 1)) != std::string_view::npos;
+  if (part == "string" && at_end)
+    return "found text without a quotation mark at its end; allowed: text in quotes on one line";
+  if (part == "inline table" && at_end && !here.empty())
+    return "found a line end or a comment in { .. }; allowed: all of { .. } on one line, or a table with a "
+           "header";
+  if (why.ends_with("(dangling comma)"))
+    return "found a comma before }; allowed: no comma after the last key of { .. }";
+  if (why.starts_with("expected ") && saw != std::string_view::npos)
+    return fmt::format("found {} in {}; allowed: {}", why.substr(saw + 6), part, why.substr(9, saw - 9));
+  if (why.starts_with("cannot redefine existing "))
+    return fmt::format("found {} a second time; allowed: each key and table once", why.substr(25));
+  if (why == "encountered end-of-file")
+    return fmt::format("found the end of the file; allowed: the rest of this {}", part);
+  if (part == "value")
+    return fmt::format("found {}; allowed: a number, text in quotes, true, false, [ .. ] or {{ .. }}",
+                       in_quotes(here.substr(0, here.find_first_of(" \t\r\n,]}#"))));
+  return fmt::format("found {}: {}; allowed: TOML 1.0", part, why);
 }
 
 /// A hint that quotes may be missing, as in "title = Crane". `column`: where parsing failed, from 1.
@@ -114,9 +175,12 @@ toml::table parse_toml(std::string_view text, std::string_view file) {
   } catch (const toml::parse_error& e) {
     const toml::source_position at = e.source().begin;
     constexpr std::size_t longest = 300;  // the description quotes the file, including line ends
-    const std::string_view line = line_of(text, at.line);
+    text_walk walk(text);
+    const std::string_view rest = walk.at(at.line, 1);
+    const std::string_view line = rest.substr(0, rest.find('\n'));
     throw input_error(fmt::format(
-        "{}: not TOML: {}{}", position(file, at), printable(e.description(), longest),
+        "{}: not TOML: {}{}", position(file, at),
+        printable(syntax_words(e.description(), walk.at(at.line, at.column)), longest),
         has_decimal_comma(line) ? point_not_comma : quotes_hint(line, at.column, e.description())));
   }
 }
@@ -131,7 +195,10 @@ written_number* toml_value::written() const {
 std::string toml_value::found() const {
   if (node_ == nullptr) return "nothing: this key is missing";
   if (const auto* v = node_->as_integer()) return fmt::format("{}", v->get());
-  if (const auto* v = node_->as_floating_point()) return fmt::format("{}", v->get());
+  if (const auto* v = node_->as_floating_point()) {
+    const std::string text = fmt::format("{}", v->get());  // 4.0 must not look like a whole number
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
   if (const auto* v = node_->as_boolean()) return v->get() ? "true" : "false";
   if (const auto* v = node_->as_string()) return in_quotes(v->get());
   if (const auto* v = node_->as_array())
@@ -311,31 +378,6 @@ bool named_files::is_below(const std::string& path) const {
 
 namespace {
 
-/// Goes forward through a text by lines and columns. Both count from 1, columns in code points, as in toml++.
-class text_walk {
- public:
-  explicit text_walk(std::string_view text) : rest_(text) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
-  }
-
-  /// The literal that begins at this line and column, which must not be before those of an earlier call.
-  [[nodiscard]] std::string_view number_at(int line, int column) {
-    constexpr std::string_view of_numbers = "0123456789+-._eExXoObBabcdfABCDF";
-    for (; line_ < line; ++line_, column_ = 1) rest_.remove_prefix(rest_.find('\n') + 1);
-    for (; column_ < column && !rest_.empty(); ++column_) {
-      rest_.remove_prefix(1);
-      while (!rest_.empty() && (static_cast<unsigned char>(rest_.front()) & 0xC0U) == 0x80U)
-        rest_.remove_prefix(1);
-    }
-    return rest_.substr(0, rest_.find_first_not_of(of_numbers));
-  }
-
- private:
-  std::string_view rest_;
-  int line_ = 1, column_ = 1;
-};
-
 /// Appends every finite number under `node`, whose key is `key`. A whole number may be hexadecimal, so its
 /// value in decimal, not its literal, is compared with the shortest decimal.
 void append_numbers(const toml::node& node, const std::string& key, std::vector<written_number>& numbers) {
@@ -364,9 +406,11 @@ std::vector<written_number> numbers_in(const toml::table& document, std::string_
   std::vector<written_number> numbers;
   append_numbers(document, "", numbers);
   std::ranges::sort(numbers, {}, position_of);
+  constexpr std::string_view of_numbers = "0123456789+-._eExXoObBabcdfABCDF";
   text_walk walk(text);
   for (written_number& n : numbers) {
-    n.literal = walk.number_at(n.line, n.column);
+    const std::string_view here = walk.at(n.line, n.column);
+    n.literal = here.substr(0, here.find_first_not_of(of_numbers));
     n.length = static_cast<int>(n.literal.size());
     if (n.is_whole) continue;
     n.stands_for_value = stands_for(n.literal, n.value);

@@ -44,6 +44,8 @@ std::string read_input(const std::string& path, const std::string& kind, std::si
                   "a " + kind + " of less than " + std::to_string(most_mib) + " MiB");
   }
   if (std::ferror(file.get()) != 0) throw input_error(name + ": cannot be read to its end");
+  if (text.starts_with("\xEF\xBB\xBF") && kind != "trace")
+    text.erase(0, 3);  // no trace has a byte order mark
   return text;
 }
 

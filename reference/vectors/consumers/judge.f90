@@ -32,11 +32,15 @@ program judge
     seen = seen + 1
     if (bytes /= 8) cycle
     call contct_kernel(dd, dtest, cc, ss, smin, id, isep, isurf, nc, indof, ndofpn, dofs)
-    if (.not. (same(smin, expected_smin) .and. all(same(ss, expected)) .and. all(isep == after))) then
-      wrong = wrong + 1
-      if (wrong == 1) print '(2a,i0,2(a,es24.16))', trim(name), ', call ', number, ': found SMIN', smin, ', expected', expected_smin
-    end if
     calls = calls + 1
+    if (same(smin, expected_smin) .and. all(same(ss, expected)) .and. all(isep == after)) cycle
+    wrong = wrong + 1
+    if (wrong > 1) cycle
+    write (*, '(2a,i0,a)', advance='no') trim(name), ', call ', number, ': found '
+    i = findloc([same(ss, expected), same(smin, expected_smin), isep == after], .false., 1)
+    if (i <= nc) print '(a,i0,2(a,g0))', 'SS(', i, ') ', ss(i), ', expected ', expected(i)
+    if (i == nc + 1) print '(2(a,g0))', 'SMIN ', smin, ', expected ', expected_smin
+    if (i > nc + 1) print '(3(a,i0))', 'ISEP(', i - nc - 1, ') ', isep(i - nc - 1), ', expected ', after(i - nc - 1)
   end do
   print '(i0,a,i0,a)', calls, ' calls, ', wrong, ' differ'
   if (calls == 0 .or. seen /= announced) stop 2, quiet=.true.

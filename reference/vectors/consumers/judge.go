@@ -93,13 +93,22 @@ func main() {
 				cc = append(cc, double(x))
 			}
 			smin, ss := contct(dd, dtest, cc, c.Id, c.Isep, c.Isurf, c.Indof, c.Ndofpn)
-			equal := same(smin, c.Smin.Hex) && fmt.Sprint(c.Isep) == fmt.Sprint(c.Isep_after)
-			for i := range ss {
-				equal = equal && same(ss[i], c.Ss.Hex[i])
+			first := "" // the first wrong value: SS(I), SMIN or ISEP(I)
+			note := func(equal bool, what string, found, expected any) {
+				if !equal && first == "" {
+					first = fmt.Sprintf("%s %v, expected %v", what, found, expected)
+				}
 			}
-			if !equal {
+			for i := range ss {
+				note(same(ss[i], c.Ss.Hex[i]), fmt.Sprintf("SS(%d)", i+1), ss[i], double(c.Ss.Hex[i]))
+			}
+			note(same(smin, c.Smin.Hex), "SMIN", smin, double(c.Smin.Hex))
+			for i := range c.Isep {
+				note(c.Isep[i] == c.Isep_after[i], fmt.Sprintf("ISEP(%d)", i+1), c.Isep[i], c.Isep_after[i])
+			}
+			if first != "" {
 				if wrong == 0 {
-					fmt.Println(group.Name, "call", c.Call, c.Why, "found", smin, ss, c.Isep, "expected", c.Smin.Hex, c.Ss.Hex, c.Isep_after)
+					fmt.Printf("%s, call %d (%s): found %s\n", group.Name, c.Call, c.Why, first)
 				}
 				wrong++
 			}

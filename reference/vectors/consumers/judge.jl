@@ -32,8 +32,11 @@ function judge(lines)
         here = [dofs[(whole(w[1]) - 1) * ndofpn + indof] for w in rows]
         column(kind, i) = [kind(w[i]) for w in rows]
         smin, ss, isep = contct(first.(here), last.(here), column(real, 4), column(whole, 2), column(whole, 3))
-        if !(same(smin, real(head[10])) && all(same.(ss, column(real, 5))) && isep == column(whole, 6))
-            wrong == 0 && println("$(head[2]), call $call: found SMIN $smin, expected $(head[10])")
+        names = ["SS(" .* string.(1:nc) .* ")"; "SMIN"; "ISEP(" .* string.(1:nc) .* ")"]
+        found, expected = Real[ss; smin; isep], Real[column(real, 5); real(head[10]); column(whole, 6)]
+        k = findfirst(i -> !same(found[i], expected[i]), eachindex(names))
+        if k !== nothing
+            wrong == 0 && println("$(head[2]), call $call: found $(names[k]) $(found[k]), expected $(expected[k])")
             wrong += 1
         end
         calls += 1

@@ -22,10 +22,14 @@ for (const group of vectors.cases.filter(c => c.real === 8))
   for (const call of group.calls) {
     const by_dof = values => new Map(doubles(values).map((x, i) => [call.dof[i], x]));
     const found = contct(by_dof(call.dd), by_dof(call.dtest), doubles(call.cc), call.id, call.isep, call.isurf, call.indof, call.ndofpn);
-    const expected = {smin: Number(call.smin.decimal), ss: doubles(call.ss), isep: call.isep_after};
-    const equal = ["ss", "isep"].every(key => found[key].length === expected[key].length && found[key].every((x, i) => Object.is(x, expected[key][i])));
-    if (!equal || !Object.is(found.smin, expected.smin))
-      if (wrong++ === 0) console.log(`${group.name}, call ${call.call} (${call.why}):`, "found", found, "expected", expected);
+    const named = (key, values) => values.map((x, i) => [`${key}(${i + 1})`, x]);
+    const all = (smin, ss, isep) => [...named("SS", ss), ["SMIN", smin], ...named("ISEP", isep)];
+    const expected = new Map(all(Number(call.smin.decimal), doubles(call.ss), call.isep_after));
+    const answer = new Map(all(found.smin, found.ss, found.isep));
+    const first = [...expected.keys()].find(key => !Object.is(answer.get(key), expected.get(key)));
+    const shown = x => Object.is(x, -0) ? "-0" : x; // a text would lose the sign
+    if (first && wrong++ === 0)
+      console.log(`${group.name}, call ${call.call} (${call.why}): found ${first} ${shown(answer.get(first))}, expected ${shown(expected.get(first))}`);
     ++calls;
   }
 console.log(`${calls} calls, ${wrong} differ`);

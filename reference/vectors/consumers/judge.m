@@ -16,7 +16,7 @@ function [smin, ss, isep] = contct (d, response, face, isep, isurf)
 endfunction
 
 function equal = same (a, b)
-  equal = all ((isnan (a) & isnan (b)) | typecast (a, "int64") == typecast (b, "int64"));
+  equal = (isnan (a) & isnan (b)) | typecast (a, "int64") == typecast (b, "int64");
 endfunction
 
 lines = strsplit (fileread (argv (){end}), "\n");
@@ -29,8 +29,11 @@ while at < numel (lines)
   if n(2) != 8, continue, endif
   [~, row] = ismember ((pairs(:,1) - 1) * n(4) + n(3), dofs(:,1));
   [smin, ss, isep] = contct (dofs(row,2), dofs(row,3), pairs(:,4), pairs(:,2), pairs(:,3));
-  if ! (same (smin, n(8)) && same (ss, pairs(:,5)) && all (isep == pairs(:,6)))
-    if wrong == 0, printf ("%s, call %d: found SMIN %.17g, expected %.17g\n", head{2}, n(1), smin, n(8)); endif
+  found = [ss; smin; double(isep)]; expected = [pairs(:,5); n(8); pairs(:,6)];
+  k = find (! same (found, expected), 1);
+  if ! isempty (k)
+    what = {sprintf("SS(%d)", k), "SMIN", sprintf("ISEP(%d)", k - n(7) - 1)}{1 + (k > n(7)) + (k > n(7) + 1)};
+    if wrong == 0, printf ("%s, call %d: found %s %.17g, expected %.17g\n", head{2}, n(1), what, found(k), expected(k)); endif
     wrong += 1;
   endif
   calls += 1;

@@ -39,9 +39,12 @@ fn main() {
         seen += 1;
         if n[1] != 8 { continue; }
         let (smin, ss, isep) = contct(&pairs);
-        let equal = same(smin, real(head[9])) && (0..rows.len()).all(|i| same(ss[i], real(rows[i][4])) && isep[i] == whole(rows[i][5]));
-        if !equal && wrong == 0 { println!("{}, call {}: found SMIN {:?}, expected {}", head[1], n[0], smin, head[9]); }
-        wrong += i32::from(!equal);
+        let of_ss = |i: usize| (!same(ss[i], real(rows[i][4]))).then(|| format!("SS({}) {:?}, expected {}", i + 1, ss[i], rows[i][4]));
+        let of_smin = || (!same(smin, real(head[9]))).then(|| format!("SMIN {:?}, expected {}", smin, head[9]));
+        let of_isep = |i: usize| (isep[i] != whole(rows[i][5])).then(|| format!("ISEP({}) {}, expected {}", i + 1, isep[i], rows[i][5]));
+        let first = (0..rows.len()).find_map(of_ss).or_else(of_smin).or_else(|| (0..rows.len()).find_map(of_isep));
+        if let (Some(words), 0) = (&first, wrong) { println!("{}, call {}: found {}", head[1], n[0], words); }
+        wrong += i32::from(first.is_some());
         calls += 1;
     }
     println!("{calls} calls, {wrong} differ");
