@@ -73,8 +73,6 @@ struct new_options {
 
 struct verify_options {
   std::string reference;   ///< a folder
-  std::string results;     ///< another program's results, judged instead of this build's results
-  std::size_t least = 10;  ///< the least count of numbers in the file `results`
   std::string json;
   report_options report;
 };
@@ -129,8 +127,6 @@ exit_status run_command(const explain_options& options);
 exit_status run_command(const exact_options& options);
 exit_status run_command(const new_options& options);
 exit_status run_command(const verify_options& options);
-/// Runs `contct verify --results`, for another program's results. `table` is reference/verification.toml.
-exit_status judge_foreign(const verify_options& options, const std::string& table);
 exit_status run_command(const fuzz_options& options);
 exit_status run_command(const replay_options& options);
 exit_status run_command(const prove_options& options);

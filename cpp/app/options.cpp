@@ -43,7 +43,6 @@ constexpr example all_examples[] = {
     {"contct exact beam.toml --rule 1989 --digits 30", "the 1989 rule in exact arithmetic"},
     {"contct verify", "the reference problems, compared with known numbers"},
     {"contct verify --quiet --junit verify.xml", "a JUnit report for a CI system"},
-    {"contct verify --results theirs.json", "another program's numbers for these problems"},
     {"contct fuzz --calls 20000 --seed 7", "FORTRAN against C++ on random calls"},
     {"contct fuzz --kernels fortran,plugin:./mine.so --calls 20000",
      "whether your own kernel gives the answers of CONTCT"},
@@ -303,16 +302,6 @@ void declare_new(option_parser& p, CLI::App* c) {
 void declare_verify(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<verify_options>(c);
   add_file(c, "--reference", o.reference, "The folder with verification.toml and problems/");
-  add_file(
-      c, "--results", o.results,
-      "Solve nothing. Judge another program's numbers for these problems, in this file of the format "
-      "contct-answers-1 (- reads standard input). The exit status is 1 if a number is outside the file's "
-      "tolerance");
-  c->add_option("--least", o.least,
-                "With --results: the exit status is 2 if the file has fewer numbers than this")
-      ->check(CLI::Range(1, 1'000'000))
-      ->needs("--results")
-      ->capture_default_str();
   add_file(c, "--json", o.json, "Write all numbers to this file (- is standard output)");
   add_reports(c, o.report);
 }

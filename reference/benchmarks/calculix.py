@@ -1,7 +1,7 @@
 """Solves benchmark problems of this folder by CalculiX, and prints its numbers as a file of results.
 
     python3 reference/benchmarks/calculix.py [NAME..] > theirs.json       NAME: such as pb01-cantilever-tip-stop
-    contct verify --results theirs.json
+    python3 reference/benchmarks/judge.py theirs.json
 
 ccx must be in PATH. A beam consists of B32R elements, which are so slender that their shear is negligible. A pair is a
 SPRINGA with a table, from the pair's node to a fixed node. Springs with tables need NLGEOM, so displacements are scaled

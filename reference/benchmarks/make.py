@@ -17,7 +17,9 @@ HERE = Path(__file__).resolve().parent
 REFERENCE = HERE.parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(REFERENCE))
+sys.path.insert(0, str(HERE))
 from check_problem import Problem, real  # noqa: E402
+from judge import PLACE, errors  # noqa: E402
 
 LEAST = 51
 # Published sources of families of problems (PB3a and PB3b are one family), and their results.
@@ -26,8 +28,6 @@ PUBLISHED = {"pb02": "data: studysoup.com, question 142235", "pb03": "Kerr, Soic
              "pb11": "SEAINT list: 3 (B/2 - e)", "pb15": "data: Code_Aster V5.02.105", "pb16": "PETSc ex9: B - A log r", "pp01": "Dempsey 1984, abstract"}
 # Families for which calculix.py was tried: at least one step of each problem does not converge.
 NO_CONVERGENCE = ("pb08", "pb09", "pb11", "pb13")
-KINDS = {"w": "length", "gap": "length", "force": "force", "reaction": "force"}
-PLACE = ("step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along")
 
 
 class Names:
@@ -117,22 +117,6 @@ def words(value):
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def errors(problem, answers):
-    """Returns the relative errors of another program's numbers, as contct verify --results computes them."""
-    key, sizes = lambda number: json.dumps({k: number[k] for k in PLACE if k in number}), {}
-    exact = {key(number): number["exact"] for number in problem["numbers"]}
-    for number in (n for n in problem["numbers"] if n["quantity"] != "state"):
-        kind = KINDS.get(number["quantity"].split(" ")[-1], number["quantity"])
-        sizes[kind] = max(sizes.get(kind, 0.0), abs(float(Fraction(number["exact"]))))
-    for answer in answers:
-        words, quantity = exact[key(answer)], answer["quantity"]
-        if quantity in ("state", "contacts"):
-            yield 0.0 if str(answer["value"]) == words else 1.0
-        else:
-            kind = KINDS.get(quantity.split(" ")[-1], quantity)
-            yield abs(answer["value"] - float(Fraction(words))) / (sizes[kind] or 1.0)
-
-
 def row(family, problems, programs):
     """Returns the table's row of a family of problems, such as PB3a and PB3b."""
     first, title = problems[0], problems[0]["title"].partition("  ")[2] or problems[0]["title"]
@@ -142,7 +126,7 @@ def row(family, problems, programs):
     fractions = [n for n in first["numbers"] if n["quantity"] in ("w", "force") and "/" in n["exact"]]
     shown = min(fractions, key=lambda n: len(n["exact"]), default=None)
     exact = f"{shown['quantity']}({shown.get('node', shown.get('pair'))}), step {shown['step']}: {shown['exact']}" if shown else "40 digits"
-    judged = [[error for p in problems for error in errors(p, of.get(p["name"], []))] for of in programs]
+    judged = [[error for p in problems for *_, error in errors(p, of.get(p["name"], []))] for of in programs]
     theirs = [f"{len(all)} within {max(all):.0e}" if all else "no convergence" if family in NO_CONVERGENCE else "not tried" for all in judged]
     cells = [picture, f"{'' if len(problems) == 1 else number + ' '}{' '.join(links)} {title}", str(sum(len(p["numbers"]) for p in problems)),
              exact, PUBLISHED.get(family, "-"), *theirs]

@@ -1,7 +1,7 @@
 """Solves benchmark problems of this folder as linear complementarity problems, by Lemke's method in Siconos.
 
     python3 reference/benchmarks/siconos_lcp.py [NAME..] > theirs.json    NAME: such as pb01-cantilever-tip-stop
-    contct verify --results theirs.json
+    python3 reference/benchmarks/judge.py theirs.json
 
 Needs python3-siconos and numpy. reference/check_problem.py reads K from the problem file, without contct. Every pair is
 a spring k that can pull, and z >= 0 is the force that cancels its tension. With the compliance A of the structure on

@@ -1,14 +1,14 @@
-"""page.py CONTCT ROOT: contct verify --results passes the file of results that reference/benchmarks.md shows; the
-page has a row and a picture for each family of problems, and at most 900 words."""
+"""page.py ROOT: judge.py passes the file of results that reference/benchmarks.md shows; the page has a row and a
+picture for each family of problems, and at most 900 words."""
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-contct, root = sys.argv[1], Path(sys.argv[2])
+root = Path(sys.argv[1])
 page = (root / "reference/benchmarks.md").read_text()
 example = re.search(r"```json\n(.*?)```", page, re.S)[1]
-line = [contct, "verify", "--reference", root / "reference", "--results", "-", "--least", "2"]
+line = [sys.executable, root / "reference/benchmarks/judge.py", "-", "--least", "2"]
 judged = subprocess.run(line, input=example, capture_output=True, text=True, check=False)
 print(judged.stdout[-300:], judged.stderr)
 families = {file.name[:4] for file in (root / "reference/problems").glob("*.toml")}

@@ -100,16 +100,12 @@ def check_block(block, events):
 
 def check_benchmarks(results, kept, least):
     """Checks another program's numbers for benchmark problems against the exact ones and against the kept file."""
-    theirs, out = FOLDER / "theirs.json", FOLDER / "judged.json"
-    theirs.write_text(results)
-    done = subprocess.run([CONTCT, "verify", "--reference", REFERENCE, "--results", theirs, "--least", str(least), "--quiet", "--json", out], check=False)
-    judged = json.loads(out.read_text())
-    largest = max(number["error"] for problem in judged["problems"] for number in problem["numbers"])
-    check(done.returncode == 0, f"{kept}: {judged['judged']} numbers of {len(judged['problems'])} problems, {judged['failed']} outside "
-          f"{judged['tolerance']:g}; the largest error is {largest:.1e}")
+    done = subprocess.run([sys.executable, REFERENCE / "benchmarks/judge.py", "-", "--least", str(least)], input=results, check=False,
+                          capture_output=True, text=True)
+    check(done.returncode == 0, f"{kept}: {done.stdout.strip()}{done.stderr}")
     kept = json.loads((REFERENCE / "benchmarks" / kept).read_text())["problems"]
     asked = [{name: [{**entry, "value": 0} for entry in entries] for name, entries in of.items()}
-             for of in (kept, json.loads(theirs.read_text())["problems"])]
+             for of in (kept, json.loads(results)["problems"])]
     check(asked[0] == asked[1], "the kept results are of the same numbers")
 
 

@@ -35,11 +35,27 @@ std::optional<double> nearest_to(std::string_view words) {
   return (sign == 1 ? -1.0 : 1.0) * contct::rounded(rational(integer(top), integer(bottom)));
 }
 
+/// Reads the keys that identify a number of a problem.
+expected_number read_place(const toml_value& t) {
+  expected_number e;
+  e.step = t["step"].integer(1, any_number);
+  e.quantity = t["quantity"].text();
+  if (t.has("node")) e.node = t["node"].integer(1, any_number);
+  if (t.has("pair")) e.pair = t["pair"].integer(1, any_number);
+  if (t.has("element")) e.element = t["element"].integer(1, any_number);
+  if (t.has("end")) e.place = static_cast<int>(t["end"].choice({"left", "right"})) + 1;
+  if (t.has("corner")) e.place = t["corner"].integer(1, 4);
+  if (t.has("dof")) e.dof = t["dof"].text();
+  if (t.has("change")) e.change = t["change"].choice({"make", "break"}) == 0 ? "make" : "break";
+  if (t.has("from")) e.from = t["from"].real(any_real);
+  if (t.has("along")) e.along = t["along"].choice({"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
+  return e;
+}
+
 expected_number read_check(const toml_value& t) {
-  std::vector<std::string_view> keys(place_keys.begin(), place_keys.end());
-  keys.insert(keys.end(), {"value", "kind", "exact", "relation", "printed", "cut", "source", "because",
-                           "tolerance", "faithful", "reason"});
-  t.allow_only(keys);
+  t.allow_only({"step",   "quantity", "node",    "pair",      "element",  "end",   "corner",   "dof",
+                "change", "from",     "along",   "value",     "kind",     "exact", "relation", "printed",
+                "cut",    "source",   "because", "tolerance", "faithful", "reason"});
   expected_number e = read_place(t);
   if (e.quantity == "state") {
     e.value = t["value"].choice({"contact", "separated"}) == 0 ? in_contact : separated;
@@ -147,29 +163,8 @@ double zero_right_of(const model& m, const std::vector<double>& u, const expecte
 }
 
 /// The index of `name` in `names`; nothing if it is missing.
-template <class Names>
-std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
-  const auto at = std::find(names.begin(), names.end(), name);
-  return at == names.end() ? std::nullopt : std::optional<std::size_t>(at - names.begin());
-}
-
-}  // namespace
-
-expected_number read_place(const toml_value& t) {
-  expected_number e;
-  e.step = t["step"].integer(1, any_number);
-  e.quantity = t["quantity"].text();
-  if (t.has("node")) e.node = t["node"].integer(1, any_number);
-  if (t.has("pair")) e.pair = t["pair"].integer(1, any_number);
-  if (t.has("element")) e.element = t["element"].integer(1, any_number);
-  if (t.has("end")) e.place = static_cast<int>(t["end"].choice({"left", "right"})) + 1;
-  if (t.has("corner")) e.place = t["corner"].integer(1, 4);
-  if (t.has("dof")) e.dof = t["dof"].text();
-  if (t.has("change")) e.change = t["change"].choice({"make", "break"}) == 0 ? "make" : "break";
-  if (t.has("from")) e.from = t["from"].real(any_real);
-  if (t.has("along")) e.along = t["along"].choice({"edge", "diagonal"}) == 0 ? "edge" : "diagonal";
-  return e;
-}
+/// The kinds of numbers. An error is relative to the largest number of its kind.
+enum class kind_of_number { deflection, slope, force, moment, other };
 
 kind_of_number kind_of(const expected_number& e) {
   std::string_view q = e.quantity;
@@ -181,9 +176,18 @@ kind_of_number kind_of(const expected_number& e) {
   return kind_of_number::other;
 }
 
+/// The double nearest to the exact number, or `value` for a state.
 double exact_value(const expected_number& e) {
   return e.quantity == "state" ? e.value : nearest_to(e.exact).value();
 }
+
+template <class Names>
+std::optional<std::size_t> place_in(const Names& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? std::nullopt : std::optional<std::size_t>(at - names.begin());
+}
+
+}  // namespace
 
 std::vector<verification_case> read_verification(const std::string& path) {
   const std::string text = read_input(path);

@@ -34,18 +34,6 @@ struct expected_number {
   std::string exact;  ///< the exact number, "p/q" or a decimal; the name of a state; empty if unknown
 };
 
-/// The keys that identify a number of a problem. read_place reads the values of these keys from a table.
-inline constexpr std::array<std::string_view, 11> place_keys = {
-    "step", "quantity", "node", "pair", "element", "end", "corner", "dof", "change", "from", "along"};
-[[nodiscard]] expected_number read_place(const toml_value& t);
-
-/// The kinds of numbers. An error is relative to the largest number of its kind.
-enum class kind_of_number { deflection, slope, force, moment, other };
-[[nodiscard]] kind_of_number kind_of(const expected_number& e);
-
-/// The double nearest to the exact number, or `value` for a state. The exact number must be known.
-[[nodiscard]] double exact_value(const expected_number& e);
-
 struct verification_case {
   std::string file;  ///< name relative to reference/problems
   std::vector<expected_number> checks;

@@ -341,9 +341,8 @@ void toml_value::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : *node_->as_table()) {
     if (std::ranges::find(keys, key.str()) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
-    refuse_at(file_, places_ == nullptr ? key.source().begin : places_->at(&node),
-              name_of_key(printable(key.str())), "an unknown key" + did_you_mean(key.str(), known),
-              fmt::format("{}", fmt::join(keys, ", ")));
+    refuse_at(file_, key.source().begin, name_of_key(printable(key.str())),
+              "an unknown key" + did_you_mean(key.str(), known), fmt::format("{}", fmt::join(keys, ", ")));
   }
 }
 

@@ -5,7 +5,6 @@
 #include <toml++/toml.h>
 
 #include <initializer_list>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -33,9 +32,6 @@ inline constexpr real_range positive_real{0.0, false, "a finite number greater t
 /// "key[3]", with the index from 1.
 [[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
 
-/// The positions of nodes in a tree that toml++ did not parse.
-using toml_places = std::map<const toml::node*, toml::source_position>;
-
 /// A number in a file, and its position.
 struct written_number {
   std::string key;  ///< "step[1].point[2].w"
@@ -60,9 +56,6 @@ class toml_value {
       : toml_value(document, file) {
     numbers_ = &numbers;
   }
-  /// For a tree that toml++ did not parse; `places` must outlive this object, too.
-  toml_value(const toml::table& document, std::string_view file, const toml_places& places)
-      : node_(&document), file_(file), places_(&places) {}
 
   /// The value as a number, a whole number, text, or an index in `choices`. Refuses any other value.
   [[nodiscard]] double real(const real_range& range) const;
@@ -123,7 +116,7 @@ class toml_value {
     toml_value v = *this;
     v.node_ = node;
     v.name_ = std::move(name);
-    if (node != nullptr) v.at_ = places_ == nullptr ? node->source().begin : places_->at(node);
+    if (node != nullptr) v.at_ = node->source().begin;
     return v;
   }
 
@@ -141,7 +134,6 @@ class toml_value {
   toml::source_position at_{};  // if the value is missing: position of its table
   std::string name_;
   std::string_view file_;
-  const toml_places* places_ = nullptr;
   std::vector<written_number>* numbers_ = nullptr;
 };
 
