@@ -65,7 +65,7 @@ class Beam:
             self.stiffness = [[k - a * b * 4 * EI / h for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
 
     def work(self, of):
-        """Returns a load's work on the four shape functions, and the deflection of the middle that it causes at u = 0.
+        """Returns a load's work on the four shape functions, and what it adds inside at u = 0: to w and moment in the middle, to shear at 1/4.
 
         of(shape, a, b) is the load's work on a polynomial in t = (x - left) / h from t = a to t = b. The deflection of
         the middle is the load's work on the deflection under a unit load in the middle, between clamped ends
@@ -77,7 +77,7 @@ class Beam:
         if self.released:
             middle -= self.h * self.h * forces[3] / (32 * self.EI)
             forces = [f - a * forces[3] for f, a in zip(forces, self.turn)]
-        return forces + [middle]
+        return forces + [middle, of((F(1),), F(0), F(1, 4)), self.h * of((F(1, 2), F(-1)), F(0), F(1, 2))]
 
     def load(self, q, left, first=F(0), last=F(1)):
         """Returns `work` of a load that is the polynomial q in x from t = first to t = last."""
@@ -100,9 +100,12 @@ class Beam:
         return self.work(of)
 
     def middle(self, u, work):
-        """Returns w in the middle, from the element's displacements u and the `work` of its loads."""
+        """Returns (kind, size) for w and moment in the middle, shear at a quarter, and the larger mean slope of a half."""
         right = -dot(self.turn[:3], u[:3]) if self.released else u[3]
-        return (u[0] + u[2]) / 2 + self.h * (u[1] - right) / 8 + work[4]
+        w = (u[0] + u[2]) / 2 + self.h * (u[1] - right) / 8 + work[4]
+        shear, moment = (dot(row, u) - f for row, f in zip(self.stiffness[:2], work))
+        inside = [w, shear + work[5], shear * self.h / 2 - moment + work[6], max(abs(w - u[0]), abs(u[2] - w)) * 2 / self.h]
+        return zip(("w", "shear", "moment", "slope"), map(abs, inside))
 
     def values(self, u, work):
         """Returns shears and moments at the ends as (kind, value, c), with error^2 <= c rho^2, from u and `work`."""

@@ -1,5 +1,6 @@
 """Reads the decimals of a problem file into fractions, without the program, for check_proof.py."""
 from fractions import Fraction as F
+from itertools import product
 
 from check_beam import beam, find, listed, need, numbers, only, positive, real
 from check_matrix import matrix
@@ -127,30 +128,40 @@ class Problem:
 
     def combined(self, terms):
         """Returns what `loads` returns, for a sum of tables with factors."""
-        moved = {}
-        f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
+        moved, acting = {}, {}
+        f, settled, own = [F(0)] * self.n, dict.fromkeys(self.fixed, F(0)), [[F(0)] * (len(dofs) + 3) for _, dofs, _ in self.elements]
         for table, factor in terms:
             force, place, work = self.loads(table)
             moved = {dof: moved.get(dof, 0) + factor * self.moved.get(dof, 0) for dof in moved | self.moved}
+            acting = {at: acting.get(at, 0) + factor * self.acting.get(at, 0) for at in acting | self.acting}
             f = [a + factor * b for a, b in zip(f, force)]
             settled = {dof: a + factor * place[dof] for dof, a in settled.items()}
             own = [[a + factor * b for a, b in zip(*at)] for at in zip(own, work)]
         self.move_faces(moved)
+        self.acting = acting
         return f, settled, own
 
     def loads(self, step):
-        """Moves the faces; returns loads [dofs], settlements of fixed dofs, and `work` of each element's loads."""
+        """Moves the faces; returns loads [dofs], settlements of fixed dofs, and `work` of each element's loads.
+
+        Sets `acting`, which is 0 everywhere if the loads inside a beam cancel: the jump of each coefficient of a load
+        where this load begins and ends, and each load at a point.
+        """
         if isinstance(step, list):
             return self.combined(step)
-        f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 1) for _, dofs, _ in self.elements]
+        f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 3) for _, dofs, _ in self.elements]
+        self.acting = {}
         only(step, {"name", "point", "settlement", "move"} | ({"uniform", "self_weight"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
 
-        def add(e, work):
+        def add(e, work, kind="uniform", values=(), shares=(F(0), F(1))):
             own[e] = [a + b for a, b in zip(own[e], work)]
+            for (power, a), (t, sign) in product(enumerate(values if len(self.lines) == 1 else ()), zip(shares, (1, -1))):
+                at = kind, self.elements[e][2] + t * self.elements[e][0].h, power
+                self.acting[at] = self.acting.get(at, 0) + sign * a
         if step.get("self_weight", False):
             need(self.elements and all(e.weight is not None for e, _, _ in self.elements), "self-weight without a weight")
             for e, (element, _, left) in enumerate(self.elements):
-                add(e, element.load([-element.weight], left))
+                add(e, element.load([-element.weight], left), values=[-element.weight])
         for part in listed(step.get("uniform", [])):
             part = only(part, {"value", "polynomial", "elements", "from", "to"}) if isinstance(part, dict) else {"value": part}
             need(("value" in part) + ("polynomial" in part) == 1, "not one of value and polynomial")
@@ -158,19 +169,20 @@ class Problem:
             if part.keys() & {"from", "to"}:
                 need("elements" not in part, "a load on elements and from a place")
                 for e, shares in self.parts(part):
-                    add(e, self.elements[e][0].load(q, self.elements[e][2], *(shares[0] if len(shares) == 1 else shares)))
+                    add(e, self.elements[e][0].load(q, self.elements[e][2], *(shares[0] if len(shares) == 1 else shares)), "uniform", q, shares[0])
                 continue
             for e in numbers(part.get("elements", "all"), len(own)):
-                add(e, self.elements[e][0].load(q, self.elements[e][2]))
+                add(e, self.elements[e][0].load(q, self.elements[e][2]), values=q)
         for part in step.get("curvature", []):
             for e, shares in self.parts(only(part, {"value", "from", "to"})):
-                add(e, self.elements[e][0].bent(real(part["value"]), *shares[0]))
+                add(e, self.elements[e][0].bent(real(part["value"]), *shares[0]), "curvature", [real(part["value"])], shares[0])
         points = step.get("point", [])
         for part, x in ((part, x) for part in points if len(self.lines) == 1 for x in listed(part.get("x", []))):
             if find(self.lines[0], x) is None:
                 e, t = self.inside(0, real(x))
                 need(only(part, {"x", *self.names}).keys() & set(self.names), "a load of no dof")
-                add(e, self.elements[e][0].point(real(part.get("w", 0)), real(part.get("theta", 0)), t))
+                add(e, self.elements[e][0].point(real(part.get("w", 0)), real(part.get("theta", 0)), t), "point",
+                    [real(part.get("w", 0)), real(part.get("theta", 0))], [t])
         for dof, force in ((dof, force) for (_, dofs, _), work in zip(self.elements, own) for dof, force in zip(dofs, work)):
             f[dof] += force
         for part in points:

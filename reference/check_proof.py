@@ -84,7 +84,7 @@ def sizes_of(p, f, settled, told, largest):
     if nothing acts on the structure.
     """
     gap = {"gap": max(told.get("gap", F(0)), told.get("w", F(0)))}
-    if not any(f) and not any(settled.values()) and all(n * face >= 0 for _, n, face, _ in p.pairs):
+    if not any(f) and not any(p.acting.values()) and not any(settled.values()) and all(n * face >= 0 for _, n, face, _ in p.pairs):
         return {kind: max(x, largest.get(kind, F(0))) for kind, x in (largest | gap).items()}, {}
     per, size = len(p.names), told | gap
     acting = {kind: max([abs(x) for dof, x in enumerate(f) if (dof % per > 0) == (kind == "moment")] + [F(0)]) for kind in ("force", "moment")}
@@ -129,9 +129,8 @@ def check(p, step, s, largest):
         room = error[kind] - abs(F(x) - true)
         need(room >= 0 and room * room >= square * rho2, f"the bound on {kind} does not hold for number {number + 1}")
         told[kind] = max(told.get(kind, F(0)), abs(F(x)))
-    if "L" in s and len(p.lines) == 1:
-        at = list(map(F, s["displacement"]))
-        told["w"] = max([told["w"]] + [abs(e.middle([at[dof] for dof in dofs], work)) for (e, dofs, _), work in zip(p.elements, own)])
+    for (e, dofs, _), work in zip(p.elements, own) if len(p.lines) == 1 else []:
+        told |= {kind: max(told.get(kind, F(0)), x) for kind, x in e.middle([u[dof] for dof in dofs], work) if kind in error}
     wrong = check_pairs(p, s, deep, rho2, reach, told) if "state" in s and p.pairs else []
     size, besides = sizes_of(p, f, settled, told, largest)
     sure = {kind: max(x - error[kind], F(0)) for kind, x in told.items()}  # proved sizes: without a certificate numbers may be too large

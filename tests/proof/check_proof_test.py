@@ -320,6 +320,24 @@ def check_doctored(folder, texts, count=2000):
     print(f"{count} problems are doctored: {refused} are refused, {same} mean the same, {solved} have the same numbers")
 
 
+# Loads inside the elements of a cantilever that load no node.
+CANCELLED = ["[[step]]\npoint = [ { x = 0.1, w = 1 }, { x = 0.3, w = -4 }, { x = 0.5, w = 6 }, { x = 0.7, w = -4 }, { x = 0.9, w = 1 } ]\n",
+             "[[step]]\ncurvature = [ { value = 1, to = 0.25 }, { value = -1, from = 0.25, to = 0.75 }, { value = 1, from = 0.75 } ]\n",
+             "[[case]]\nname = \"a\"\nuniform = -1\n[[case]]\nname = \"b\"\nuniform = [ { value = -2, to = 0.5 }, { value = -2, from = 0.5 } ]\n"
+             "[[combination]]\nname = \"c\"\nterms = { a = 1 }\n[[combination]]\nname = \"0\"\nterms = { a = 1, b = -0.5 }\n"]
+
+
+def check_cancelled(folder):
+    problem = Path(folder) / "cancelled.toml"
+    for text in CANCELLED:
+        problem.write_text('[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = ["w", "theta"]\n' + text)
+        proof = proof_of(problem, folder, "--kernels", "corrected")
+        code, said = verdict(problem, proof, folder)
+        proof["steps"][0]["error"]["w"] = 1.0
+        if code != 0 or said.count("; certified") != len(proof["steps"]) or verdict(problem, proof, folder)[0] != 1:
+            fail(f"{text}: {code}: {said}")
+
+
 def check_faults(folder):
     problem = reference / "problems/pb07-three-gap-supports.toml"
     proof = proof_of(problem, folder, "--kernels", "corrected")
@@ -393,5 +411,6 @@ with tempfile.TemporaryDirectory() as scratch:
     check_semidefinite(scratch)
     check_places(scratch)
     check_doctored(scratch, check_forms(scratch))
+    check_cancelled(scratch)
 print("FAILED" if failed else "passed")
 sys.exit(1 if failed else 0)

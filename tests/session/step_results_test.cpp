@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "catch.hpp"
+#include "contct/exact/path.hpp"
+#include "contct/number/random.hpp"
 #include "contct/write/words.hpp"
 #include "read/bad_plates.hpp"
 #include "read/good_problem.hpp"
@@ -103,6 +105,39 @@ TEST_CASE("In the balance of a step, the contact force of a face above counts do
   CHECK(sums->loads == 60.0);
   CHECK(sums->contact < 0.0);
   CHECK(sums->reactions == Approx(-60.0 - sums->contact).epsilon(1e-12));
+}
+
+TEST_CASE("Far from x = 0, bearing pressures are within their bound, and lengths in contact are exact") {
+  random_numbers random(3);
+  for (int number = 0; number < 20; ++number) {
+    std::string x;
+    const double start = std::pow(10.0, random.whole(3, 7));
+    for (double at = 0.0; at < 2; at += 0.1 * random.whole(1, 4)) x += fmt::format("{:.1f}, ", start + at);
+    const problem p = parse_problem("[beam]\nx = [" + x +
+                                        "]\nEI = 1\n[[bed]]\nmodulus = 7\nface = 0\n[[step]]\n"
+                                        "uniform = -3\npoint = [ { node = 2, w = -2 } ]\n",
+                                    "far.toml");
+    const a_run run(p, "corrected");
+    const structure_state& end = run.result.record.steps[0].end;
+    const bed_reading read = beds_in(p, results_of(p, p.steps[0], end), end).at(0);
+    const exact_problem exactly = exact_problem_of(p);
+    const exact_step_end truly = follow_corrected_path(exactly).steps.at(0);
+    rational length;
+    rational least(1000);
+    rational most;
+    for (std::size_t i = 0; i < exactly.pairs.size(); ++i) {
+      const rational pressure = 7 * truly.force[i] / exactly.pairs[i].stiffness;
+      least = std::min(least, pressure);
+      most = std::max(most, pressure);
+      if (truly.closed[i] != 0) length += exactly.pairs[i].stiffness / 7;
+    }
+    CAPTURE(number, x);
+    const double bound = run.result.judged.steps()[0]->pressure.value();
+    CHECK(std::abs(contct::rounded(binary_value(read.pressure.least.value) - least)) <= bound);
+    CHECK(std::abs(contct::rounded(binary_value(read.pressure.most.value) - most)) <= bound);
+    CHECK(bound < 1e-12);
+    CHECK(read.contact == Approx(contct::rounded(length)).epsilon(1e-15));
+  }
 }
 
 TEST_CASE("The pressure under a half-lifted footing is that of a rigid body on the springs in contact") {

@@ -104,6 +104,12 @@ std::vector<int> certain_contacts::holding(std::span<const double_double> u, std
     if (rank.rank() > before) closed.push_back(i);
   }
   std::ranges::sort(closed);
+  // A spring at a dof, numbered after the pairs, holds a motion of a beam or plate that no pair can hold.
+  for (int dof = 0; structure_.truth && !structure_.is_held(rank) && dof < structure_.dofs(); ++dof) {
+    const int before = rank.rank();
+    rank.hold(dof);
+    if (rank.rank() > before) closed.push_back(static_cast<int>(system_.pairs.size()) + dof);
+  }
   return closed;
 }
 
@@ -138,7 +144,11 @@ std::string certain_contacts::search(std::span<const double_double> u, const lon
   b.closed = pressed(u);
   for (int tries = 0; tries < 3; ++tries) {
     if (!proves(balanced ? holding(u, b.closed) : b.closed))
-      return "the stiffness is too ill-conditioned, or it is not certain that the structure is held";
+      return !structure_.truth
+                 ? "the stiffness is too ill-conditioned, or it is not certain that the structure is held"
+             : structure_.is_held(held_by(b.closed))
+                 ? "the stiffness is too ill-conditioned"
+                 : "it is not certain that the structure is held: a pair that must hold it may not press";
     if (!balanced && last_digits_decide())
       return "the last digits of the matrix decide whether the structure is held; set free_motions, the "
              "number "

@@ -40,7 +40,8 @@ class certain_contacts {
   [[nodiscard]] bool proves(const std::vector<int>& closed);
   /// The pairs at free dofs that are beyond their faces.
   [[nodiscard]] std::vector<int> pressed(std::span<const double_double> u) const;
-  /// `closed`, plus as many of the pairs nearest to their faces as are needed to hold the structure.
+  /// `closed`, plus as many of the pairs nearest to their faces as are needed to hold the structure. If the
+  /// pairs of a beam or plate are too few: plus springs at dofs (see scaled_stiffness::factor).
   [[nodiscard]] std::vector<int> holding(std::span<const double_double> u, std::vector<int> closed) const;
 
   /// A bound on the change of a displacement between two states at a distance of 1 in the norm of K_A.

@@ -181,6 +181,7 @@ void certifier::take(const error_bounds& b, const step_state& s, certificate& c)
   c.proved = true;
   c.proof = b.proof;
   c.error = b.error;
+  c.pressure = b.pressure;
   c.allowed = allowed_.of(b, prover_->extent());
   c.worst_share = worst_share(c.error, c.allowed);
   c.problem = worst_bound(c.error, c.allowed, &problem_);

@@ -42,10 +42,11 @@ struct certificate {
   bool independent = true;
   /// False if other displacements balance the load too: displacements then have no error bound.
   bool unique = true;
-  bool proved = false;       ///< the bounds are proved: `error`, `allowed` and `worst_share` are set
-  by_quantity error;         ///< bounds on the errors of each kind of number, absolute
-  by_quantity allowed;       ///< the errors that a certified state may have, absolute
-  double worst_share = 0.0;  ///< the largest error relative to the size of its kind
+  bool proved = false;             ///< the bounds are proved: `error`, `allowed` and `worst_share` are set
+  by_quantity error;               ///< bounds on the errors of each kind of number, absolute
+  std::optional<double> pressure;  ///< a bound on the errors of bearing pressures; empty without beds
+  by_quantity allowed;             ///< the errors that a certified state may have, absolute
+  double worst_share = 0.0;        ///< the largest error relative to the size of its kind
   std::shared_ptr<const step_proof> proof;  ///< the data that prove the bounds; null unless proofs are kept
   std::string problem;                      ///< what is wrong, in words; empty if certified
   std::string rule;                         ///< what is allowed instead; empty: errors up to certified_share

@@ -25,12 +25,15 @@ quantity kind_of(const support& s) {
   return s.dof == 0 ? quantity::reaction : quantity::moment;
 }
 
-/// Takes the error bound and the size of the reported number `told`. x: the same number computed from the
-/// state, with an error of at most `slack`; x changes by at most `moved` from the state to the equilibrium.
-void take(error_bounds& b, quantity q, double told, const double_double& x, double slack, double moved) {
+/// Takes the error bound, which is returned, and the size of the reported number `told`. x: the same number
+/// computed from the state, with an error of at most `slack`; x changes by at most `moved` from the state to
+/// the equilibrium.
+double take(error_bounds& b, quantity q, double told, const double_double& x, double slack, double moved) {
   const double off = std::abs((double_double(told) - x).hi);
-  b.error.take(q, (off + slack + moved) * (1 + summation_slack));
+  const double error = (off + slack + moved) * (1 + summation_slack);
+  b.error.take(q, error);
   b.size.take(q, std::abs(told));
+  return error;
 }
 
 }  // namespace
@@ -208,7 +211,7 @@ std::optional<end_numbers> error_prover::refine(int step, std::span<double> disp
   const long_loads& l = loads_of(step);
   state_ = {step, false, long_displacement(step, displacement, l), {}, {}, {}};
   (void)is_semidefinite();  // before K_A is factored, because it may replace this factor
-  if (system_.is_unloaded(l) && contacts_.proves({})) {
+  if (system_.is_at_rest(l) && contacts_.proves({})) {
     std::fill(state_.u.begin(), state_.u.end(), 0.0);
     state_.left = residual_of(state_.u, l);
   } else if (!correct(l)) {
@@ -257,6 +260,7 @@ void error_prover::bound_displacements(const reported_state& told, error_bounds&
 }
 
 void error_prover::bound_forces(const reported_state& told, error_bounds& b) const {
+  std::vector<double> errors;
   for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
     const long_pair& p = system_.pairs[i];
     const double_double deep = system_.depth(i, state_.u);
@@ -266,7 +270,16 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
     const bool open = contacts_.is_certainly_open(i, state_.u, b.rho);
     const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * contacts_.reach(p)) * b.rho;
     const double noise = open ? 0.0 : p.stiffness.hi * system_.doubt(i, state_.u);
-    take(b, quantity::force, told.numbers.pair_forces[i], force, noise, moved);
+    errors.push_back(take(b, quantity::force, told.numbers.pair_forces[i], force, noise, moved));
+  }
+  for (const bed& on : problem_.beds) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < on.share.size(); ++i) {
+      const std::size_t pair = on.first_pair + i;
+      const double rounding = 0x1p-51 * std::abs(told.numbers.pair_forces[pair]);  // of share and quotient
+      worst = std::max(worst, (errors[pair] + rounding) / on.share[i]);
+    }
+    b.pressure = b.pressure.value_or(0.0) + worst * (1 + summation_slack);  // a node may be on several beds
   }
 }
 
@@ -314,9 +327,9 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
   return all;
 }
 
-/// Prepares the bounds for a state without loads: all forces are 0, and so are all displacements if the
-/// supports hold the structure. Otherwise the structure may be at any place, unbent, with no pair beyond its
-/// face. Returns false and sets `b.not_proved` if bending cannot be excluded.
+/// Prepares the bounds for a state without loads at nodes: all contact forces are 0, and so are all
+/// displacements of nodes if the supports hold the structure. Otherwise the structure may be at any place,
+/// unbent, with no pair beyond its face. Returns false and sets `b.not_proved` if bending cannot be excluded.
 bool error_prover::rests(const reported_state& told, error_bounds& b) {
   const long_vector at_rest(system_.dofs());
   state_ = {};  // frees the memory of the refined state first
@@ -326,7 +339,8 @@ bool error_prover::rests(const reported_state& told, error_bounds& b) {
             system_.residual(at_rest, loads_),
             system_.element_values(told.step, at_rest),
             {}};
-  b.unloaded = true;
+  const auto* const on = std::get_if<beam>(&problem_.geometry.kind);
+  b.unloaded = on == nullptr || !acts_inside(*on, problem_.steps[told.step - 1]);
   b.unique = contacts_.proves({});
   b.rho = 0.0;
   if (b.unique || !told.numbers.element_values.empty()) return true;
@@ -344,7 +358,7 @@ void error_prover::keep(const reported_state& told, error_bounds& b) const {
                                                     told.numbers,
                                                     state_.u,
                                                     b.closed,
-                                                    b.unloaded ? long_vector() : contacts_.z(),
+                                                    b.at_rest ? long_vector() : contacts_.z(),
                                                     of_stiffness});
 }
 
@@ -386,11 +400,11 @@ error_bounds error_prover::bound(const reported_state& told) {
         "2e-308";
     return b;
   }
-  b.unloaded = system_.is_unloaded(l);
-  if (!(b.unloaded ? rests(told, b) : find_contacts(told, l, b))) return b;
+  b.at_rest = system_.is_at_rest(l);
+  if (!(b.at_rest ? rests(told, b) : find_contacts(told, l, b))) return b;
   measure(l, b);
   if (b.unique) bound_displacements(told, b);
-  if (b.unique || !b.unloaded) bound_pairs(told, b);
+  if (b.unique || !b.at_rest) bound_pairs(told, b);
   bound_forces(told, b);
   const std::vector<support_force> forces = support_forces();
   for (std::size_t i = 0; i < forces.size(); ++i)
@@ -401,7 +415,7 @@ error_bounds error_prover::bound(const reported_state& told) {
     take(b, kind_of(v), told.numbers.element_values[i], v.value, v.noise(), v.energy * b.rho);
   }
   widen_by_extremes(problem_, told, b);
-  if (b.unique || b.unloaded) keep(told, b);  // check_proof.py cannot check a balanced state under loads
+  if (b.unique || b.at_rest) keep(told, b);  // check_proof.py cannot check a balanced state under loads
   return b;
 }
 

@@ -53,10 +53,13 @@ struct step_proof {
 struct error_bounds : contact_set {
   /// Bounds on the largest error of each kind of number; empty for a kind without numbers or without a bound.
   by_quantity error;
+  std::optional<double> pressure;  ///< the same for bearing pressures; empty without beds
   by_quantity size;      ///< the largest number of each kind; nodal loads count as forces and moments
   by_quantity settling;  ///< if no load acts: the largest K_ii times settlement of dof i
-  /// No load acts, and at zero displacement no pair is beyond its face: this is an equilibrium.
-  bool unloaded = false;
+  /// No node is loaded or settles, and at zero displacement no pair is beyond its face: u = 0 is an
+  /// equilibrium.
+  bool at_rest = false;
+  bool unloaded = false;  ///< at rest, and no load acts inside elements either
   /// The first pair, from 0, whose status is certainly wrong.
   std::optional<std::size_t> wrong_status;
   std::shared_ptr<const step_proof> proof;  ///< null unless proofs are kept
@@ -153,9 +156,10 @@ class error_prover {
   bool keeps_proof_ = false;
 };
 
-/// Widens the bounds on w, moment and shear of a beam, which hold at the ends of elements, to include the
-/// extremes that ranges_of finds inside the elements. The size of w then includes the middle of elements.
-/// Does nothing for plates and matrices, whose extremes are at nodes and corners.
+/// Widens the bounds on w, slope, moment and shear of a beam, which hold at the ends of elements, to include
+/// the extremes that ranges_of finds inside the elements, and every slope of a beam_lines. The sizes then
+/// include the inside of elements. Does nothing for plates and matrices, whose extremes are at nodes and
+/// corners.
 void widen_by_extremes(const problem& p, const reported_state& state, error_bounds& b);
 
 }  // namespace contct

@@ -27,6 +27,13 @@ double rounding_in(const poly& p) {
   return 0x1p-53 * sum_of_sizes(p) * (64.0 + 48.0 * static_cast<double>(p.size()));
 }
 
+/// A bound on the rounding of the slopes of an element_line, of which any may be printed. Each coefficient
+/// has at most 20 roundings, and a value by Horner's rule 2 for each degree; both enter the value and the
+/// right end to which it is compared.
+double rounding_in_slope(const poly& p) {
+  return 0x1p-53 * sum_of_sizes(p) * (40.0 + 4.0 * static_cast<double>(p.size()));
+}
+
 /// A bound on how far a polynomial, with Bernstein's coefficients p, exceeds `top` from t = 0 to 1. Bisects p
 /// until the bound is at most `close` above `reached`, the largest excess of a value so far: the first and
 /// the last coefficient are the values at t = 0 and 1.
@@ -58,14 +65,20 @@ double off_extremes(const poly& p, const value_range& printed, double right_end)
   return beyond + std::abs(polynomial_at(p, 1.0) - right_end) + close;
 }
 
-/// The deflection in the middle of an element of length h.
-double middle_of(const std::vector<element_line>& pieces, double h) {
-  double left = h / 2;
-  for (const element_line& line : pieces) {
-    if (left <= line.h) return polynomial_at(line.w, left / line.h);
-    left -= line.h;
-  }
-  return polynomial_at(pieces.back().w, 1.0);
+/// Takes sizes inside an element of length h: of w and moment in its middle, of the shear at a quarter, where
+/// it does not vanish by symmetry. The largest slope is at least the mean slope of each half.
+void take_inside(const std::vector<element_line>& pieces, double h, double w_left, double w_right,
+                 by_quantity& size) {
+  const auto at = [&pieces](double left, poly element_line::*of) {
+    auto line = pieces.begin();
+    for (; line + 1 != pieces.end() && left > line->h; ++line) left -= line->h;
+    return polynomial_at((*line).*of, std::min(left / line->h, 1.0));
+  };
+  const double w = at(h / 2, &element_line::w);
+  size.take(quantity::w, std::abs(w));
+  size.take(quantity::slope, std::max(std::abs(w - w_left), std::abs(w_right - w)) / (h / 2));
+  size.take(quantity::moment, std::abs(at(h / 2, &element_line::moment)));
+  size.take(quantity::shear, std::abs(at(h / 4, &element_line::shear)));
 }
 
 /// Widens the bounds by how far each element goes beyond the printed extremes, and by the error of w inside
@@ -77,6 +90,10 @@ double middle_of(const std::vector<element_line>& pieces, double h) {
 /// Left of a hinge, the slope at the hinge is not a dof: the curvature there, which is 0 up to rounding,
 /// replaces the right slope. The functions of w and of the left slope have the same bounds, that of the
 /// curvature is at most h^2 / 27.
+///
+/// The error of the slope is quadratic. It is at most the largest error at the ends, plus the smaller of two
+/// numbers, which bound it by the errors of w at the ends and by that of the shear. Left of a hinge, the
+/// error of the curvature, times h, replaces that of the right slope.
 void widen(const beam& b, const reported_state& state, const load& l, error_bounds& bounds) {
   const beam_lines lines(b, l, state.displacement, state.numbers.element_values);
   const std::vector<value_range> printed = ranges_of(b, lines, state.displacement);
@@ -88,13 +105,16 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
     double h = 0.0;
     for (const element_line& line : pieces) h += line.h;
     const std::size_t right = 2 * e + 2;
-    const double slope = b.has_hinge(e + 1)
-                             ? std::abs(polynomial_at(last.moment, 1.0)) * h / 6 / b.EI[e]
-                             : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
+    const bool hinge = b.has_hinge(e + 1);
+    const double slope = hinge ? std::abs(polynomial_at(last.moment, 1.0)) * h / 6 / b.EI[e]
+                               : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
+    const double w = std::abs(polynomial_at(last.w, 1.0) - state.displacement[right]);
+    const double turned = std::min(1.5 / h * (2 * error[quantity::w].value_or(0.0) + w),
+                                   h * h / b.EI[e] / (hinge ? 2 : 8) * error[quantity::shear].value_or(0.0));
     const double of_slope = h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // The sum of loads that cancel has an error of up to 2^-89 of their magnitudes.
     const double of_load = 0x1p-80 * last.load_size * h;
-    bounds.size.take(quantity::w, std::abs(middle_of(pieces, h)));
+    take_inside(pieces, h, state.displacement[right - 2], state.displacement[right], bounds.size);
     for (const element_line& line : pieces) {
       const auto off = [&](const poly& p, std::size_t name, double right_end) {
         return off_extremes(p, printed[name], &line == &last ? right_end : polynomial_at(p, 1.0));
@@ -105,10 +125,12 @@ void widen(const beam& b, const reported_state& state, const load& l, error_boun
       }
       inside.take(quantity::w,
                   of_load * h * h * h / b.EI[e] + of_slope + off(line.w, 0, state.displacement[right]));
+      inside.take(quantity::slope, of_load * h * h / b.EI[e] + (hinge ? 6 : 1) * slope + turned +
+                                       rounding_in_slope(line.slope));
     }
   }
-  for (const quantity q : {quantity::w, quantity::moment, quantity::shear})
-    if (error[q]) error.take(q, *error[q] + inside[q].value_or(0.0));
+  for (const quantity q : {quantity::w, quantity::slope, quantity::moment, quantity::shear})
+    if (error[q]) error.take(q, (*error[q] + inside[q].value_or(0.0)) * (1 + summation_slack));
 }
 
 }  // namespace

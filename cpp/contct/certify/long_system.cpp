@@ -7,10 +7,15 @@
 namespace contct {
 namespace {
 
+/// A prescribed displacement is an exact sum, rounded once to 32 digits: this share of its magnitude, added
+/// to element_value::size, widens the noise by more than this rounding. A large settlement may have more
+/// digits than the difference of displacements that bends a short element.
+constexpr double settled_share = 0x1p-17;
+
 /// Shears and moments at the ends of a beam's elements. The error of each is at most sqrt(K_jj) rho, where K
 /// is the stiffness of the element.
 std::vector<element_value> values_of(const beam_elements<double_double>& beam, const load& l,
-                                     std::span<const double_double> u) {
+                                     std::span<const double_double> u, std::span<const char> fixed) {
   std::vector<element_value> all;
   const auto forces = beam.end_forces(l, u);
   all.reserve(4 * forces.size());
@@ -18,8 +23,10 @@ std::vector<element_value> values_of(const beam_elements<double_double>& beam, c
     const auto own = u.subspan(std::size_t{2} * e).first<4>();
     const double h = beam.lengths()[e].hi;
     const double stiffness = 2 * beam.EI(e).hi / h;
-    const double chord = (own[2] - own[0]).hi / h;
-    const double moment = 3 * stiffness * (std::abs(own[1].hi) + std::abs(own[3].hi) + 2 * std::abs(chord));
+    double tilt = std::abs((own[2] - own[0]).hi);
+    for (const std::size_t i : {0, 2})
+      if (fixed[std::size_t{2} * e + i] != 0) tilt += settled_share * std::abs(own[i].hi);
+    const double moment = 3 * stiffness * (std::abs(own[1].hi) + std::abs(own[3].hi) + 2 * tilt / h);
     for (std::size_t i = 0; i < 4; ++i) {
       const bool shears = i < 2;
       all.push_back({forces[e][i], shears ? 2 * moment / h : moment,
@@ -27,7 +34,8 @@ std::vector<element_value> values_of(const beam_elements<double_double>& beam, c
     }
   }
   beam.for_each_work(l, [&](int e, const auto& work) {
-    for (std::size_t i = 0; i < 4; ++i) all[std::size_t{4} * e + i].size += work.size[i < 2 ? 0 : 1];
+    constexpr std::array<std::size_t, 4> loaded = {0, 2, 1, 3};
+    for (std::size_t i = 0; i < 4; ++i) all[std::size_t{4} * e + i].size += work.size[loaded[i]];
   });
   return all;
 }
@@ -39,12 +47,14 @@ struct curvature_size {
 
 /// The size of each entry includes the slope of the plane that plate_elements::deformation subtracts.
 std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double>& plate, int e,
-                                              std::span<const double_double> u) {
+                                              std::span<const double_double> u, std::span<const char> fixed) {
   const double a = plate.halves_of(e).a.hi;
   const double b = plate.halves_of(e).b.hi;
   const std::array<double_double, 12> own = plate.displacement(e, u);
   const std::array<double_double, 12> v = plate.deformation(e, u);
-  const double tilt = std::abs((own[3] - own[0]).hi) + std::abs((own[9] - own[0]).hi);
+  double tilt = std::abs((own[3] - own[0]).hi) + std::abs((own[9] - own[0]).hi);
+  for (std::size_t i = 0; i < 12; i += 3)
+    if (fixed[plate.dofs_of(e)[i]] != 0) tilt += settled_share * std::abs(own[i].hi);
   std::array<curvature_size, 4> sizes;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& c = formulas::corner_curvatures<double>()[k];
@@ -61,7 +71,7 @@ std::array<curvature_size, 4> curvature_sizes(const plate_elements<double_double
 /// element. The corner values of w_xx and w_yy, which are bilinear, are at most 4 times their root mean
 /// square; those of w_xy, which has five terms, sqrt(17) times.
 std::vector<element_value> values_of(const plate_elements<double_double>& plate, const load& /*l*/,
-                                     std::span<const double_double> u) {
+                                     std::span<const double_double> u, std::span<const char> fixed) {
   std::vector<element_value> all;
   const double D = plate.D().hi;
   for (int e = 0; e < plate.count(); ++e) {
@@ -70,7 +80,7 @@ std::vector<element_value> values_of(const plate_elements<double_double>& plate,
     const double bends = 4 * std::sqrt(D / area);
     const double twists = std::sqrt(17 * D * (1 - plate.nu().hi) / (2 * area));
     const std::array<std::array<double_double, 4>, 3> moments = plate.moments(e, u);
-    const std::array<curvature_size, 4> sizes = curvature_sizes(plate, e, u);
+    const std::array<curvature_size, 4> sizes = curvature_sizes(plate, e, u, fixed);
     for (std::size_t name = 0; name < 3; ++name) {
       for (std::size_t k = 0; k < 4; ++k) {
         const double size = name < 2 ? sizes[k].bends : 2 * sizes[k].twists;
@@ -82,7 +92,7 @@ std::vector<element_value> values_of(const plate_elements<double_double>& plate,
 }
 
 std::vector<element_value> values_of(const no_elements<double_double>& /*none*/, const load& /*l*/,
-                                     std::span<const double_double> /*u*/) {
+                                     std::span<const double_double> /*u*/, std::span<const char> /*fixed*/) {
   return {};
 }
 
@@ -181,7 +191,7 @@ long_residual long_system::residual(std::span<const double_double> u, const long
   return r;
 }
 
-bool long_system::is_unloaded(const long_loads& l) const {
+bool long_system::is_at_rest(const long_loads& l) const {
   const auto none = [](const double_double& x) { return x == 0.0; };
   return std::ranges::all_of(l.size, [](double x) { return x == 0.0; }) &&
          std::ranges::all_of(l.settlement, none) &&
@@ -205,9 +215,9 @@ long_system long_system_of(const problem& p) {
   std::visit(
       [&](const auto& kind) {
         t.least_product = least_product_of(kind);
-        t.element_values = [&p, elements = elements_of<double_double>(kind)](
+        t.element_values = [&p, elements = elements_of<double_double>(kind), fixed = t.fixed](
                                int step, std::span<const double_double> u) {
-          return values_of(elements, p.steps[step - 1], u);
+          return values_of(elements, p.steps[step - 1], u, fixed);
         };
       },
       p.geometry.kind);

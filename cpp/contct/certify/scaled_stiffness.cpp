@@ -88,6 +88,10 @@ bool scaled_stiffness::factor(std::span<const int> pairs) {
   springs_.assign(system_.dofs(), 0.0);
   beside_.clear();
   for (const int i : pairs) {
+    if (const int dof = i - static_cast<int>(system_.pairs.size()); dof >= 0) {
+      springs_[dof] += system_.stiffness[dof].at(dof);
+      continue;
+    }
     const long_pair& p = system_.pairs[i];
     springs_[p.dof] += p.stiffness;
     if (p.other < 0) continue;

@@ -37,7 +37,8 @@ class scaled_stiffness {
                    bool by_columns = false);
 
   /// Factors K with the springs of these pairs, from 0, in doubles or, if a pivot is not positive, in 32
-  /// digits. False if a pivot is not positive in 32 digits either, or the band is too large for 32 digits.
+  /// digits. False if a pivot is not positive in 32 digits either, or the band is too large for 32 digits. A
+  /// number beyond the pairs is a dof, counted from there; its spring is as stiff as K is at this dof.
   [[nodiscard]] bool factor(std::span<const int> pairs);
 
   /// Returns mu > 0 with S K_A S >= mu I; 0 if no mu is proved. Takes at least one factorisation and two

@@ -132,7 +132,7 @@ template <class Number, class Elements>
                                                 int per_node) {
   loads_in<Number> f{std::vector<Number>(dofs), std::vector<double>(dofs), std::vector<Number>(dofs),
                      std::vector<Number>(dofs)};
-  for (const auto& [dof, values] : point_loads_at(l, per_node)) {
+  for (const auto& [dof, values] : by_dof(l.points, per_node)) {
     f.force[dof] = sum_of<Number>(values);
     f.size[dof] = size_of(f.force[dof]);
   }
@@ -142,10 +142,9 @@ template <class Number, class Elements>
       f.size[work.dofs[i]] += work.size[i];
     }
   });
-  for (const prescribed_displacement& g : l.settlements)
-    f.settlement[g.node * per_node + g.dof] += product_of<Number>(g.value, g.factor);
-  for (const face_move& m : l.moves)
-    f.moved[m.node * per_node + m.dof] += product_of<Number>(m.value, m.factor);
+  for (const auto& [dof, values] : by_dof(l.settlements, per_node))
+    f.settlement[dof] = sum_of<Number>(values);
+  for (const auto& [dof, values] : by_dof(l.moves, per_node)) f.moved[dof] = sum_of<Number>(values);
   f.from_zero = l.from_zero;
   return f;
 }

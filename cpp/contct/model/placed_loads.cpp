@@ -271,6 +271,14 @@ std::map<int, alike_pieces> pieces_of(const beam& b, const load& l) {
   return all;
 }
 
+bool acts_inside(const beam& b, const load& l) {
+  const auto loaded = [](const element_piece& p) { return p.size != 0.0 || !p.is_plain(); };
+  const auto all = pieces_of(b, l);
+  return std::any_of(all.begin(), all.end(), [&](const auto& alike) {
+    return std::any_of(alike.second.pieces.begin(), alike.second.pieces.end(), loaded);
+  });
+}
+
 const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all, int element) {
   const auto next = all.upper_bound(element);
   if (next == all.begin() || std::prev(next)->second.last < element) return nullptr;

@@ -48,6 +48,8 @@ struct alike_pieces {
 };
 /// The pieces of every loaded element of `b`. Key: the first of consecutive elements with the same pieces.
 [[nodiscard]] std::map<int, alike_pieces> pieces_of(const beam& b, const load& l);
+/// True if any load of `l` acts on an element: a load that others cancel at nodes, but not everywhere.
+[[nodiscard]] bool acts_inside(const beam& b, const load& l);
 /// The pieces of `element`; null if no load acts on this element.
 [[nodiscard]] const std::vector<element_piece>* pieces_at(const std::map<int, alike_pieces>& all,
                                                           int element);

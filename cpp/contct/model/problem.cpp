@@ -12,7 +12,7 @@ namespace contct {
 namespace {
 
 void add_point_loads(const load& l, int dofs_per_node, std::span<double> f) {
-  for (const auto& [dof, values] : point_loads_at(l, dofs_per_node)) f[dof] += sum_of<double>(values);
+  for (const auto& [dof, values] : by_dof(l.points, dofs_per_node)) f[dof] += sum_of<double>(values);
 }
 
 template <class Kind>

@@ -94,10 +94,11 @@ inline constexpr std::array nodal_values = {&load::points, &load::settlements, &
 /// is 1.
 [[nodiscard]] load mix(const load& before, const load& after, double fraction);
 
-/// The point loads of `l` at each dof that has any, in the order of the file.
-[[nodiscard]] inline std::map<int, std::vector<point_load>> point_loads_at(const load& l, int dofs_per_node) {
-  std::map<int, std::vector<point_load>> at;
-  for (const point_load& p : l.points) at[p.node * dofs_per_node + p.dof].push_back(p);
+/// The values at each dof that has any, in the order of the file.
+[[nodiscard]] inline std::map<int, std::vector<nodal_value>> by_dof(std::span<const nodal_value> values,
+                                                                    int dofs_per_node) {
+  std::map<int, std::vector<nodal_value>> at;
+  for (const nodal_value& v : values) at[v.node * dofs_per_node + v.dof].push_back(v);
   return at;
 }
 

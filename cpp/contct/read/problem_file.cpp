@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contct/kernel/call.hpp"
+#include "contct/model/exact_shares.hpp"
 #include "contct/model/line.hpp"
 #include "contct/read/node_reader.hpp"
 #include "contct/read/tables.hpp"
@@ -245,6 +246,7 @@ class problem_reader {
     made.closed = common.closed;
     const std::vector<double> faces = read_faces(t, at, made.face);
     if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
+    if (exact_shares_.empty()) exact_shares_ = exact_shares(problem_.geometry);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const int node = at[i];
       if (fixed_in_w(node)) continue;
@@ -254,7 +256,7 @@ class problem_reader {
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
                  "modulus times tributary length, or area, within the range of double precision");
       problem_.pairs.push_back(p);
-      made.share.push_back(shares_[node]);
+      made.share.push_back(exact_shares_[node]);
     }
     if (made.share.empty()) t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
     problem_.beds.push_back(std::move(made));
@@ -287,6 +289,7 @@ class problem_reader {
   std::optional<node_reader> nodes_;  // set once the structure is known
   std::vector<char> fixed_;           // [dofs]
   std::vector<double> shares_;        // [nodes] tributary lengths or areas; empty until a bed needs them
+  std::vector<double> exact_shares_;  // likewise
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "contct/model/exact_shares.hpp"
 #include "contct/model/line.hpp"
 #include "contct/session/step_results.hpp"
 
@@ -109,6 +110,7 @@ void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& f
   const std::vector<char> fixed = fixed_in(p, 0);
   const std::vector<char> now_fixed = fixed_in(fine, 0);
   const std::vector<double> shares = tributary_shares(fine.geometry);
+  const std::vector<double> exactly = exact_shares(fine.geometry);
   bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed};
   for (int node = 0; node < nodes(fine.geometry); ++node) {
     const std::vector<int> around = grid.around(node);
@@ -120,7 +122,7 @@ void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& f
       if (faces.contains(n)) face += faces[n] / static_cast<double>(known);
     if (!b.face.empty())
       face = values_at<double>(std::get<beam>(fine.geometry.kind), b.face, std::vector{node}).front();
-    made.share.push_back(shares[node]);
+    made.share.push_back(exactly[node]);
     fine.pairs.push_back({node, p.pairs[b.first_pair].surface, face, b.modulus * shares[node],
                           b.closed.value_or(true) && face == 0.0});
   }

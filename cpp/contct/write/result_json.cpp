@@ -108,9 +108,10 @@ json element_json(const model* m, const step_results& results, std::size_t e) {
   return entry;
 }
 
-/// The bounds on the errors of a state, including that of stresses if stresses are known.
+/// The bounds on the errors of a state, including those of pressures and stresses if there are any.
 json errors_json(const problem& p, const std::optional<certificate>& c, const step_results& read) {
   json out = error_json(p, c);
+  if (!p.beds.empty()) out["pressure"] = c && c->proved && c->pressure ? json(*c->pressure) : json(nullptr);
   if (read.stresses.names.empty()) return out;
   double largest = 0.0;
   for (const value_range& r : read.ranges)
