@@ -43,6 +43,7 @@ class Problem:
         need(len(t.keys() & {"beam", "plate", "matrix"}) == 1, "not one structure")
         need("hinge" not in t or "beam" in t, "a hinge without a beam")
         self.definite, self.of_elements = "matrix" not in t, 0  # K is proved semidefinite; number of element results
+        self.rounded = t.get("matrix", {}).get("free_motions", 0) > 0  # K may be indefinite, because its entries are rounded
         if "matrix" in t:
             self.K, t = matrix(t["matrix"], t, folder)
             self.names, self.lines, share, self.elements, self.span = ["w"], [], [F(1)] * len(self.K), [], F(0)

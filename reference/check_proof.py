@@ -63,16 +63,30 @@ def reach_of_pair(p, s, reach, i):
     return reach[dof] * (1 if other is None or "L" not in s else 1 + F(2)**(s["scale"][other] - s["scale"][dof]))**2
 
 
+def stiff(p, k, otherwise):
+    """Returns the lesser of two squares of bounds on a force; the first, a stiffness, only if K is semidefinite."""
+    return min(k, otherwise) if p.definite else otherwise
+
+
+def spread_of(p, s, reach, dof):
+    """Returns c of a fixed dof's reaction: the square of the sum of |K_ij| s_j, over mu."""
+    free = {j: abs(k) for j, k in p.K[dof].items() if j not in p.fixed}
+    if "L" not in s or p.definite or not free:
+        return p.K[dof][dof] if p.definite else F(0)
+    first = min(free)
+    return reach[first] * sum(k * F(2)**(s["scale"][j] - s["scale"][first]) for j, k in free.items())**2
+
+
 def claims_of(p, s, own, u, needed, deep, rho2, reach):
     """Returns (kind, value in the state u, c) for each number of the proof file in order, with error^2 <= c rho^2."""
-    per, held = len(p.names), {dof: (needed[dof], p.K[dof][dof]) for dof in p.fixed}
+    per, held = len(p.names), {dof: (needed[dof], stiff(p, p.K[dof][dof], spread_of(p, s, reach, dof))) for dof in p.fixed}
     spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # c of each displacement
     claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
     for i, ((_, _, _, k), d) in enumerate(zip(p.pairs, deep)):
         square = reach_of_pair(p, s, reach, i)
-        claims.append(("force", k * max(d, 0), 0 if d < 0 and d * d > square * rho2 else min(k, k * k * square)))
+        claims.append(("force", k * max(d, 0), 0 if d < 0 and d * d > square * rho2 else stiff(p, k, k * k * square)))
     for dof, k in p.supports:  # of a dof that is fixed twice, the first support has the reaction
-        true, square = held.pop(dof, (0, 0)) if k is None else (-k * u[dof], min(k, k * k * spread[dof]))
+        true, square = held.pop(dof, (0, 0)) if k is None else (-k * u[dof], stiff(p, k, k * k * spread[dof]))
         claims.append(("moment" if dof % per else "reaction", true, square))
     return claims + [v for (e, dofs, _), work in zip(p.elements, own) for v in e.values([u[dof] for dof in dofs], work)]
 
@@ -122,7 +136,7 @@ def check(p, step, s, largest):
     f, settled, own = p.loads(step)
     u, needed, deep, rho2, reach = bounded(p, f, settled, s)
     p.definite = p.definite or semidefinite(p)
-    need(p.definite, "the stiffness is not shown to be positive semidefinite")
+    need(p.definite or (p.rounded and "L" in s), "the stiffness is not shown to be positive semidefinite")
     claims = claims_of(p, s, own, u, needed, deep, rho2, reach)[0 if "L" in s else p.n:]
     error, told = {kind: F(bound) for kind, bound in s["error"].items() if bound is not None}, {}
     for number, ((kind, true, square), x) in enumerate(zip(claims, s.get("displacement", []) + s["force"] + s["reactions"] + s["elements"], strict=True)):

@@ -636,21 +636,24 @@ def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: 
 
 
 def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] = None, pairs: Iterable[Sequence[Any]] = (),
-            loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, folder: Folder = None,
-            allow_outside: bool = False) -> Result:
+            loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, free_motions: Optional[int] = None,
+            folder: Folder = None, allow_outside: bool = False) -> Result:
     """Compute bounds on the errors of states from another program or a formula.
 
     `displacement` has, for each of the first steps, the displacement of every dof under the whole load: w and theta of
     each node of a beam; w, wx and wy of each node of a plate; the rows of a matrix in their order. Values are
     lengths, positive up, and slopes. `problem` may also be a stiffness matrix that has the method `tocoo()`, such as a
-    SciPy sparse matrix; then `loads` has a number for each dof, `pairs` has tuples (dof, surface, face, stiffness), and
-    `supports` has fixed dofs, or a dict of springs. Rows and dofs are numbered from 0. `closed` has the pairs in contact for each
+    SciPy sparse matrix; then `loads` has a number for each dof, `pairs` has tuples (dof, surface, face, stiffness),
+    `supports` has fixed dofs, or a dict of springs, and `free_motions` is the number of motions that the supports leave
+    free, if rounded entries hide it. Rows and dofs are numbered from 0. `closed` has the pairs in contact for each
     state, from 1; None selects the pairs whose faces the state touches or penetrates. The result has `w`, `pairs`,
     `error` and `certificate` of each state, and no increments; its `answer` is the equilibrium.
     """
     if hasattr(problem, "tocoo"):
         with tempfile.TemporaryDirectory() as files:
             written = _matrix_problem(problem, pairs, loads, supports, labels, Path(files))
+            if free_motions is not None:
+                written["matrix"]["free_motions"] = operator.index(free_motions)
             lists = None if closed is None else [list(closed)]
             try:
                 found = certify(written, [displacement], closed=lists, folder=files)
@@ -658,8 +661,8 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
                 return found
             except InputError as error:
                 raise InputError(error.message, error.file and Path(error.file).name, error.line, error.column) from None
-    if pairs or loads is not None or supports or labels is not None:
-        raise InputError("certify: found pairs, loads, supports or labels with a problem, which has its own; allowed: "
+    if pairs or loads is not None or supports or labels is not None or free_motions is not None:
+        raise InputError("certify: found pairs, loads, supports, labels or free_motions with a problem, which has its own; allowed: "
                          "these only with a matrix")
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)

@@ -213,3 +213,16 @@ TEST_CASE(
     CHECK(digits_of(r.of_step(1)) == 0);
   }
 }
+
+TEST_CASE("a plate that is nearly rigid on its bed is certified, or the reason suggests fewer elements") {
+  const auto state_of = [](const std::string& elements) {
+    return judged("[plate]\nsize = [8, 6]\nelements = " + elements +
+                      "\nD = 1e9\nnu = 0.2\n[[bed]]\nmodulus = 1\nface = 0\n[[step]]\nuniform = -10\n"
+                      "point = [ { at = [4, 3], w = -100 } ]\n",
+                  "corrected")
+        .of_step(1);
+  };
+  CHECK(state_of("[16, 12]").certified);
+  const certificate fine = state_of("[32, 24]");
+  CHECK((fine.certified || fine.problem.find("use fewer elements") != std::string::npos));
+}

@@ -464,38 +464,6 @@ TEST_CASE(
   CHECK((!slope || *slope >= 1.5e-24));
 }
 
-TEST_CASE("if the last digits of all entries of a row could free a matrix, the state is not certified") {
-  // Dof 1 is coupled with all other dofs by entries that are written with 6 digits.
-  const auto proved = [](int others) {
-    problem p;
-    assembled a;
-    a.name = "arrow.mtx";
-    const int n = others + 1;
-    a.stiffness.order = n;
-    for (int i = 0; i < n; ++i) {
-      a.stiffness.entries.push_back({i, i, 1.0});
-      a.stiffness.last_digits.push_back(sparse_matrix::exact_entry);
-    }
-    for (int i = 1; i < n; ++i) {
-      a.stiffness.entries.push_back({i, 0, -0.0001});
-      a.stiffness.last_digits.push_back(-2);  // half a unit of this digit is 0.005
-    }
-    a.rows.resize(n);
-    for (int i = 0; i < n; ++i) a.rows[i] = i;
-    p.geometry = {a};
-    p.pairs = {{0, face_above, 10.0, 1.0, false}};
-    p.steps = {{{{n - 1, 0, 1.0}}, {}}};
-    const linear_structure s = structure_of(p);
-    error_prover prover(p, s);
-    std::vector<double> u(n, 0.0);
-    std::vector<int> isep = {separated};
-    (void)prover.refine(1, u, isep);
-    return prover.bound({1, u, isep, {{0.0}, {}, {}}}).not_proved.empty();
-  };
-  CHECK(proved(20));         // 20 * 0.005 < 1
-  CHECK_FALSE(proved(250));  // 250 * 0.005 > 1
-}
-
 TEST_CASE(
     "the error bound of a refined state takes no solve, but the bound of a state rounded to doubles takes "
     "one") {

@@ -33,17 +33,6 @@ TEST_CASE("stands_for is true for text that is not a decimal, since such text ha
 }
 
 TEST_CASE(
-    "a number with a decimal point or an exponent has a last written digit, but a whole number has none") {
-  CHECK(last_written_digit("1.250") == -3);
-  CHECK(last_written_digit("-1.25e4") == 2);
-  CHECK(last_written_digit("1.0000000000000D+00") == -13);
-  CHECK(last_written_digit("5e-324") == -324);
-  CHECK(last_written_digit("2.") == 0);
-  CHECK_FALSE(last_written_digit("-2").has_value());
-  CHECK_FALSE(last_written_digit("1_000").has_value());
-  CHECK_FALSE(last_written_digit("x").has_value());
-}
-
 TEST_CASE("zeros at the end of a number are significant digits, and zeros at its front are none") {
   for (const char* four : {"1.250", "0.001250", "-1250", "1_25.0e-7", "+0012.50"})
     CHECK(significant_digits(four) == 4);

@@ -172,6 +172,16 @@ def check_semidefinite(folder):
                 codes = verdict(chain, proof, folder)[0], proof["steps"][0]["closed"]
             if verdict(chain, proof, folder)[0] != 0 or codes != (1, [1, 2]):
                 fail("a free chain on two pairs: it is not asked whether the matrix is semidefinite")
+    (Path(folder) / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 1\n2 1 1.00000000001\n2 2 1\n3 2 -0.5\n3 3 5\n")
+    rounded, declared = problem.read_text() + "[[support]]\ndof = \"3\"\nfix = true\n", Path(folder) / "declared.toml"
+    problem.write_text(rounded)
+    declared.write_text(rounded.replace("\n[[", "\nfree_motions = 1\n[[", 1))
+    proof = proof_of(declared, folder, "--kernels", "corrected")
+    false = copy.deepcopy(proof)
+    scaled(["error", "reaction"], 1e-3)(false["steps"][0])
+    codes = [verdict(declared, proof, folder)[0], verdict(problem, proof, folder)[0], verdict(declared, false, folder)[0]]
+    if not proof["steps"][0]["certified"] or codes != [0, 1, 1]:
+        fail(f"an indefinite matrix is not certified just where free_motions is given: {codes}")
     print(f"{len(MATRICES)} matrices are semidefinite or not")
 
 

@@ -114,6 +114,16 @@ def test_contct_run_refuses_a_matrix_in_memory_and_names_the_function_that_write
             contct.run(problem)
 
 
+def test_contct_certify_takes_the_number_of_rigid_body_motions_that_rounded_entries_hide():
+    third = 0.33333  # the matrix is slightly indefinite
+    rod = Coo(3, [(i, j, 0.66665 if i == j else -third) for i in range(3) for j in range(3)])
+    arguments = {"pairs": STOP, "loads": {2: -3.0}}
+    with pytest.raises(contct.InputError, match="1 motion is nearly free: set free_motions = 1"):
+        contct.certify(rod, [-0.005] * 3, **arguments)
+    found = contct.certify(rod, [-0.005] * 3, free_motions=1, **arguments)
+    assert found.answer.certified and found.answer.steps[0].pairs[0].force == pytest.approx(3.0, rel=1e-4)
+
+
 def test_contct_certify_refuses_loads_of_a_matrix_together_with_a_problem(beam):
     with pytest.raises(contct.InputError, match="with a problem, which has its own"):
         contct.certify(beam, [0.0] * 6, loads=[0.0] * 6)

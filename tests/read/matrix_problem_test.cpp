@@ -400,46 +400,66 @@ TEST_CASE(
   CHECK_THAT(message, Catch::Matchers::Contains("allowed: no eigenvalue below -1e-10"));
 }
 
-TEST_CASE(
-    "if half a unit in the last digits of a matrix file decides whether the structure is held, nothing is "
-    "certified") {
+namespace {
+
+/// The certificate of three dofs under a load at dof 3, which has a face below. `d`, `b`, `end`: the entries
+/// on the diagonal, beside it, and at dof 3. `corner`: couples dofs 1 and 3; empty: no entry.
+certificate certificate_of(std::array<std::string, 4> entries, const std::string& more,
+                           const std::string& load) {
   const scratch_folder to;
-  const auto certificate_of = [&to](const std::string& last_entry, const std::string& more) {
-    (void)to.write("K.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 -1\n2 2 " +
-                                last_entry + "\n");
-    const problem p = read_problem(to.write(
-        "p.toml",
-        "[matrix]\nstiffness = \"K.mtx\"\n" + more +
-            "[[contact]]\ndof = \"2\"\nsurface = \"above\"\nface = 1\nstiffness = 1e-13\n"
-            "[[step]]\npoint = [{ dof = \"1\", value = 1 }, { dof = \"2\", value = -0.9999999 }]\n"));
-    const linear_structure s = structure_of(p);
-    certifier judged(p, s, contct::exact_means_of(p));
-    observer* const watching[] = {&judged};
-    (void)judged.find_final_states(watching);
-    REQUIRE(judged.steps().size() == 1);
-    return *judged.steps()[0];
-  };
-  CHECK(certificate_of("1.00000000000005", "")
-            .certified);  // a stiffness of 5e-14 with an uncertainty of half of 1e-14
-  const certificate doubtful = certificate_of("1.0000000000000", "");  // as CalculiX writes a free body
-  CHECK_FALSE(doubtful.certified);
-  CHECK_THAT(doubtful.problem, Catch::Matchers::Contains("set free_motions"));
-  CHECK(certificate_of("1.0000000000000", "free_motions = 1\n").certified);
-  CHECK(certificate_of("1", "").certified);  // whole numbers are not rounded
+  const auto& [d, b, end, corner] = entries;
+  const std::string last = corner.empty() ? "" : "3 1 " + corner + "\n";
+  (void)to.write(
+      "K.mtx", fmt::format("%%MatrixMarket matrix coordinate real symmetric\n3 3 {}\n1 1 {}\n2 1 {}\n2 2 {}\n"
+                           "3 2 {}\n3 3 {}\n{}",
+                           corner.empty() ? 5 : 6, d, b, d, b, end, last));
+  const problem p = read_problem(to.write(
+      "p.toml",
+      "[matrix]\nstiffness = \"K.mtx\"\n" + more +
+          "[[contact]]\ndof = \"3\"\nsurface = \"below\"\nface = -0.15\nstiffness = 1000.0\n[[step]]\n"
+          "point = [{ dof = \"3\", value = " +
+          load + " }]\n"));
+  const linear_structure s = structure_of(p);
+  certifier judged(p, s, contct::exact_means_of(p));
+  observer* const watching[] = {&judged};
+  (void)judged.find_final_states(watching);
+  return judged.steps().empty() ? certificate{} : judged.steps()[0].value_or(certificate{});
+}
+
+}  // namespace
+
+TEST_CASE("the entries of a matrix are the decimals of its file, whatever their form, and are certified") {
+  const std::array<std::string, 4> all[] = {
+      {"200", "-100", "100"}, {"2e2", "-1e2", "1e2"}, {"2.0", "-1.0", "2.0"},       {"2E+00", "-1.", "2.000"},
+      {"0.2", "-0.1", "0.1"}, {"0.2", "-0.1", "0.2"}, {"2.4E5", "-1.2E5", "1.2E5"}, {"20e-2", "-.1", "0.1"}};
+  for (const auto& entries : all) {
+    INFO(entries[0] << " " << entries[1] << " " << entries[2]);
+    CHECK(certificate_of(entries, "", "-10").certified);
+  }
 }
 
 TEST_CASE(
-    "the decimal place to which a matrix entry is given is found from its file, also if trailing zeros are "
-    "omitted") {
-  const auto digits = [](const std::string& a, const std::string& b, const std::string& c) {
-    return parse_symmetric("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 " + a + "\n2 1 " + b +
-                               "\n2 2 " + c + "\n",
-                           "K.mtx")
-        .last_digits;
-  };
-  constexpr auto exact = sparse_matrix::exact_entry;
-  CHECK(digits("1", "-1", "2").empty());
-  CHECK(digits("1", "-0.5", "2.25") == std::vector<std::int16_t>{exact, -3, -2});    // to three digits
-  CHECK(digits("12.50", "-0.01", "2.00") == std::vector<std::int16_t>{-2, -2, -2});  // to two decimal places
-  CHECK(digits("1.25000E+03", "-1.00000E-02", "2.00000E+00") == std::vector<std::int16_t>{-2, -7, -5});
+    "if only rounding holds a matrix, the reason has the rigid-body motions, and free_motions is a remedy") {
+  using Catch::Matchers::Contains;
+  const std::string two = "0.6666666666666666";
+  const std::string soft = "0.6666666666666667";
+  const std::string third = "-0.3333333333333333";
+  const std::string declared = "free_motions = 1\n";
+  // Thirds that are rounded up leave the stiffness 1e-16, which the face or nothing but rounding may support.
+  CHECK(certificate_of({soft, third, soft, third}, "", "-10").certified);
+  CHECK_THAT(
+      certificate_of({soft, third, soft, third}, "", "10").problem,
+      Contains("1 motion is nearly free: its stiffness is") && Contains("set free_motions = 1, or 0 if"));
+  CHECK(certificate_of({soft, third, soft, third}, "free_motions = 0\n", "10").certified);
+  // Entries that are rounded down make the matrix indefinite.
+  for (const std::string& down : {two, std::string("0.66666666666")}) {
+    const certificate indefinite = certificate_of({down, "-0.3333333333333334", down, third}, "", "-10");
+    CHECK_FALSE(indefinite.certified);
+    CHECK_THAT(indefinite.problem, Contains("1 motion is nearly free: its stiffness is -") &&
+                                       Contains("of the largest; set free_motions = 1"));
+    CHECK(certificate_of({down, "-0.3333333333333334", down, third}, declared, "-10").certified);
+  }
+  CHECK_THROWS_WITH(certificate_of({"0.666", "-0.33301", "0.666", "-0.333"}, "", "-10"),
+                    Contains("1 motion is nearly free: set free_motions = 1"));
+  CHECK(certificate_of({"0.666", "-0.33301", "0.666", "-0.333"}, declared, "-10").certified);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "contct/solve/factored_stiffness.hpp"
@@ -122,19 +123,14 @@ bool certain_contacts::proves(const std::vector<int>& closed) {
   return mu_ > 0.0;
 }
 
-bool certain_contacts::last_digits_decide() const {
-  const auto* a = std::get_if<assembled>(&problem_.geometry.kind);
-  if (a == nullptr || a->free_motions) return false;
-  if (a->stiffness.last_digits.empty()) return false;
-  std::vector<double> rows(system_.dofs());  // row sums of S H S, with H = half units in the last digits
-  for (std::size_t i = 0; i < a->stiffness.entries.size(); ++i) {
-    const matrix_entry& e = a->stiffness.entries[i];
-    if (system_.fixed[e.row] != 0 || system_.fixed[e.column] != 0) continue;
-    const double scaled = a->stiffness.half_unit(i) * stiffness_.scale(e.row) * stiffness_.scale(e.column);
-    rows[e.row] += scaled;
-    if (e.row != e.column) rows[e.column] += scaled;
-  }
-  return !(std::ranges::max(rows) * (1 + summation_slack) < mu_);
+std::string nearly_free_words(const linear_structure& s) {
+  const bool one = s.rigid_motions == 1;
+  char text[200];
+  (void)std::snprintf(
+      text, sizeof text, "%d %s nearly free: %s stiffness is %.1g of the largest; set free_motions = %d%s",
+      s.rigid_motions, one ? "motion is" : "motions are", one ? "its" : "their", s.rigid_stiffness,
+      s.rigid_motions, s.rigid_stiffness > 0.0 ? ", or 0 if this stiffness holds the structure" : "");
+  return text;
 }
 
 /// Sets A and rho in `b`. Returns "" if A and rho are proved, otherwise the reason in words. `balanced`:
@@ -147,12 +143,13 @@ std::string certain_contacts::search(std::span<const double_double> u, const lon
       return !structure_.truth
                  ? "the stiffness is too ill-conditioned, or it is not certain that the structure is held"
              : structure_.is_held(held_by(b.closed))
-                 ? "the stiffness is too ill-conditioned"
+                 ? "the stiffness is too ill-conditioned; use fewer elements, or supports that hold it"
                  : "it is not certain that the structure is held: a pair that must hold it may not press";
-    if (!balanced && last_digits_decide())
-      return "the last digits of the matrix decide whether the structure is held; set free_motions, the "
-             "number "
-             "of its rigid-body motions";
+    if (!balanced && !structure_.truth && !structure_.is_held(held_by(b.closed))) {
+      const bool declared = std::get<assembled>(problem_.geometry.kind).free_motions.has_value();
+      return declared ? "no support and no pair stops a motion that free_motions counts"
+                      : nearly_free_words(structure_);
+    }
     const std::optional<double> rho = norm_of(r);
     if (!rho) return "the numbers are too large or too small";
     if (erase_doubtful(u, *rho, b.closed)) continue;

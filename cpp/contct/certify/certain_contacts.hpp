@@ -15,12 +15,17 @@ namespace contct {
 
 /// The proved facts about the contacts of a state.
 struct contact_set {
-  bool unique = true;      ///< false: other displacements are equilibria with the same forces
+  bool unique = true;  ///< false: other displacements are equilibria with the same forces
+  /// False: K is not proved semidefinite, so there may be another equilibrium, farther away than rho.
+  bool convex = true;
   std::string not_proved;  ///< why nothing is proved about the contacts, in words; empty if A is proved
   /// A bound on the distance to the equilibrium in the norm of K_A.
   double rho = std::numeric_limits<double>::infinity();
   std::vector<int> closed;  ///< A: the pairs certainly in contact, from 0
 };
+
+/// Tells how nearly free the rigid-body motions of a matrix are, and asks for free_motions.
+[[nodiscard]] std::string nearly_free_words(const linear_structure& s);
 
 class certain_contacts {
  public:
@@ -64,9 +69,6 @@ class certain_contacts {
   [[nodiscard]] std::string search(std::span<const double_double> u, const long_residual& r, bool balanced,
                                    contact_set& b);
   [[nodiscard]] rigid_rank held_by(const std::vector<int>& closed) const;
-  /// True if half a unit in the last digits of a given matrix can make K_A indefinite. False for beams and
-  /// plates, and if the problem gives `free_motions`.
-  [[nodiscard]] bool last_digits_decide() const;
   [[nodiscard]] std::optional<double> norm_of(const long_residual& r);
   [[nodiscard]] double square_of_norm(const long_residual& r, const long_vector& left,
                                       std::span<const double> sizes, double& least) const;

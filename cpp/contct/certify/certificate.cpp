@@ -86,6 +86,10 @@ certificate certifier::judge(const step_state& s) {
   const bool beyond_face = !c.unique && c.penetration > certified_share;
   if (!c.certified || beyond_face) compare(s, load, c);
   if (!c.certified) find_pulling_pair(s, c);
+  constexpr double ill_conditioned = 1e-12;
+  if (!c.certified && c.proved && structure_.truth && c.rcond < ill_conditioned)
+    c.problem +=
+        ". The stiffness is ill-conditioned: use fewer elements, or supports that hold the structure";
   return c;
 }
 
@@ -211,6 +215,9 @@ void certifier::compare(const step_state& s, std::span<const double> load, certi
     c.problem =
         "there is no reference solution: in double precision, the load drives a rigid-body motion that "
         "nothing stops. Whether an equilibrium exists is not decided";
+    const auto* const a = std::get_if<assembled>(&problem_.geometry.kind);
+    if (a != nullptr && !a->free_motions && structure_.rigid_motions > 0)
+      c.problem += ". " + nearly_free_words(structure_);
   } else if (answer.how == outcome::not_found) {
     c.problem = "there is no reference solution: the stiffness is too ill-conditioned";
   } else {

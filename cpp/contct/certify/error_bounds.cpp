@@ -10,6 +10,8 @@
 namespace contct {
 namespace {
 
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
 /// Sets displacements to 0 if they are so small that their products underflow.
 void flush_tiny(long_vector& u) {
   constexpr double none = 1e-140;
@@ -62,7 +64,7 @@ reported_state reported_state_at(const problem& p, const step_state& s) {
 }
 
 error_prover::error_prover(const problem& p, const linear_structure& s, exact_means* exactly)
-    : problem_(p), system_(long_system_of(p)), contacts_(p, s, system_), exactly_(exactly) {}
+    : problem_(p), structure_(s), system_(long_system_of(p)), contacts_(p, s, system_), exactly_(exactly) {}
 
 void error_prover::keep_proof() {
   keeps_proof_ = true;
@@ -265,7 +267,7 @@ void error_prover::bound_forces(const reported_state& told, error_bounds& b) con
     const long_pair& p = system_.pairs[i];
     const double_double deep = system_.depth(i, state_.u);
     const double_double force = deep.hi <= 0.0 ? double_double(0.0) : p.stiffness * deep;
-    const double root = std::sqrt(p.stiffness.hi) * (1 + summation_slack);
+    const double root = b.convex ? std::sqrt(p.stiffness.hi) * (1 + summation_slack) : unbounded;
     const bool held = system_.fixed[p.dof] != 0;
     const bool open = contacts_.is_certainly_open(i, state_.u, b.rho);
     const double moved = held || open ? 0.0 : std::min(root, p.stiffness.hi * contacts_.reach(p)) * b.rho;
@@ -309,7 +311,7 @@ void error_prover::bound_pairs(const reported_state& told, error_bounds& b) cons
 
 /// The forces of all supports, in the order of the file. If a dof is fixed twice, the first support gets the
 /// whole reaction.
-std::vector<error_prover::support_force> error_prover::support_forces() const {
+std::vector<error_prover::support_force> error_prover::support_forces(bool convex) const {
   std::vector<char> taken(system_.dofs(), 0);
   std::vector<support_force> all;
   for (const auto& s : system_.supports) {
@@ -317,11 +319,13 @@ std::vector<error_prover::support_force> error_prover::support_forces() const {
     if (!s.fixed) {
       force.force = -(s.spring * state_.u[s.dof]);
       force.slack = long_rounding * std::abs(force.force.hi);
-      if (system_.fixed[s.dof] == 0)
-        force.per_rho =
-            std::min(std::sqrt(s.spring.hi) * (1 + summation_slack), s.spring.hi * contacts_.reach(s.dof));
+      const double root = convex ? std::sqrt(s.spring.hi) * (1 + summation_slack) : unbounded;
+      if (system_.fixed[s.dof] == 0) force.per_rho = std::min(root, s.spring.hi * contacts_.reach(s.dof));
     } else if (std::exchange(taken[s.dof], 1) == 0) {
-      force = {state_.left.needed[s.dof], state_.left.slack[s.dof], system_.root[s.dof]};
+      force = {state_.left.needed[s.dof], state_.left.slack[s.dof], convex ? system_.root[s.dof] : 0.0};
+      for (const auto& [column, entry] : system_.stiffness[s.dof])
+        if (!convex && system_.fixed[column] == 0)
+          force.per_rho += std::abs(entry.hi) * contacts_.reach(column) * (1 + summation_slack);
     }
   }
   return all;
@@ -381,10 +385,11 @@ bool error_prover::find_contacts(const reported_state& told, const long_loads& l
     found = contacts_.find(state_.u, state_.left, b);
   }
   if (!found) return contacts_.find_balanced(l.step, state_.u, state_.left, b);
-  if (!semidefinite) {
-    b.not_proved =
-        "it is not certain that the matrix is positive semidefinite. If the structure has too few supports, "
-        "rounded entries may be the cause: add a [[support]] with a weak spring";
+  b.convex = semidefinite;
+  // If free_motions is given, rounded entries may make K indefinite; K_A is definite.
+  if (!semidefinite && std::get<assembled>(problem_.geometry.kind).free_motions.value_or(0) == 0) {
+    b.not_proved = "it is not certain that the matrix is positive semidefinite" +
+                   (structure_.rigid_motions > 0 ? ": " + nearly_free_words(structure_) : std::string());
     return false;
   }
   (void)contacts_.proves(b.closed);  // the bounds need the factor of K_A
@@ -406,7 +411,7 @@ error_bounds error_prover::bound(const reported_state& told) {
   if (b.unique) bound_displacements(told, b);
   if (b.unique || !b.at_rest) bound_pairs(told, b);
   bound_forces(told, b);
-  const std::vector<support_force> forces = support_forces();
+  const std::vector<support_force> forces = support_forces(b.convex);
   for (std::size_t i = 0; i < forces.size(); ++i)
     take(b, kind_of(problem_.supports[i]), told.numbers.reactions[i], forces[i].force, forces[i].slack,
          forces[i].per_rho * b.rho);

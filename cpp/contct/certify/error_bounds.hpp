@@ -142,10 +142,11 @@ class error_prover {
   void bound_displacements(const reported_state& told, error_bounds& b) const;
   void bound_pairs(const reported_state& told, error_bounds& b) const;
   void bound_forces(const reported_state& told, error_bounds& b) const;
-  [[nodiscard]] std::vector<support_force> support_forces() const;
+  [[nodiscard]] std::vector<support_force> support_forces(bool convex = true) const;
   void keep(const reported_state& told, error_bounds& b) const;
 
   const problem& problem_;
+  const linear_structure& structure_;
   long_system system_;  // the faces are at their places at the end of the step of `loads_`
   certain_contacts contacts_;
   exact_means* exactly_;

@@ -64,7 +64,7 @@ std::vector<int> blocks_of(const sparse_columns& l) {
 }  // namespace
 
 bool can_be_factored_long(int order, int subdiagonals) {
-  constexpr double most_products = 1e7;
+  constexpr double most_products = 1e8;
   return static_cast<double>(order) * (subdiagonals + 1) * (subdiagonals + 1) <= most_products;
 }
 

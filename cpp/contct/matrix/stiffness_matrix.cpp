@@ -1,6 +1,7 @@
 #include "contct/matrix/stiffness_matrix.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
@@ -55,10 +56,9 @@ double sparse_matrix::doubt(std::span<const double> x) const {
   for (const matrix_entry& e : entries)
     if (e.row == e.column) root[e.row] = std::sqrt(std::abs(e.value));
   double sum = 0.0;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const matrix_entry& e = entries[i];
+  for (const matrix_entry& e : entries) {
     const double both = (e.row == e.column ? 1.0 : 2.0) * std::abs(x[e.row]) * std::abs(x[e.column]);
-    sum += both * (half_unit(i) + summation_slack * root[e.row] * root[e.column]);
+    sum += both * summation_slack * root[e.row] * root[e.column];
   }
   return sum;
 }

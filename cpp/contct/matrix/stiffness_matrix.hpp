@@ -2,7 +2,6 @@
 // structure.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -75,19 +74,10 @@ struct matrix_entry {
 struct sparse_matrix {
   int order = 0;
   std::vector<matrix_entry> entries;
-  /// [entries] the power of ten of each entry's last digit in the file, or exact_entry if the entry was not
-  /// rounded. Empty: all entries are exact.
-  std::vector<std::int16_t> last_digits = {};
   std::size_t stored = 0;  ///< number of entries in the file, zeros included
-  static constexpr std::int16_t exact_entry = -32768;
-  /// Half a unit in the last digit of an entry; 0 if the entry is exact.
-  [[nodiscard]] double half_unit(std::size_t entry) const {
-    if (last_digits.empty() || last_digits[entry] == exact_entry) return 0.0;
-    return 0.5 * std::pow(10.0, last_digits[entry]);
-  }
 
-  /// The uncertainty of x'A x. Each entry a_ij may be off by half a unit in its last digit, and by the
-  /// rounding of the program that summed it in doubles: two units in the last place of sqrt(a_ii a_jj).
+  /// The uncertainty of x'A x if a program summed each entry a_ij in doubles: two units in the last place of
+  /// sqrt(a_ii a_jj).
   [[nodiscard]] double doubt(std::span<const double> x) const;
 
   /// Returns A x, computed in long double.

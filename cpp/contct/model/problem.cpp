@@ -80,6 +80,7 @@ linear_structure build_kind(const model& /*m*/, const assembled& a, std::span<co
   }
   s.rigid_motions = motions.count;
   s.rigid_rounding = motions.rounding;
+  s.rigid_stiffness = motions.stiffness;
   s.supported_dofs.clear();
   for (std::size_t dof = 0; dof < s.fixed.size(); ++dof)
     if (s.fixed[dof] == 0) s.rigid_rows[dof] = motions.rows[s.row_of(dof)];
@@ -131,8 +132,9 @@ linear_structure build(const model& m, std::span<const support> supports, std::v
 
 void refuse_without_stiffness(const assembled& a, int dof) {
   throw std::invalid_argument(a.name + ": dof " + a.label_of(dof) +
-                              ": found no stiffness and no support; allowed: a positive entry on the "
-                              "diagonal, or a support");
+                              ": found a row of zeros and no support; allowed: a matrix that is positive "
+                              "semidefinite, with a positive entry on the diagonal of each dof that no "
+                              "support holds. Omit the dof from the matrix, or add a [[support]]");
 }
 
 void add_consistent_loads(const model& m, const load& l, std::span<double> f) {

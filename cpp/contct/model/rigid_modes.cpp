@@ -18,7 +18,8 @@ namespace {
 constexpr int most_tried = 10;              // eigenvectors: six rigid-body motions, and four more
 constexpr double surely_held = 1e-11;       // reciprocal condition above which no motion is free
 constexpr double free_if_declared = 1e-10;  // largest eigenvalue of a declared motion
-constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10};
+constexpr double most_rounded = 1e-4;       // the same if the eigenvalues stand apart, in magnitude
+constexpr double shifts[] = {1e-13, 1e-12, 1e-11, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3};
 constexpr int most_iterations = 40;
 
 using numbers = std::vector<double>;
@@ -35,11 +36,11 @@ std::string short_words(double x) {
   return text;
 }
 
-[[noreturn]] void refuse_negative(const std::string& size) {
+[[noreturn]] void refuse_negative(const std::string& size, const std::string& way_out = "") {
   throw std::invalid_argument(
       "the matrix is not positive semidefinite: with its diagonal scaled to 1 it has "
       "an eigenvalue " +
-      size + "; allowed: no eigenvalue below -" + short_words(negative_beyond));
+      size + "; allowed: no eigenvalue below -" + short_words(negative_beyond) + way_out);
 }
 
 /// Returns D K D with 1 on the diagonal; `d` becomes the diagonal of D.
@@ -58,7 +59,7 @@ void factor_shifted(stiffness_factor& a, int order) {
     for (int row = 0; row < order; ++row) everywhere[row] = {row, shift};
     if (a.factor(everywhere)) return;
   }
-  refuse_negative("below -" + short_words(negative_beyond));
+  refuse_negative("below -" + short_words(*std::rbegin(shifts)));
 }
 
 /// The smallest eigenvalues of A and their eigenvectors, by inverse subspace iteration.
@@ -187,11 +188,21 @@ std::vector<rigid_row> rows_of(const subspace& space, const numbers& d, const fr
   return rows;
 }
 
-/// The number of rigid-body motions: eigenvalues that exceed neither `free_below` nor their uncertainty.
+/// True if the first `count` eigenvalues are rounding, because the next one is far larger. The eigenvalues of
+/// a flexible structure have no such gap: for a cantilever, the second is 39 times the first.
+bool stand_apart(const numbers& values, std::size_t count) {
+  constexpr double gap = 1e3;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
+  return (count < values.size() ? values[count] : 1.0) > gap * largest;
+}
+
+/// The number of rigid-body motions: eigenvalues of at most `free_below` that stand apart from the others, or
+/// else do not exceed their uncertainty.
 int count_in_doubt(const subspace& space, const numbers& d,
                    const std::function<double(std::span<const double>)>& doubt) {
   int count = count_free(space.values);
-  if (!doubt) return count;
+  if (!doubt || stand_apart(space.values, count)) return count;
   const double of_values = 8 * std::numeric_limits<double>::epsilon() * space.values.back();  // dsyev's error
   for (int i = 0; i < count; ++i) {
     numbers u = space.vectors[i];
@@ -202,8 +213,21 @@ int count_in_doubt(const subspace& space, const numbers& d,
 }
 
 void refuse_count(const numbers& values, int in_doubt, std::optional<int> known) {
-  if (values.front() < -negative_beyond) refuse_negative("of " + short_words(values.front()));
   const std::size_t declared = known.value_or(0);
+  const auto are_rounded = [&values](std::size_t count) {
+    return count <= values.size() && std::max(-values.front(), values[count - 1]) <= most_rounded &&
+           stand_apart(values, count);
+  };
+  if (declared > 0 && are_rounded(declared)) return;
+  if (values.front() < -negative_beyond) {
+    const auto count = std::ranges::count_if(values, [&](double v) { return v <= -10 * values.front(); });
+    const std::string number = std::to_string(count);
+    refuse_negative("of " + short_words(values.front()),
+                    are_rounded(count) ? ". If rounded entries are the cause, " + number +
+                                             (count == 1 ? " motion is" : " motions are") +
+                                             " nearly free: set free_motions = " + number
+                                       : "");
+  }
   if (declared > values.size() || (declared > 0 && values[declared - 1] > free_if_declared))
     throw std::invalid_argument("free_motions: found " + std::to_string(declared) +
                                 "; allowed: " + std::to_string(in_doubt) +
@@ -271,7 +295,10 @@ free_motions find_free_motions(const stiffness_matrix& k, std::optional<int> kno
   const std::size_t m = found.count;
   if (m == 0) return found;
   double off = std::numeric_limits<double>::epsilon();
-  for (std::size_t i = 0; i < m; ++i) off = std::max({off, space.left_over[i], std::abs(space.values[i])});
+  for (std::size_t i = 0; i < m; ++i) {
+    off = std::max({off, space.left_over[i], std::abs(space.values[i])});
+    if (std::abs(space.values[i]) >= std::abs(found.stiffness)) found.stiffness = space.values[i];
+  }
   const double softest_held = m < space.values.size() ? space.values[m] : 1.0;
   found.rounding = std::clamp(16 * off / softest_held, 1e-12, 1e-2);
   found.rows = rows_of(space, d, found);

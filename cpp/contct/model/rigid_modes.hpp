@@ -78,7 +78,7 @@ class rigid_rank {
 
 /// A stiffness matrix whose diagonal is scaled to 1 has no units, and its eigenvalues are of the order of 1
 /// or smaller. An eigenvalue up to free_below counts as 0, and its eigenvector as a rigid-body motion, unless
-/// the eigenvalue exceeds the uncertainty of the matrix.
+/// larger eigenvalues are near and it exceeds the uncertainty of the matrix.
 inline constexpr double free_below = 1e-13;
 /// A matrix is refused as not positive semidefinite if an eigenvalue after this scaling is below
 /// -negative_beyond.
@@ -88,12 +88,13 @@ struct free_motions {
   int count = 0;
   std::vector<rigid_row> rows;  ///< [rows of the matrix] the displacements by the `count` rigid-body motions
   double rounding = 0.0;        ///< the largest relative error of `rows`
+  double stiffness = 0.0;       ///< the eigenvalue of the motions with the largest magnitude
 };
 
 /// Finds the rigid-body motions of `k`, whose diagonal is positive. `known`: the number of motions, if known;
-/// their eigenvalues must then be at most 1e-10. `doubt`: the uncertainty of u'K u for u [rows]; a motion
-/// with a larger u'K u is not free. Takes one factorisation; if `k` is nearly singular, up to three times as
-/// long, and some forty solves. Memory: a copy of K, and a factor.
+/// their eigenvalues must then be at most 1e-10, or 1e-4 in magnitude and far below the others. `doubt`: the
+/// uncertainty of u'K u for u [rows]. Takes one factorisation; if `k` is nearly singular, up to three times
+/// as long, and some forty solves. Memory: a copy of K, and a factor.
 ///
 /// Throws std::invalid_argument if `k` has a negative eigenvalue, or more than six rigid-body motions, or
 /// fewer than `known`; the message calls `k` "the matrix".

@@ -212,6 +212,7 @@ struct linear_structure {
   std::optional<rigid_rank> on_supports;  ///< held_by_supports(), if `truth` is known
   /// The largest error of `rigid_rows`, relative to the largest row: 0 for beams and plates.
   double rigid_rounding = 0.0;
+  double rigid_stiffness = 0.0;  ///< free_motions::stiffness of a matrix
 
   /// [dofs] 1 if the dof is a deflection; empty: dof `deflection` of each node is the deflection.
   std::vector<char> lengths;

@@ -46,38 +46,25 @@ std::optional<std::int64_t> exponent_in(std::string_view rest) {
   return minus ? -exponent : exponent;
 }
 
-struct written_decimal {
-  bool negative, is_whole;
-  std::string digits;
-  std::int64_t last;  // the power of ten of the last digit
-};
-
-/// The parts of `literal`, such as "-1_000.5e-3" or "1.5D+02"; nothing if `literal` is not a decimal.
-std::optional<written_decimal> written_in(std::string_view literal) {
-  written_decimal w{take_minus(literal), false, take_digits(literal), 0};
-  w.is_whole = literal.empty();
-  std::size_t behind_point = 0;
+/// The number that `literal`, such as "-1_000.5e-3" or "1.5D+02", means; nothing if `literal` is not a
+/// decimal.
+std::optional<decimal> decimal_in(std::string_view literal) {
+  const bool negative = take_minus(literal);
+  std::string digits = take_digits(literal);
+  std::int64_t exponent = 0;
   if (!literal.empty() && literal.front() == '.') {
     literal.remove_prefix(1);
     const std::string fraction = take_digits(literal);
-    behind_point = fraction.size();
-    w.digits += fraction;
+    exponent = -static_cast<std::int64_t>(fraction.size());
+    digits += fraction;
   }
-  const std::optional<std::int64_t> exponent = exponent_in(literal);
-  if (w.digits.empty() || !exponent) return std::nullopt;
-  w.last = *exponent - static_cast<std::int64_t>(behind_point);
-  return w;
-}
-
-/// The number that `literal` means; nothing if `literal` is not a decimal.
-std::optional<decimal> decimal_in(std::string_view literal) {
-  const std::optional<written_decimal> w = written_in(literal);
-  if (!w) return std::nullopt;
-  const std::size_t last = w->digits.find_last_not_of('0');
+  const std::optional<std::int64_t> written = exponent_in(literal);
+  if (digits.empty() || !written) return std::nullopt;
+  const std::size_t last = digits.find_last_not_of('0');
   if (last == std::string::npos) return decimal{false, "0", 0};
-  const std::size_t first = w->digits.find_first_not_of('0');
-  return decimal{w->negative, w->digits.substr(first, last + 1 - first),
-                 w->last + static_cast<std::int64_t>(w->digits.size() - last - 1)};
+  const std::size_t first = digits.find_first_not_of('0');
+  return decimal{negative, digits.substr(first, last + 1 - first),
+                 *written + exponent + static_cast<std::int64_t>(digits.size() - last - 1)};
 }
 
 /// The decimal of the finite x with `behind` digits behind the first; the shortest one without `behind`.
@@ -90,13 +77,6 @@ decimal printed(double x, Behind... behind) {
 }
 
 }  // namespace
-
-std::optional<int> last_written_digit(std::string_view literal) {
-  const std::optional<written_decimal> w = written_in(literal);
-  if (!w || w->is_whole) return std::nullopt;
-  constexpr std::int64_t most = 1000;  // larger than the power of ten of any double
-  return static_cast<int>(std::clamp(w->last, -most, most));
-}
 
 decimal shortest_decimal(double x) {
   return printed(x);

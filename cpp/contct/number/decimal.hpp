@@ -18,10 +18,6 @@ struct decimal {
   [[nodiscard]] bool operator==(const decimal&) const = default;
 };
 
-/// The power of ten of the last digit in `literal`: -3 for "1.250", 2 for "1.25e4". Nothing if `literal` is
-/// not a decimal, or if it is a whole number without point and exponent, which is exact.
-[[nodiscard]] std::optional<int> last_written_digit(std::string_view literal);
-
 /// The shortest decimal that reads as the finite `x`.
 [[nodiscard]] decimal shortest_decimal(double x);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <unordered_map>
@@ -26,7 +25,6 @@ struct read_entry {
   int row, column;
   double value;
   std::int64_t line;
-  int last_digit;  // power of ten of the last digit, or sparse_matrix::exact_entry
 };
 
 /// Matrix Market files contain the lower triangle, CalculiX files the upper triangle.
@@ -97,8 +95,7 @@ void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed
 read_entry entry_in(number_lines& lines, int rows, int columns, std::string_view what, bool fortran = false) {
   lines.expect(3, "row, column and value");
   return {lines.whole(0, 1, rows, "the row") - 1, lines.whole(1, 1, columns, "the column") - 1,
-          lines.number(2, what, fortran), lines.line(),
-          last_written_digit(lines.field(2)).value_or(sparse_matrix::exact_entry)};
+          lines.number(2, what, fortran), lines.line()};
 }
 
 /// Reads an entry of a stiffness matrix in the triangle of its format, and returns it in the lower triangle.
@@ -143,40 +140,6 @@ void refuse_indefinite(std::span<const read_entry> entries, int order, std::stri
   }
 }
 
-int first_digit(const read_entry& e) {
-  return static_cast<int>(std::floor(std::log10(std::abs(e.value))));
-}
-
-/// Finds how a program rounded the entries: all to the same decimal place, or all to the same number of
-/// digits, with trailing zeros removed. Whole numbers are exact.
-struct written_digits {
-  int most_digits = 0;
-  std::optional<int> lowest, highest;  // extremes of last_digit; empty: all entries are exact
-
-  void include(const read_entry& e) {
-    if (e.value == 0 || e.last_digit == sparse_matrix::exact_entry) return;
-    most_digits = std::max(most_digits, first_digit(e) - e.last_digit + 1);
-    lowest = std::min(lowest.value_or(e.last_digit), e.last_digit);
-    highest = std::max(highest.value_or(e.last_digit), e.last_digit);
-  }
-  /// The power of ten of the digit that an entry other than 0 was rounded to, or sparse_matrix::exact_entry.
-  [[nodiscard]] int last_digit_of(const read_entry& e) const {
-    if (e.last_digit == sparse_matrix::exact_entry) return e.last_digit;
-    return lowest == highest ? *lowest : first_digit(e) - most_digits + 1;
-  }
-};
-
-/// last_digit_of for every entry that is not 0; empty if all entries are exact.
-std::vector<std::int16_t> last_digits_of(const std::vector<read_entry>& entries) {
-  written_digits written;
-  for (const read_entry& e : entries) written.include(e);
-  if (!written.lowest) return {};
-  std::vector<std::int16_t> digits;
-  for (const read_entry& e : entries)
-    if (e.value != 0) digits.push_back(static_cast<std::int16_t>(written.last_digit_of(e)));
-  return digits;
-}
-
 /// Makes the matrix, without entries that are 0. Linear in the entries, except for sorting.
 sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_view file) {
   // The file only declares the order, so the order is checked before memory of this size is allocated.
@@ -186,7 +149,7 @@ sparse_matrix matrix_of(std::vector<read_entry> entries, int order, std::string_
   std::ranges::sort(entries, {}, [](const read_entry& e) { return std::tuple(e.column, e.row, e.line); });
   refuse_repeated(entries, file);
   refuse_indefinite(entries, order, file);
-  sparse_matrix matrix{order, {}, last_digits_of(entries), entries.size()};
+  sparse_matrix matrix{order, {}, entries.size()};
   for (const read_entry& e : entries)
     if (e.value != 0) matrix.entries.push_back({e.row, e.column, e.value});
   return matrix;

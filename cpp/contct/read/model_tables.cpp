@@ -359,8 +359,6 @@ void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pa
   if (missing.empty()) return;
   for (const matrix_entry& e : a.stiffness.entries) missing.erase({e.row, e.column});
   for (const auto& [row, column] : missing) a.stiffness.entries.push_back({row, column, 0.0});
-  if (!a.stiffness.last_digits.empty())
-    a.stiffness.last_digits.resize(a.stiffness.entries.size(), sparse_matrix::exact_entry);
   finish(top.has("matrix") ? top["matrix"].table() : top["calculix"].table(), a);
 }
 

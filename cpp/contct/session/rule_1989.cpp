@@ -8,6 +8,7 @@
 
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/session/path_rounding.hpp"
 #include "contct/session/step_results.hpp"
 
 namespace contct {
@@ -46,7 +47,7 @@ std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_ev
   std::vector<row_of_1989> rows(answer.increments.size());
   std::vector<std::pair<row_of_1989*, event>> alone;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    rows[i].reached = answer.increments[i].fraction <= limit;
+    rows[i].reached = answer.increments[i].fraction <= limit + same_share;
     for (const event& e : answer.increments[i].events)
       if (!take_event(others, e, answer.increments[i].fraction)) alone.emplace_back(&rows[i], e);
   }
@@ -61,6 +62,7 @@ std::vector<row_of_1989> rows_of(const step_record& answer, std::vector<timed_ev
   return rows;
 }
 
+/// Compares the events up to the end of the path that ended first.
 void compare_events(const run_result& answer, rule_1989& r) {
   std::size_t step = 0;
   for (const step_record& mine : answer.record.steps) {
@@ -68,60 +70,82 @@ void compare_events(const run_result& answer, rule_1989& r) {
     double limit = -1.0;
     if (step < r.record.steps.size()) {
       for (const increment_record& i : r.record.steps[step].increments)
-        for (const event& e : i.events) others.push_back({i.step, i.fraction, e});
+        for (const event& e : i.events)
+          if (i.fraction <= mine.end.fraction + same_share) others.push_back({i.step, i.fraction, e});
       limit = r.record.steps[step].end.fraction;  // less than 1 if the path ended early
     }
     r.rows.push_back(rows_of(mine, others, limit));
-    r.same_events = r.same_events && others.empty() && limit == 1.0;
+    r.same_events = r.same_events && others.empty();
     for (const row_of_1989& row : r.rows.back()) r.same_events = r.same_events && row.otherwise.empty();
     ++step;
   }
 }
 
+/// Keeps the largest difference among those that exceed the error of the answer and the rounding of doubles.
 struct end_comparison {
-  const by_quantity& allowed;
+  const certificate& answer;
   state_difference worst;
 
-  void take(quantity q, double value, double right, const auto& place) {
-    if (!allowed[q]) return;  // without a bound, different numbers may be right
-    const double share = share_of(std::abs(value - right), allowed[q]);
+  void take(quantity q, double value, double right, double rounding, const auto& place) {
+    if (!answer.allowed[q]) return;  // without a bound, different numbers may be right
+    const double off = std::abs(value - right);
+    if (off <= answer.error[q].value_or(0.0) + rounding) return;
+    const double share = share_of(off, answer.allowed[q]);
     if (share > worst.share) worst = {worst.step, q, place(), value, right, share};
   }
 };
 
+/// `rounding`: at the end of the step; null: none.
 state_difference difference_of(const run_result& answer, const load& l, const structure_state& right,
-                               const structure_state& other, const certificate& c) {
+                               const structure_state& other, const certificate& c,
+                               const path_rounding* rounding) {
   const problem& p = answer.what;
   const step_results a = numbers_of(p, l, other);
   const step_results b = numbers_of(p, l, right);
-  end_comparison all{c.allowed, {right.step}};
+  const auto noise = [rounding](auto of, std::size_t i) {
+    return rounding == nullptr ? 0.0 : (rounding->*of)(i);
+  };
+  end_comparison all{c, {right.step}};
   for (int dof = 0; dof < std::ssize(right.displacement); ++dof)
     all.take(answer.structure.deflects(dof) ? quantity::w : quantity::slope, other.displacement[dof],
-             right.displacement[dof],
+             right.displacement[dof], noise(&path_rounding::of_displacement, dof),
              [&] { return place_words(p.geometry, dof / answer.structure.dofs_per_node); });
   for (std::size_t i = 0; i < b.pairs.size(); ++i)
-    all.take(quantity::force, a.pairs[i].force, b.pairs[i].force,
+    all.take(quantity::force, a.pairs[i].force, b.pairs[i].force, noise(&path_rounding::of_pair, i),
              [&] { return fmt::format("pair {}", i + 1); });
   for (std::size_t i = 0; i < b.reactions.size(); ++i)
     all.take(p.supports[i].dof == 0 ? quantity::reaction : quantity::moment, a.reactions[i], b.reactions[i],
+             noise(&path_rounding::of_support, i),
              [&] { return "the support at " + place_words(p.geometry, p.supports[i].node); });
   const auto& [names, places, values] = b.elements;
   for (std::size_t i = 0; i < values.size(); ++i)
     all.take(names[i / places % names.size()] == "shear" ? quantity::shear : quantity::moment,
-             a.elements.values[i], values[i],
+             a.elements.values[i], values[i], noise(&path_rounding::of_element, i),
              [&, n = i / places / names.size()] { return fmt::format("element {}", n + 1); });
   return all.worst;
 }
 
 void compare_states(const run_result& answer, rule_1989& r) {
   const load_path loads(answer.what);
+  std::optional<path_rounding> rounding;  // made for the first step that seems wrong
+  std::size_t added = 0;                  // the steps in `rounding`
   const std::size_t steps = std::min(answer.record.steps.size(), r.record.steps.size());
   for (std::size_t i = 0; i < steps; ++i) {
     const structure_state& right = answer.record.steps[i].end;
     const structure_state& other = r.record.steps[i].end;
     const std::optional<certificate>& c = answer.judged.steps()[i];
     if (!c || !c->certified || other.fraction != 1.0) continue;
-    r.differences.push_back(difference_of(answer, loads.at(right.step, 1.0), right, other, *c));
+    const auto compared = [&](const path_rounding* noise) {
+      return difference_of(answer, loads.at(right.step, 1.0), right, other, *c, noise);
+    };
+    state_difference d = compared(nullptr);
+    if (d.is_wrong()) {
+      if (!rounding) rounding.emplace(answer.what);
+      for (; added <= i; ++added) rounding->add(r.record.steps[added]);
+      d = compared(&*rounding);
+      d.but_for_rounding = !d.is_wrong();
+    }
+    r.differences.push_back(std::move(d));
   }
 }
 

@@ -26,13 +26,15 @@ struct row_of_1989 {
   bool reached = true;                      ///< false: the 1989 path ended before this increment
 };
 
-/// The number in which the end of a step by the 1989 rule differs most from the answer.
+/// The number in which the end of a step by the 1989 rule differs most from the answer, beyond the error of
+/// the answer and, if a difference is not negligible, the rounding of doubles (path_rounding).
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< kind of the number
   std::string at = {};              ///< place: "pair 3", "node 5", "the support at node 1", "element 2"
   double value = 0.0, right = 0.0;  ///< the number by the 1989 rule, and in the answer
   double share = 0.0;               ///< the difference, relative to the largest number of the kind
+  bool but_for_rounding = false;    ///< larger differences are the rounding of doubles, and are not counted
 
   [[nodiscard]] bool is_wrong() const { return !(share <= certified_share); }
 };
@@ -45,8 +47,8 @@ struct rule_1989 {
   run_recorder record;
   path_end end = {};
   std::vector<std::vector<row_of_1989>> rows = {};  ///< for each increment of the answer [steps][increments]
-  bool same_events = true;                          ///< both paths have the same events
-  std::vector<state_difference> differences = {};   ///< for each certified step that both paths solved
+  bool same_events = true;  ///< both paths have the same events, up to the end of the path that ended first
+  std::vector<state_difference> differences = {};  ///< for each certified step that both paths solved
 };
 
 /// Two shares of a step are the same if they differ by at most this number.

@@ -441,20 +441,49 @@ std::string wrong_words(const run_result& r, const state_difference& d) {
 std::string agreement_words(const run_result& r, std::span<const state_difference> all) {
   constexpr double ten_digits = 1e-10;  // smaller differences depend on the LAPACK in use
   const auto worst = std::ranges::max_element(all, {}, &state_difference::share);
-  const std::string start = fmt::format("the 1989 rule comes to the same states{}",
-                                        r.beside->same_events ? "" : " by other events");
+  const bool is_rounded = std::ranges::any_of(all, &state_difference::but_for_rounding);
+  const std::string start = fmt::format("the 1989 rule comes to the same states{}{}",
+                                        r.beside->same_events ? "" : " by other events",
+                                        is_rounded ? ", but for the rounding of doubles" : "");
   if (worst->share < ten_digits) return start + ": every number agrees to 10 digits or more";
   return fmt::format("{}: the largest difference is in the {} of {} in step {}: {}", start,
                      name_of_kind(worst->what), worst->at, worst->step, size_words(r, *worst));
 }
 
-std::string ended_words(const run_result& r) {
-  const path_end& end = r.beside->end;
-  if (end.status == path_status::solved) return "";
-  if (end.status == r.end.status && end.step == r.end.step)
-    return "the path of the 1989 rule ends in the same way";
-  return "the path of the 1989 rule ends early (the answer does not depend on it): " +
-         end_words(r.what, end, false);
+/// The ends of all steps that were not solved.
+std::vector<const path_end*> unsolved(const path_end& end) {
+  std::vector<const path_end*> all;
+  if (end.status != path_status::solved) all.push_back(&end);
+  for (const path_end& other : end.others) all.push_back(&other);
+  return all;
+}
+
+const path_end* in_step(const std::vector<const path_end*>& ends, int step) {
+  const auto found = std::ranges::find(ends, step, &path_end::step);
+  return found == ends.end() ? nullptr : *found;
+}
+
+/// Compares the ends of all steps that the answer or the 1989 rule does not solve.
+std::vector<std::string> ended_words(const run_result& r) {
+  const std::vector<const path_end*> mine = unsolved(r.end);
+  const std::vector<const path_end*> its = unsolved(r.beside->end);
+  std::vector<std::string> lines;
+  for (const path_end* end : its) {
+    const path_end* const right = in_step(mine, end->step);
+    if (right != nullptr && right->status == end->status &&
+        std::abs(right->fraction - end->fraction) <= same_share)
+      continue;
+    lines.push_back(fmt::format("the path of the 1989 rule ends {} (the answer does not depend on it): {}",
+                                right == nullptr ? "early" : "otherwise", end_words(r.what, *end, false)));
+  }
+  for (const step_record& s : r.beside->record.steps) {
+    const path_end* const right = s.end.fraction == 1.0 ? in_step(mine, s.end.step) : nullptr;
+    if (right != nullptr && right->status == path_status::mechanism)
+      lines.push_back("the 1989 rule is wrong in " + step_words(r.what, s.end.step) +
+                      ": it reaches the full load, under which there is no equilibrium");
+  }
+  if (lines.empty() && !its.empty()) return {"the path of the 1989 rule ends in the same way"};
+  return first_of(std::move(lines));
 }
 
 }  // namespace
@@ -463,7 +492,7 @@ std::vector<std::string> rule_1989_words(const run_result& r) {
   constexpr std::size_t most_named = 4;
   std::vector<std::string> lines;
   if (!r.beside) return lines;
-  if (std::string ended = ended_words(r); !ended.empty()) lines.push_back(std::move(ended));
+  lines = ended_words(r);
   const std::vector<state_difference>& all = r.beside->differences;
   std::size_t wrong = 0;
   int first = 0;
