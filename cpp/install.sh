@@ -46,6 +46,21 @@ need_program() {
   need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
 }
 
+# The packages of the long tests. Fails if Debian has one that cannot be installed.
+need_for_long_tests() {
+  need "for the long tests" pkgconf groff-base mandoc python3-pytest python3-numpy python3-scipy python3-matplotlib \
+    python3-getfem mypy libsuitesparse-dev chromium fonts-dejavu-core poppler-utils emscripten f2c libf2c2-dev \
+    libfast-float-dev librange-v3-dev ca-certificates calculix-ccx clang clang-tidy gfortran-aarch64-linux-gnu \
+    g++-aarch64-linux-gnu qemu-user dpkg-dev lintian debootstrap && need_petsc
+}
+
+# The languages of the judges in reference/vectors; Debian 12 has no Julia.
+need_languages() {
+  for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
+    command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || return 1
+  done
+}
+
 # Fetches the source of reference LAPACK from Debian to $lapack. Must be called in the project's root. Does not change
 # the lists of packages of the system.
 fetch_lapack() {

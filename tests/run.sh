@@ -1,16 +1,18 @@
 #!/bin/sh
-# Installs missing packages, builds, and runs all tests: sh tests/run.sh [--full] [LEG]...
-# LEG: another preset that is built and tested first: core (without the program, with sanitizers and gfortran's run-time
-# checks), asan (core with the program), tsan (threads). --full has all presets, and adds the long tests:
-# certificates against the exact path, the mutants of both kernels, more failing system calls, the exact numbers of all
-# reference problems, a second LAPACK, the programs built in another folder, CalculiX, other processors, page and
-# playground in a browser, grids read back by VTK, a routine of LAPACK next to its port, every reader fuzzed for a
-# minute, Debian packages and reference/adopt in a bare Debian, the static contct-replay in an empty folder, formatting
-# and clang-tidy.
+# Installs missing packages, builds, and runs the tests: sh tests/run.sh [--full] [LEG]...
+# Without arguments it runs the tests that check every promise once. .ci/run and --full run the long tests too: all commands of
+# all pages, the course, mutants, languages, packages, and everything that needs another tool.
+# LEG: a preset that is built and tested instead: core (without the program, with sanitizers and gfortran's run-time
+# checks), asan (core with the program), tsan (threads). --full has all presets, and adds the campaigns: certificates against
+# the exact path, the mutants of both kernels, more failing system calls, the exact numbers of all reference problems, a
+# second LAPACK, the programs built in another folder, CalculiX, other processors, page and playground in a browser, grids
+# read back by VTK, a routine of LAPACK next to its port, every reader fuzzed for a minute, Debian packages and
+# reference/adopt in a bare Debian, the static contct-replay in an empty folder, formatting and clang-tidy.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
 . cpp/install.sh
+started=$(date +%s)
 
 full=no
 legs=""
@@ -25,22 +27,22 @@ done
 
 need_core
 need_program
-need "to test" catch2 pkgconf python3 python3-jsonschema groff-base
-need "for quicker exact numbers" libgmp-dev || true  # otherwise a few tests have fewer problems
-need "to prove the kernels" python3-capstone python3-z3 || true  # otherwise their tests are skipped
-need "to test contct.py" python3-pytest python3-numpy python3-scipy python3-matplotlib python3-getfem mypy || true  # otherwise their tests are skipped
+need "to test" catch2 python3 python3-jsonschema libgmp-dev python3-capstone python3-z3
 
-# build NAME: configures and builds this preset, and prints its messages only if it fails.
+# build NAME [OPTION]: configures and builds this preset, and prints its messages only if it fails. Adds what CMake
+# reports as skipped to $skipped.
+skipped=""
 build() {
   echo "== $1: configuring, building"
   began=$(date +%s)
   log=$(mktemp)
-  if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON && cmake --build --preset "$1"; } >"$log" 2>&1; then
+  if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON "-DCONTCT_LONG_TESTS=${2:-OFF}" && cmake --build --preset "$1"; } >"$log" 2>&1; then
     cat "$log"
     rm -f "$log"
     echo "== $1: the build failed" >&2
     exit 1
   fi
+  skipped="$skipped$(sed -n 's/^-- skipped: /; /p' "$log" | tr -d '\n')"
   rm -f "$log"
   echo "== $1: $(($(date +%s) - began)) s"
 }
@@ -52,7 +54,6 @@ test_of() {
 }
 
 # with_tool NAME SCRIPT [ARGUMENT]: runs the script, which exits 77 if its tool is missing.
-skipped=""
 with_tool() {
   echo "== $1"
   status=0
@@ -67,50 +68,48 @@ with_tool() {
   esac
 }
 
-if [ "$full" = yes ]; then
-  need "for clang-tidy" clang-tidy
-  need "for more compilers" flang-16 f2c libf2c2-dev clang
-  need "for CHOLMOD's sparse factors" libsuitesparse-dev
-  need_petsc || true  # its tests are skipped where it cannot be had
-  need "to compare with other programs" calculix-ccx python3-numpy || true  # the same
-  need "for the manual pages" mandoc
-  for language in go:golang-go octave-cli:octave rustc:rustc node:nodejs; do
-    command -v "${language%:*}" >/dev/null 2>&1 || need "for a judge of reference/vectors" "${language#*:}" || true  # otherwise its test is skipped
-  done
-  command -v julia >/dev/null 2>&1 || skipped="$skipped; the judge in Julia, which Debian 12 does not have"
-  sh tests/tree/format.sh
-fi
 for name in $legs; do
   build "$name"
   test_of "$name"
 done
-build release
-if [ "$full" = yes ]; then
-  echo "== 20,000 random problems and their certificates against the exact path"
-  build/release/tests/contct_referee 20000 2026
-  echo "== failing system calls"
-  python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
-    build/release/tests/plugins/libvariant_reassociated.so --more
-  echo "== mutants of both kernels"
-  python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
-  echo "== exact numbers of verification.toml"
-  python3 tests/lab/write_exact.py build/release/contct reference --check --least 716
-  echo "== proofs of all reference problems"
-  python3 tests/proof/check_proof_test.py build/release/contct reference all
-  echo "== two LAPACKs"
-  sh tests/two_lapacks/run.sh build/release
-  echo "== the same programs from another folder"
-  sh tests/package/same_binaries.sh build/release
-  with_tool "CalculiX and Siconos as peers" peer/run.sh build/release
-  with_tool "other processors" emulated/run.sh
-  with_tool "the page in a browser" browser/run.sh build/release
-  with_tool "the playground in a browser" playground/run.sh build/release
-  with_tool "grids read back by VTK" vtk/run.sh build/release
-  with_tool "the harness on a second routine" ../reference/course/second/run.sh
-  with_tool "fuzzers" fuzz/run.sh 60
-  with_tool "Debian packages" package/debian.sh
-  with_tool "reference/adopt" package/adopt.sh
-  sh tests/tree/tidy.sh
-  [ -z "$skipped" ] || echo "== skipped, because a tool is not available: ${skipped#; }"
+[ "$full" = yes ] || [ -z "$legs" ] || exit 0
+if [ "$full" = no ]; then
+  build release
+  test_of release
+  echo "== $(($(date +%s) - started)) s; the long tests are in sh tests/run.sh --full"
+  exit 0
 fi
+
+need_for_long_tests
+need "for more compilers" flang-16
+need_languages
+sh tests/tree/format.sh
+build release ON
+echo "== 20,000 random problems and their certificates against the exact path"
+build/release/tests/contct_referee 20000 2026
+echo "== failing system calls"
+python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
+  build/release/tests/plugins/libvariant_reassociated.so --more
+echo "== mutants of both kernels"
+python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
+echo "== exact numbers of verification.toml"
+python3 tests/lab/write_exact.py build/release/contct reference --check --least 716
+echo "== proofs of all reference problems"
+python3 tests/proof/check_proof_test.py build/release/contct reference all
+echo "== two LAPACKs"
+sh tests/two_lapacks/run.sh build/release
+echo "== the same programs from another folder"
+sh tests/package/same_binaries.sh build/release
+with_tool "CalculiX and Siconos as peers" peer/run.sh build/release
+with_tool "other processors" emulated/run.sh
+with_tool "the page in a browser" browser/run.sh build/release
+with_tool "the playground in a browser" playground/run.sh build/release
+with_tool "grids read back by VTK" vtk/run.sh build/release
+with_tool "the harness on a second routine" ../reference/course/second/run.sh
+with_tool "fuzzers" fuzz/run.sh 60
+with_tool "Debian packages" package/debian.sh
+with_tool "reference/adopt" package/adopt.sh
+sh tests/tree/tidy.sh
+[ -z "$skipped" ] || echo "== skipped, because a tool is not available: ${skipped#; }"
 test_of release
+echo "== $(($(date +%s) - started)) s"

@@ -72,7 +72,7 @@ struct new_options {
 };
 
 struct verify_options {
-  std::string reference;   ///< a folder
+  std::string reference;  ///< a folder
   std::string json;
   report_options report;
 };

@@ -32,7 +32,6 @@ TEST_CASE("stands_for is true for text that is not a decimal, since such text ha
     CHECK(stands_for(none, 0x1p-1074));
 }
 
-TEST_CASE(
 TEST_CASE("zeros at the end of a number are significant digits, and zeros at its front are none") {
   for (const char* four : {"1.250", "0.001250", "-1250", "1_25.0e-7", "+0012.50"})
     CHECK(significant_digits(four) == 4);
