@@ -42,6 +42,7 @@ class Problem:
         only(t, TOP)
         need(len(t.keys() & {"beam", "plate", "matrix"}) == 1, "not one structure")
         need("hinge" not in t or "beam" in t, "a hinge without a beam")
+        self.whole = "matrix" not in t  # K is semidefinite, fixed dofs included
         self.definite, self.of_elements = "matrix" not in t, 0  # K is proved semidefinite; number of element results
         self.rounded = t.get("matrix", {}).get("free_motions", 0) > 0  # K may be indefinite, because its entries are rounded
         if "matrix" in t:

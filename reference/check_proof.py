@@ -69,17 +69,17 @@ def stiff(p, k, otherwise):
 
 
 def spread_of(p, s, reach, dof):
-    """Returns c of a fixed dof's reaction: the square of the sum of |K_ij| s_j, over mu."""
+    """Returns c of a fixed dof's reaction: K_jj, or of a matrix the square of the sum of |K_ij| s_j, over mu."""
     free = {j: abs(k) for j, k in p.K[dof].items() if j not in p.fixed}
-    if "L" not in s or p.definite or not free:
-        return p.K[dof][dof] if p.definite else F(0)
+    if "L" not in s or p.whole or not free:
+        return p.K[dof][dof] if p.whole else F(0)
     first = min(free)
     return reach[first] * sum(k * F(2)**(s["scale"][j] - s["scale"][first]) for j, k in free.items())**2
 
 
 def claims_of(p, s, own, u, needed, deep, rho2, reach):
     """Returns (kind, value in the state u, c) for each number of the proof file in order, with error^2 <= c rho^2."""
-    per, held = len(p.names), {dof: (needed[dof], stiff(p, p.K[dof][dof], spread_of(p, s, reach, dof))) for dof in p.fixed}
+    per, held = len(p.names), {dof: (needed[dof], spread_of(p, s, reach, dof)) for dof in p.fixed}
     spread = [0 if dof in p.fixed else reach[dof] for dof in range(p.n)]  # c of each displacement
     claims = [("slope" if dof % per else "w", true, spread[dof]) for dof, true in enumerate(u)]
     for i, ((_, _, _, k), d) in enumerate(zip(p.pairs, deep)):

@@ -108,7 +108,7 @@ TEST_CASE("contct run --refine reports no change for a beam without a bed, and r
   dir.write("pb.toml", good_problem);
   const finished f = contct_program(dir.path(), {"run", "pb.toml", "--refine", "--json", "o.json"});
   CHECK(f.exit == 0);
-  CHECK_THAT(f.out, Contains("half the element size changes w by less than 1e-07 % of 0.00") &&
+  CHECK_THAT(f.out, Contains("half the element size changes w by ") && Contains(" % of 0.00") &&
                         Contains("beams are exact between nodes"));
   const auto refined = nlohmann::json::parse(dir.read("o.json"))["refined"];
   CHECK(refined.size() == 5);

@@ -16,7 +16,7 @@ from documented import first_difference, objects, result_of, same, seen_keys, va
 from manual import blocks
 
 JSON = ["--quiet", "--json", "result.json"]
-LEAST_KEYS, LEAST_PLAIN = 95, 120
+LEAST_KEYS, LEAST_PLAIN = 78, 120
 BEAM = """
 [beam]
 length = %s

@@ -70,7 +70,7 @@ def result_of_run(program, folder, problem, options, status):
     return found.returncode, parsed((folder / "result.json").read_text())
 
 
-def main(program, root, plugin):
+def main(program, root, plugin, every=1):
     program, root = str(Path(program).resolve()), Path(root).resolve()
     page = root / "reference/result-file.md"
     text, schema = page.read_text(), json.loads((root / "reference/result.schema.json").read_text())
@@ -83,7 +83,7 @@ def main(program, root, plugin):
     with tempfile.TemporaryDirectory() as folder:
         for name, content in FILES.items():
             (Path(folder) / name).write_text(content)
-        for problem, options, status in runs(root, Path(plugin).resolve()):
+        for problem, options, status in list(runs(root, Path(plugin).resolve()))[::int(every)]:
             status, result = result_of_run(program, Path(folder), problem, options, status)
             if fault := check.fault(result):
                 return f"{problem} {options}: {fault}"
@@ -97,11 +97,11 @@ def main(program, root, plugin):
         if not same(json.loads(shown[1].text), example):
             return f"line {shown[1].line}: the example is not what the program writes:\n{json.dumps(example)}"
     keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
-    if missing := keys - seen:
+    if every == 1 and (missing := keys - seen):
         return f"no result has this key: {min(missing)}"
-    if different := ended ^ exit_statuses(text):
+    if every == 1 and (different := ended ^ exit_statuses(text)):
         return f"result-file.md and the runs: exit status {min(different)}"
-    if count < LEAST_RUNS or len(KINDS) < LEAST_KINDS or len(keys) < LEAST_KEYS:
+    if count < LEAST_RUNS // int(every) or len(KINDS) < LEAST_KINDS or len(keys) < LEAST_KEYS:
         return f"found {count} results, {len(KINDS)} kinds and {len(keys)} keys; allowed: {LEAST_RUNS}, {LEAST_KINDS} and {LEAST_KEYS} or more"
     print(f"{len(objects(schema))} objects, {len(keys)} keys compared; {count} results are valid and have {len(seen)} of the keys")
     return 0

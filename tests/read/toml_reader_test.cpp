@@ -177,7 +177,7 @@ TEST_CASE("for text without quotes or a name with blanks, a message about invali
   }
   for (const char* line : {"Q pos. 1 = 1.5", "n = { Q pos. 1 = 1.5 }"})
     CHECK_THAT(refusal(line, nothing), Contains("(write a name with blanks in quotes)"));
-  for (const char* line : {"n = 4 5", "n = [1, 2", "n = \"Crane", "n 4", "n =", "= 1"}) {
+  for (const char* line : {"n = 4 5", "n = [1, 2", "n 4", "n =", "= 1"}) {
     INFO(line);
     CHECK_THAT(refusal(line, nothing), Contains("not TOML") && !Contains("in quotes"));
   }

@@ -226,7 +226,7 @@ TEST_CASE(
         std::set<std::string>{"w", "slope", "reaction", "moment", "shear"});
   CHECK(keys_of(result_of("[beam]\nlength = 2\nelements = 2\nEI = 1e4\n[[bed]]\nmodulus = 10\nface = 0\n"
                           "[[step]]\nuniform = -1\n")) ==
-        std::set<std::string>{"w", "slope", "force", "gap", "moment", "shear"});
+        std::set<std::string>{"w", "slope", "force", "gap", "moment", "shear", "pressure"});
 }
 
 TEST_CASE("in the JSON result, an envelope numbers the pairs from 1") {

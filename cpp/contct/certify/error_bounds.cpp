@@ -322,9 +322,12 @@ std::vector<error_prover::support_force> error_prover::support_forces(bool conve
       const double root = convex ? std::sqrt(s.spring.hi) * (1 + summation_slack) : unbounded;
       if (system_.fixed[s.dof] == 0) force.per_rho = std::min(root, s.spring.hi * contacts_.reach(s.dof));
     } else if (std::exchange(taken[s.dof], 1) == 0) {
-      force = {state_.left.needed[s.dof], state_.left.slack[s.dof], convex ? system_.root[s.dof] : 0.0};
+      // Of a matrix, only the part at free dofs is proved semidefinite.
+      const bool all_semidefinite = static_cast<bool>(structure_.truth);
+      force = {state_.left.needed[s.dof], state_.left.slack[s.dof],
+               all_semidefinite ? system_.root[s.dof] : 0.0};
       for (const auto& [column, entry] : system_.stiffness[s.dof])
-        if (!convex && system_.fixed[column] == 0)
+        if (!all_semidefinite && system_.fixed[column] == 0)
           force.per_rho += std::abs(entry.hi) * contacts_.reach(column) * (1 + summation_slack);
     }
   }
@@ -414,7 +417,7 @@ error_bounds error_prover::bound(const reported_state& told) {
   const std::vector<support_force> forces = support_forces(b.convex);
   for (std::size_t i = 0; i < forces.size(); ++i)
     take(b, kind_of(problem_.supports[i]), told.numbers.reactions[i], forces[i].force, forces[i].slack,
-         forces[i].per_rho * b.rho);
+         b.rho == 0.0 ? 0.0 : forces[i].per_rho * b.rho);
   for (std::size_t i = 0; i < told.numbers.element_values.size(); ++i) {
     const element_value& v = state_.values[i];
     take(b, kind_of(v), told.numbers.element_values[i], v.value, v.noise(), v.energy * b.rho);

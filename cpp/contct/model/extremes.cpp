@@ -49,6 +49,11 @@ class extremes {
 
   /// `varies`: v is on one polynomial with the value before it, and the polynomial is not constant.
   void take(const placed_value& v, bool varies = false) {
+    varies = varies && follows_;
+    const bool is_between = least_ <= v.value && v.value <= most_;  // values before it are as extreme
+    follows_ = !is_between || (varies && (equals(v.value, -1) || equals(v.value, 1)));
+    if (is_between) return;
+    if (all_.size() == room_) forget();
     all_.push_back({v, varies});
     least_ = std::min(least_, v.value);
     most_ = std::max(most_, v.value);
@@ -85,15 +90,33 @@ class extremes {
     bool varies;
   };
 
+  /// True if v equals the largest value so far (side = 1) or the least (-1).
+  [[nodiscard]] bool equals(double v, int side) const {
+    const double extreme = side > 0 ? most_ : least_;
+    return side * (extreme - v) <= tie_of(std::abs(extreme), std::max(std::abs(least_), std::abs(most_)));
+  }
+
+  /// Forgets the values that equal no extreme so far, so that long beams need no memory for them.
+  void forget() {
+    std::vector<candidate> kept;
+    bool follows = true;  // the value before is kept too
+    for (candidate& c : all_) {
+      c.varies = c.varies && follows;
+      follows = equals(c.at.value, -1) || equals(c.at.value, 1);
+      if (follows) kept.push_back(c);
+    }
+    all_ = std::move(kept);
+    room_ = std::max(room_, 2 * all_.size());
+  }
+
   /// The first place of the largest value (side = 1) or of the least (-1). Between neighbours on one
   /// polynomial there is no further extreme, so that of neighbours equal to the extreme the best is taken.
   [[nodiscard]] placed_value first_at(int side) const {
     const double extreme = side > 0 ? most_ : least_;
-    const double tie = tie_of(std::abs(extreme), std::max(std::abs(least_), std::abs(most_)));
-    const auto equals = [&](const candidate& c) { return side * (extreme - c.at.value) <= tie; };
-    auto found = std::ranges::find_if(all_, equals);
+    const auto is_extreme = [&](const candidate& c) { return equals(c.at.value, side); };
+    auto found = std::ranges::find_if(all_, is_extreme);
     if (found == all_.end()) return all_.front().at;  // no value is finite
-    for (auto next = found + 1; next != all_.end() && next->varies && equals(*next); ++next)
+    for (auto next = found + 1; next != all_.end() && next->varies && is_extreme(*next); ++next)
       if (side * (next->at.value - found->at.value) > tie_of(0.0, std::abs(extreme))) found = next;
     placed_value at = found->at;
     at.value = extreme;
@@ -102,6 +125,8 @@ class extremes {
 
   std::string_view name_;
   std::vector<candidate> all_;
+  bool follows_ = false;  // the next value may be on one polynomial with the last of all_
+  std::size_t room_ = 4096;
   double least_ = std::numeric_limits<double>::infinity(), most_ = -least_;
 };
 

@@ -83,9 +83,10 @@ decimal shortest_decimal(double x) {
 }
 
 int significant_digits(std::string_view literal) {
-  const std::optional<written_decimal> w = written_in(literal);
-  const std::size_t zeros = w ? w->digits.find_first_not_of('0') : std::string::npos;
-  return zeros == std::string::npos ? 0 : static_cast<int>(w->digits.size() - zeros);
+  if (!decimal_in(literal)) return 0;
+  const std::string_view mantissa = literal.substr(0, literal.find_first_of("eEdD"));
+  const std::size_t first = std::min(mantissa.find_first_of("123456789"), mantissa.size());
+  return static_cast<int>(std::ranges::count_if(mantissa.substr(first), is_digit));
 }
 
 bool stands_for(std::string_view literal, double x) {

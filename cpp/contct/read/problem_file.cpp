@@ -239,9 +239,13 @@ class problem_reader {
     t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
     const facing common = read_facing(t, face_below);
-    std::vector<int> at(nodes(problem_.geometry));
-    std::iota(at.begin(), at.end(), 0);
-    if (nodes_->named_in(t)) at = nodes_->read(t);
+    std::vector<int> at;
+    if (nodes_->named_in(t)) {
+      at = nodes_->read(t);
+    } else {
+      at.resize(nodes(problem_.geometry));
+      std::iota(at.begin(), at.end(), 0);
+    }
     bed made{modulus, {}, problem_.pairs.size()};
     made.closed = common.closed;
     const std::vector<double> faces = read_faces(t, at, made.face);
@@ -265,13 +269,13 @@ class problem_reader {
 
   /// Warns if neighbouring nodes of a bed are more than half of (4 EI / modulus)^(1/4) apart, the length over
   /// which the beam bends on ground of this modulus. Names only the worst place.
-  void warn_of_spacing(const toml_value& t, const beam& b, double modulus, const std::vector<int>& at) {
-    std::vector<char> is_on_bed(b.nodes(), 0);
-    for (const int node : at) is_on_bed[node] = 1;
+  void warn_of_spacing(const toml_value& t, const beam& b, double modulus, std::vector<int> at) {
+    std::ranges::sort(at);
     double worst = 1.0 + 1e-9;
     std::string warning;
-    for (int e = 0; e < b.elements(); ++e) {
-      if (is_on_bed[e] == 0 || is_on_bed[e + 1] == 0) continue;
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const int e = at[i];
+      if (at[i + 1] != e + 1) continue;
       const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // cannot underflow
       if (b.length_of(e) <= worst * most) continue;
       worst = b.length_of(e) / most;
