@@ -61,6 +61,12 @@ inline to_chars_result to_chars(char* first, char* last, double value, chars_for
   return {last, errc::value_too_large};
 }
 
+/// Writes a finite number with `behind` digits behind the first.
+inline to_chars_result to_chars(char* first, char* last, double value, chars_format /*scientific*/,
+                                int behind) {
+  return {fmt::format_to_n(first, last - first, "{:.{}e}", value, behind).out, errc()};
+}
+
 /// Writes a number without a format.
 inline to_chars_result to_chars(char* first, char* last, double value) {
   const string text = fmt::format("{}", value);

@@ -359,6 +359,16 @@ def check_cancelled(folder):
             fail(f"{text}: {code}: {said}")
 
 
+def check_balanced(folder):
+    """Tests that a certified step is not refused if the largest loads so far acted in a step without bounds."""
+    problem = Path(folder) / "balanced.toml"
+    problem.write_text('[beam]\nx = [0, 6, 12]\nEI = 1e4\n[[contact]]\nnode = 2\nsurface = "below"\nface = 0\nstiffness = 1e5\n'
+                       '[[step]]\nuniform = -15\n[[step]]\nmove = [ { node = 2, w = -0.001 } ]\n')
+    code, said = verdict(problem, proof_of(problem, folder, "--kernels", "corrected"), folder)
+    if code != 2 or "step 2 of 2: 9 numbers are within their bounds; certified; measured by a step without bounds" not in said:
+        fail(f"an unloaded step after a balanced one: {code}: {said}")
+
+
 def check_faults(folder):
     problem = reference / "problems/pb07-three-gap-supports.toml"
     proof = proof_of(problem, folder, "--kernels", "corrected")
@@ -433,5 +443,6 @@ with tempfile.TemporaryDirectory() as scratch:
     check_places(scratch)
     check_doctored(scratch, check_forms(scratch), 200 if few else 2000)
     check_cancelled(scratch)
+    check_balanced(scratch)
 print("FAILED" if failed else "passed")
 sys.exit(1 if failed else 0)

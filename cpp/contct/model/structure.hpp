@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "contct/model/rigid_modes.hpp"
@@ -54,7 +55,10 @@ struct line_place {
   double x;                               ///< rounded
   int point = -1;
   std::vector<double> more = {};
-  auto operator<=>(const line_place&) const = default;
+  bool operator==(const line_place&) const = default;
+  bool operator<(const line_place& o) const {
+    return std::tie(x, point, more) < std::tie(o.x, o.point, o.more);
+  }
 };
 
 /// A load that need not follow the mesh.
