@@ -154,9 +154,9 @@ class combination_reader {
       return;
     }
     rational rest = at - decimal_of(x.x);
-    for (double next = rounded(rest); next != 0.0; next = rounded(rest)) {
-      x.more.push_back(next);
-      rest -= decimal_of(next);
+    while (rounded(rest) != 0.0) {  // ends, because every number takes digits of a decimal away
+      x.more.push_back(rounded(rest));
+      rest -= decimal_of(x.more.back());
     }
     l.placed.push_back({load_kind::point, x, x, {w}, {}, factor});
   }

@@ -44,7 +44,7 @@ class problem_reader {
   /// `numbers`: numbers_in of the document.
   problem_reader(const toml::table& document, std::string_view file, reach allowed,
                  std::vector<written_number>& numbers)
-      : files_(file, allowed), top_(document, file, numbers) {}
+      : files_(file, allowed), top_(document, file, &numbers) {}
 
   problem read() {
     top_.allow_only({"title", "units", "beam", "plate", "matrix", "calculix", "hinge", "support", "contact",

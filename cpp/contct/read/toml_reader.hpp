@@ -49,13 +49,10 @@ struct written_number {
 /// column. The document and the name of the file must outlive this object.
 class toml_value {
  public:
-  toml_value(const toml::table& document, std::string_view file)
-      : node_(&document), at_(document.source().begin), file_(file) {}
-  /// With the document's numbers_in, which must outlive this object, too.
-  toml_value(const toml::table& document, std::string_view file, std::vector<written_number>& numbers)
-      : toml_value(document, file) {
-    numbers_ = &numbers;
-  }
+  /// `numbers`: the document's numbers_in, or null; they must outlive this object, too.
+  toml_value(const toml::table& document, std::string_view file,
+             std::vector<written_number>* numbers = nullptr)
+      : node_(&document), at_(document.source().begin), file_(file), numbers_(numbers) {}
 
   /// The value as a number, a whole number, text, or an index in `choices`. Refuses any other value.
   [[nodiscard]] double real(const real_range& range) const;

@@ -61,7 +61,7 @@ load_words words_for(const model& m, const load& l, const resultant& r) {
   for (const auto& kind : kinds) parts += kind.size();
   const auto varies = [](const auto& list) { return !list.empty() && list[0].polynomial.size() > 1; };
   const bool is_summed = !kinds[0].empty() && (parts > 1 || varies(l.distributed) || varies(l.placed));
-  const auto kind = std::ranges::find_if(kinds, [](const auto& words) { return !words.empty(); });
+  auto* const kind = std::ranges::find_if(kinds, [](const auto& words) { return !words.empty(); });
   if (is_summed || kind == kinds.end())
     return {std::holds_alternative<assembled>(m.kind) ? "sum " : "force ", r.force};
   load_words& largest =

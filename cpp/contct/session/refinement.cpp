@@ -141,7 +141,7 @@ problem refined(const problem& p) {
       for (nodal_value& at : l.*values) at.node = grid.node(at.node);
     for (distributed_load& d : l.distributed) d.elements = grid.parts_of(d.elements);
     for (placed_load& at : l.placed)
-      for (line_place* const end : {&at.from, &at.to, &at.across[0], &at.across[1]})
+      for (line_place* const end : {&at.from, &at.to, &at.across.front(), &at.across.back()})
         if (end->point > 0) end->point *= 2;
   }
   if (std::holds_alternative<plate>(p.geometry.kind))
