@@ -404,7 +404,7 @@ namespace {
 
 /// The certificate of three dofs under a load at dof 3, which has a face below. `d`, `b`, `end`: the entries
 /// on the diagonal, beside it, and at dof 3. `corner`: couples dofs 1 and 3; empty: no entry.
-certificate certificate_of(std::array<std::string, 4> entries, const std::string& more,
+certificate certificate_of(const std::array<std::string, 4>& entries, const std::string& more,
                            const std::string& load) {
   const scratch_folder to;
   const auto& [d, b, end, corner] = entries;

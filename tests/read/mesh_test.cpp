@@ -34,8 +34,8 @@ TEST_CASE(
   constexpr const char* thirds = "length = 3.5\nelements = 3";               // node 2 is at 7/6
   constexpr const char* near = "length = 3.9000000000000004\nelements = 3";  // node 2 is 1.3e-16 beyond 1.3
   struct {
-    const char *beam, *x;
-    int node;  // from 0; -1: none
+    const char *beam = nullptr, *x = nullptr;
+    int node = -1;  // from 0; -1: none
     bool has_warning = false;
   } const rows[] = {
       {far, "1.0e-9", 1},

@@ -112,7 +112,8 @@ TEST_CASE("Far from x = 0, bearing pressures are within their bound, and lengths
   for (int number = 0; number < 20; ++number) {
     std::string x;
     const double start = std::pow(10.0, random.whole(3, 7));
-    for (double at = 0.0; at < 2; at += 0.1 * random.whole(1, 4)) x += fmt::format("{:.1f}, ", start + at);
+    for (int tenth = 0; tenth < 20; tenth += random.whole(1, 4))
+      x += fmt::format("{:.1f}, ", start + 0.1 * tenth);
     const problem p = parse_problem("[beam]\nx = [" + x +
                                         "]\nEI = 1\n[[bed]]\nmodulus = 7\nface = 0\n[[step]]\n"
                                         "uniform = -3\npoint = [ { node = 2, w = -2 } ]\n",
