@@ -1,6 +1,7 @@
 #include "contct/model/extremes.hpp"
 
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "catch.hpp"
@@ -218,7 +219,10 @@ TEST_CASE("the place of an extreme is the first of all places whose values are e
   const std::vector<support> ends = {{0, 0, true}, {1, 0, true}};
   const std::vector<support> three = {{0, 0, true}, {3, 0, true}};
   const std::vector<support> clamped = {{0, 0, true}, {0, 1, true}};
+  std::vector<double> long_beam(6001);  // has more values than `extremes` remembers
+  std::iota(long_beam.begin(), long_beam.end(), 0.0);
   const example examples[] = {
+      {long_beam, loaded({}, {{6000, 0, 0.3}}), clamped, {{"w", 0, 6000}}},
       // A constant shear on both sides of a load, in one element, in several, and on an overhang without
       // shear.
       {{0, 10}, loaded({point(3.3, -7.5)}), ends, {{"shear", 3.3, 0}, {"moment", 0, 3.3}, {"w", 4.55, 0}}},
@@ -245,5 +249,5 @@ TEST_CASE("the place of an extreme is the first of all places whose values are e
       compared += 2;
     }
   }
-  CHECK(compared == 30);
+  CHECK(compared == 32);
 }
