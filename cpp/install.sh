@@ -42,8 +42,9 @@ need_petsc() {
   need "for the engine petsc and its parallel runs" libpetsc-real-dev openmpi-bin pkgconf
 }
 
+# With GMP exact numbers are quicker; without it the program is built with Boost's integers.
 need_program() {
-  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev
+  need "for the contct program" libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgmp-dev
 }
 
 # The packages of the long tests. Fails if Debian has one that cannot be installed.

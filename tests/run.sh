@@ -27,7 +27,7 @@ done
 
 need_core
 need_program
-need "to test" catch2 python3 python3-jsonschema libgmp-dev python3-capstone python3-z3
+need "to test" catch2 python3 python3-jsonschema python3-capstone python3-z3
 
 # build NAME [OPTION]: configures and builds this preset, and prints its messages only if it fails. Adds what CMake
 # reports as skipped to $skipped.

@@ -118,7 +118,12 @@ TEST_CASE(
   int rounded = 0;  // steps with a difference above a millionth of the largest number of the kind
   const auto take = [&](const both_rules& r) {
     CHECK(r.wrong().empty());
-    for (const state_difference& d : r.beside().differences) rounded += d.but_for_rounding ? 1 : 0;
+    for (const state_difference& d : r.beside().differences) {
+      rounded += d.but_for_rounding ? 1 : 0;
+      if (d.but_for_rounding)
+        CHECK_THAT(rule_1989_words(r.run.result).at(0),
+                   Contains(", but for numbers that are only rounding: ") && Contains(" other "));
+    }
     compared += static_cast<int>(r.beside().differences.size());
   };
   for (int i = 0; i < 500; ++i) take(both_rules(random.beam(true)));

@@ -444,9 +444,11 @@ std::string agreement_words(const run_result& r, std::span<const state_differenc
   const bool is_rounded = std::ranges::any_of(all, &state_difference::but_for_rounding);
   const std::string start = fmt::format("the 1989 rule comes to the same states{}{}",
                                         r.beside->same_events ? "" : " by other events",
-                                        is_rounded ? ", but for the rounding of doubles" : "");
-  if (worst->share < ten_digits) return start + ": every number agrees to 10 digits or more";
-  return fmt::format("{}: the largest difference is in the {} of {} in step {}: {}", start,
+                                        is_rounded ? ", but for numbers that are only rounding" : "");
+  const std::string_view other = is_rounded ? "other " : "";
+  if (worst->share < ten_digits)
+    return fmt::format("{}: every {}number agrees to 10 digits or more", start, other);
+  return fmt::format("{}: the largest {}difference is in the {} of {} in step {}: {}", start, other,
                      name_of_kind(worst->what), worst->at, worst->step, size_words(r, *worst));
 }
 
