@@ -34,6 +34,11 @@ need() {
     $root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
+# Runs a command, and prints its output only if it fails.
+silently() {
+  output=$("$@" 2>&1) || { printf '%s\n' "$output"; return 1; }
+}
+
 need_core() {
   need "to build" g++ gfortran cmake ninja-build liblapack-dev libblas-dev libboost-dev
 }

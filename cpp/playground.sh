@@ -10,11 +10,6 @@ need "for the playground" emscripten cmake ninja-build f2c libf2c2-dev libboost-
   nlohmann-json3-dev libfmt-dev python3-markdown libfast-float-dev librange-v3-dev ca-certificates || exit 77
 fetch_lapack || { echo "playground: SKIPPED: the source of LAPACK cannot be fetched" >&2; exit 77; }
 echo "building in build/playground"
-log=$(mktemp)
-if ! { emcmake cmake -G Ninja -S cpp/playground -B build/playground -DLAPACK_SOURCE="$lapack" && cmake --build build/playground; } >"$log" 2>&1; then
-  cat "$log"
-  rm -f "$log"
-  exit 1
-fi
-rm -f "$log"
+silently emcmake cmake -G Ninja -S cpp/playground -B build/playground -DLAPACK_SOURCE="$lapack"
+silently cmake --build build/playground
 ls -l build/playground/contct.html | awk '{ printf "build/playground/contct.html: %.1f MB\n", $5 / 1e6 }'

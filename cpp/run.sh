@@ -7,13 +7,7 @@ here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
 need_core
 need_program
 echo "building in build/release"
-log=$(mktemp)
-if ! (cd "$here" && cmake --preset release -DCONTCT_BUILD_TESTS=OFF && cmake --build --preset release) >"$log" 2>&1; then
-  cat "$log"
-  rm -f "$log"
-  exit 1
-fi
-rm -f "$log"
+(cd "$here" && silently cmake --preset release -DCONTCT_BUILD_TESTS=OFF && silently cmake --build --preset release)
 root="$here/"
 [ "$(pwd -P)" != "$here" ] || root="" # prints relative names, as in the README
 [ $# -gt 0 ] || set -- run "${root}reference/problems/pb07-three-gap-supports.toml"

@@ -3,11 +3,7 @@
 # Without arguments it runs the tests that check every promise once. .ci/run and --full run the long tests too: all commands of
 # all pages, the course, mutants, languages, packages, and everything that needs another tool.
 # LEG: a preset that is built and tested instead: core (without the program, with sanitizers and gfortran's run-time
-# checks), asan (core with the program), tsan (threads). --full has all presets, and adds the campaigns: certificates against
-# the exact path, the mutants of both kernels, more failing system calls, the exact numbers of all reference problems, a
-# second LAPACK, the programs built in another folder, CalculiX, other processors, page and playground in a browser, grids
-# read back by VTK, a routine of LAPACK next to its port, every reader fuzzed for a minute, Debian packages and
-# reference/adopt in a bare Debian, the static contct-replay in an empty folder, formatting and clang-tidy.
+# checks), asan (core with the program), tsan (threads). --full has all presets, and adds the campaigns at the end of this file.
 set -eu
 here=$(cd "$(dirname "$0")/.." && pwd)
 cd "$here"
@@ -36,12 +32,8 @@ build() {
   echo "== $1: configuring, building"
   began=$(date +%s)
   log=$(mktemp)
-  if ! { cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON "-DCONTCT_LONG_TESTS=${2:-OFF}" && cmake --build --preset "$1"; } >"$log" 2>&1; then
-    cat "$log"
-    rm -f "$log"
-    echo "== $1: the build failed" >&2
-    exit 1
-  fi
+  cmake --preset "$1" -DCONTCT_BUILD_TESTS=ON "-DCONTCT_LONG_TESTS=${2:-OFF}" >"$log" 2>&1 && cmake --build --preset "$1" >>"$log" 2>&1 ||
+    { cat "$log"; rm -f "$log"; echo "== $1: the build failed" >&2; exit 1; }
   skipped="$skipped$(sed -n 's/^-- skipped: /; /p' "$log" | tr -d '\n')"
   rm -f "$log"
   echo "== $1: $(($(date +%s) - began)) s"
@@ -85,21 +77,20 @@ need "for more compilers" flang-16
 need_languages
 sh tests/tree/format.sh
 build release ON
-echo "== 20,000 random problems and their certificates against the exact path"
-build/release/tests/contct_referee 20000 2026
-echo "== failing system calls"
-python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
+# campaign NAME COMMAND..: runs a command.
+campaign() {
+  echo "== $1"
+  shift
+  "$@"
+}
+campaign "20,000 random problems and their certificates against the exact path" build/release/tests/contct_referee 20000 2026
+campaign "failing system calls" python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
   build/release/tests/plugins/libvariant_reassociated.so --more
-echo "== mutants of both kernels"
-python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
-echo "== exact numbers of verification.toml"
-python3 tests/lab/write_exact.py build/release/contct reference --check --least 716
-echo "== proofs of all reference problems"
-python3 tests/proof/check_proof_test.py build/release/contct reference all
-echo "== two LAPACKs"
-sh tests/two_lapacks/run.sh build/release
-echo "== the same programs from another folder"
-sh tests/package/same_binaries.sh build/release
+campaign "mutants of both kernels" python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
+campaign "exact numbers of verification.toml" python3 tests/results/write_exact.py build/release/contct reference --check --least 716
+campaign "proofs of all reference problems" python3 tests/proof/check_proof_test.py build/release/contct reference all
+campaign "two LAPACKs" sh tests/two_lapacks/run.sh build/release
+campaign "the same programs from another folder" sh tests/package/same_binaries.sh build/release
 with_tool "CalculiX and Siconos as peers" peer/run.sh build/release
 with_tool "other processors" emulated/run.sh
 with_tool "the page in a browser" browser/run.sh build/release

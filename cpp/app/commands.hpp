@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
-#include "contct/lab/fuzz.hpp"
-#include "contct/session/exit_status.hpp"
+#include "contct/harness/fuzz.hpp"
+#include "contct/results/exit_status.hpp"
 
 namespace contct {
 
@@ -21,6 +21,12 @@ namespace contct {
 struct report_options {
   bool quiet = false;
   std::string junit, markdown;
+};
+
+/// The options of every command that reports on a kernel.
+struct kernel_report_options {
+  std::string kernel_report, badge;
+  report_options report = {};
 };
 
 /// The options of every command that reads a problem.
@@ -77,21 +83,17 @@ struct verify_options {
   report_options report;
 };
 
-struct fuzz_options {
+struct fuzz_options : kernel_report_options {
   fuzz_request request;
   std::optional<std::int64_t> problems;  ///< default: one for every 500 calls
   std::string shard;                     ///< "I/N"
   std::string json;
   std::string out;  ///< a folder
-  std::string kernel_report, badge;
-  report_options report;
 };
 
-struct replay_options {
+struct replay_options : kernel_report_options {
   std::vector<std::string> traces;
   std::vector<std::string> kernels;
-  std::string kernel_report, badge;
-  report_options report;
 };
 
 struct prove_options {
@@ -110,14 +112,18 @@ using command_options =
     std::variant<printed_text, run_options, check_options, explain_options, exact_options, new_options,
                  verify_options, fuzz_options, replay_options, prove_options, kernels_options>;
 
+/// An invalid command line. what() has several lines: the reason, suggestions and advice.
+struct usage_error : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
 /// Parses the command line of `contct`. `engines` are the names that --engine accepts; the names are an
-/// argument so that the parser needs no LAPACK. Throws std::invalid_argument, with the reason and a
-/// suggestion in what(), if the command line is invalid.
+/// argument so that the parser needs no LAPACK. Throws usage_error.
 [[nodiscard]] command_options parse_contct(int argc, const char* const* argv,
                                            const std::vector<std::string>& engines);
 
 /// Parses the command line of `contct-replay` into printed_text or replay_options. Throws
-/// std::invalid_argument, as parse_contct does.
+/// usage_error.
 [[nodiscard]] command_options parse_contct_replay(int argc, const char* const* argv);
 
 // Each function runs a command and returns its exit status. Exceptions have a message for the user in what().

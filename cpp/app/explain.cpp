@@ -9,7 +9,7 @@
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/session/run.hpp"
+#include "contct/results/run.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/write/words.hpp"
 
@@ -79,27 +79,18 @@ void print_story(const std::vector<sentence>& story) {
   for (const sentence& t : story) print_text(text_of(look_at_terminal(), t));
 }
 
-/// The IFs that one pair reached, each with its margin; without IF (ISEP(I).EQ.1), which has no margin.
-std::vector<sentence> margins_of(const explained_pair& p) {
-  std::vector<sentence> margins;
-  for (std::size_t b = 0; b < p.taken.size(); ++b) {
-    const taken_branch& t = p.taken[b];
-    if (t.reached && static_cast<branch>(b) != branch::was_separated)
-      margins.push_back({no_line, words_of(decision{static_cast<branch>(b), -1, t.outcome, t.ulps})});
-  }
-  return margins;
-}
-
 void print_call(const recorded_call& c, const explained_call& told, int only_pair) {
   print_text(fmt::format("\nCall {}{}\n", c.number, c.note.empty() ? "" : ": " + whole_line(c.note)));
   for (const explained_pair& p : told.pairs) {
     if (only_pair != 0 && only_pair != p.pair + 1) continue;
-    print_text(fmt::format("\nPair {}, node {}, face {}, {}: {}\n", p.pair + 1, p.node,
-                           surface_name(p.surface), p.isep_before == separated ? "separated" : "in contact",
-                           kind_name(p)));
+    print_text("\n" + heading_of(p, fmt::format("node {}", p.node)) + "\n");
     print_story(scale_factor_story(p));
     if (told.winner >= 0) print_story(toggle_story(told, p));
-    print_story(margins_of(p));
+    for (std::optional<decision> d : p.taken) {
+      if (!d || d->what == branch::was_separated) continue;  // compares integers, without a margin
+      d->pair = -1;
+      print_story({{no_line, words_of(*d)}});
+    }
   }
   print_text("\nThe smallest s\n");
   print_story(winner_story(told));
@@ -127,20 +118,18 @@ exit_status explain_trace(const explain_options& options) {
   const std::string& asked = options.kernels.back();
   const std::unique_ptr<kernel> k =
       make_kernel(comparable(h, facts_of_kernel(asked)) ? asked : usual_kernel(h));
-  follower other({"the trace", h.real_bytes, h.rule, "", "", "", true, h.kernel == "f2c"}, *k);
+  follower other = follower_of(h, *k);
   const int wanted = number_from_1(options.increment);
   double largest = 0.0;
   std::int64_t told = 0;
-  for (recorded_call c; calls.next(c);) {
-    const answered_call recorded = c.answered();
-    const explained_call explained = explain(recorded, h.real_bytes, largest);
-    const std::optional<mismatch>& apart = other.ask(recorded);
-    if (!options.increment.empty() && c.number != wanted) continue;
+  (void)replay(calls, other, [&](const recorded_call& c, const answered_call& right) {
+    const explained_call explained = explain(right, h.real_bytes, largest);
+    if (!options.increment.empty() && c.number != wanted) return;
     ++told;
     if (!options.quiet) print_call(c, explained, options.pair.value_or(0));
     flush_standard_output();
-    if (apart) complain_of(words_of(other.report_of(*apart, recorded)));
-  }
+    if (other.difference()) complain_of(words_of(other.report_of(*other.difference(), right)));
+  });
   if (told == 0)
     throw std::invalid_argument(fmt::format("--increment: found {}; allowed: the number of a call in {}",
                                             options.increment, options.file));
@@ -189,7 +178,7 @@ exit_status run_command(const explain_options& options) {
   if (anything && text && options.kernels.size() > 1) print_comparison(options.kernels, run);
   if (anything) flush_standard_output();
   if (anything && told.first()) complain_of(words_of(*told.first()));
-  for (const std::string& line : end_lines(p, end)) complain("{}: {}", whole_line(options.file), line);
+  for (const std::string& line : words_of_ends(p, end)) complain("{}: {}", whole_line(options.file), line);
   if (!anything) return nothing_told(options, wanted, end, told);
   if (json) json->finish(status_name(end.status, run.equal()), told);
   return status_of(end.status, run.equal());

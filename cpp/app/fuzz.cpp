@@ -1,16 +1,14 @@
 // contct fuzz: compares kernels on random and adversarial calls and on random problems.
-#include "contct/lab/fuzz.hpp"
-
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <stdexcept>
 
 #include "app/kernel_report.hpp"
 #include "app/problem_runs.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
+#include "contct/results/random_problem.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {
@@ -33,12 +31,10 @@ std::string command_of(const fuzz_request& r) {
 }
 
 fuzz_run fuzzed(const fuzz_request& request, bool quiet) {
-  std::optional<progress> shown;
-  const char* shown_what = nullptr;
-  return run_fuzz(request, [&](std::int64_t done, std::int64_t all, const char* what) {
-    if (shown_what != what) shown.emplace(all, what, quiet);
-    shown_what = what;
-    shown->reached(done);
+  progress shown(quiet);
+  const small_problems problems(request.seed);
+  return run_fuzz(request, &problems, [&](std::int64_t done, std::int64_t all, const char* what) {
+    shown.reached(done, all, what);
   });
 }
 

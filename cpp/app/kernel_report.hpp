@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/outputs.hpp"
-#include "contct/compare/compare.hpp"
+#include "contct/harness/compare.hpp"
 
 namespace contct {
 

@@ -126,17 +126,16 @@ void add_reports(CLI::App* command, report_options& o) {
            "Write a summary in Markdown to this file (- is standard output)");
 }
 
-template <class Options>
-void add_kernel_report(CLI::App* command, Options& o) {
+void add_kernel_report(CLI::App* command, kernel_report_options& o) {
   add_file(command, "--report", o.kernel_report,
            "Write a report on the checked kernel to this file (- is standard output): its identity, the "
            "comparison, and how closely it equals CONTCT (bits, ulps, events or certificate)");
   add_file(command, "--badge", o.badge, "Write the result as a badge, an SVG picture, to this file");
+  add_reports(command, o.report);
 }
 
 /// A parser, and the options of the chosen command.
-class option_parser {
- public:
+struct option_parser {
   option_parser(const std::string& name, const std::string& text) : program(text, name) {
     program.set_version_flag("--version", name + " " CONTCT_VERSION "\nlisting sha256 " CONTCT_LISTING_SHA256,
                              "Print the version and the listing's checksum");
@@ -146,31 +145,27 @@ class option_parser {
   template <class Options>
   Options& options_for(CLI::App* command) {
     const auto options = std::make_shared<Options>();
-    command->callback([this, options] { chosen_ = *options; });
+    command->callback([this, options] { chosen = *options; });
     return *options;
   }
 
-  command_options parse(int argc, const char* const* argv);
+  command_options parse(int argc, const char* const* argv) {
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      // The code is 0 for --help and --version.
+      if (e.get_exit_code() != 0) throw usage_error(usage_words(program, e.what()));
+      std::ostringstream text;
+      program.exit(e, text, text);
+      return printed_text{text.str()};
+    }
+    return chosen;
+  }
 
   CLI::App program;
   std::vector<std::string> engines = {};
-
- private:
-  command_options chosen_;
+  command_options chosen;
 };
-
-command_options option_parser::parse(int argc, const char* const* argv) {
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    // The code is 0 for --help and --version.
-    if (e.get_exit_code() != 0) throw std::invalid_argument(usage_words(program, e.what()));
-    std::ostringstream text;
-    program.exit(e, text, text);
-    return printed_text{text.str()};
-  }
-  return chosen_;
-}
 
 void declare_replay(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<replay_options>(c);
@@ -179,7 +174,6 @@ void declare_replay(option_parser& p, CLI::App* c) {
               "The kernels to check; by default the 1989 code in the trace's precision")
       ->allow_extra_args(false);  // the next argument is a trace
   add_kernel_report(c, o);
-  add_reports(c, o.report);
 }
 
 void declare_pictures(CLI::App* c, run_options& o) {
@@ -320,7 +314,6 @@ void declare_fuzz(option_parser& p, CLI::App* c) {
   add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   add_file(c, "--out", o.out, "Write each mismatch to this folder, reduced, as a trace");
   add_kernel_report(c, o);
-  add_reports(c, o.report);
 }
 
 void declare_prove(option_parser& p, CLI::App* c) {

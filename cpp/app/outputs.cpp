@@ -4,10 +4,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <limits>
+#include <new>
 #include <stdexcept>
+#include <system_error>
 
+#include "contct/kernel/kernel.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/text/input_text.hpp"
 
@@ -44,15 +49,16 @@ std::string markdown_block(std::string_view lines) {
   return fmt::format("{0}\n{1}\n{0}\n", fence, terminal_text(lines));
 }
 
-/// The time in seconds before progress is shown: CONTCT_PROGRESS_AFTER in the environment, or 1.
-double wait_before_progress() {
+/// The number from 0 to `most` in a variable of the environment; `otherwise` if it is not set. Throws
+/// std::invalid_argument if the variable is invalid.
+template <class Number>
+Number environment_number(const char* variable, Number otherwise, Number most, std::string_view allowed) {
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  const char* const given = std::getenv("CONTCT_PROGRESS_AFTER");
-  const auto seconds = given == nullptr ? 1.0 : number_in<double>(given);
-  if (!seconds || !(*seconds >= 0.0))
-    throw std::invalid_argument(
-        fmt::format("CONTCT_PROGRESS_AFTER: found \"{}\"; allowed: seconds, 0 or more", given));
-  return *seconds;
+  const char* const given = std::getenv(variable);
+  const auto number = given == nullptr ? otherwise : number_in<Number>(given);
+  if (!number || !(*number >= 0 && *number <= most))
+    throw std::invalid_argument(fmt::format("{}: found \"{}\"; allowed: {}", variable, given, allowed));
+  return *number;
 }
 
 /// Overwrites the terminal's current line.
@@ -61,14 +67,15 @@ void put_line(std::string_view words) {
   (void)std::fputs(line.c_str(), stderr);
 }
 
-}  // namespace
-
-void end_for_memory() {
+/// Ends the process with a message and exit status 2 if memory is exhausted. Calls no destructors, which may
+/// need memory.
+[[noreturn]] void end_for_memory() {
   constexpr std::string_view message = "contct: not enough memory; the command is stopped\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
   _exit(static_cast<int>(exit_status::bad_input));
 }
 
+/// Opens closed standard streams. Otherwise output files would get the descriptors of the closed streams.
 void hold_standard_streams() {
   // Input is opened for writing and output for reading, so that using a closed stream fails as before.
   constexpr std::pair<int, int> held[] = {
@@ -79,8 +86,43 @@ void hold_standard_streams() {
   }
 }
 
-void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items) {
-  for (const std::string& line : wrap(items, t.width)) print_text(fmt::format("{}\n", painted(t, p, line)));
+}  // namespace
+
+int run_program(const std::function<exit_status()>& command, const std::function<void()>& leave) {
+  std::set_new_handler(end_for_memory);
+  hold_standard_streams();
+  (void)std::signal(SIGPIPE, SIG_IGN);
+  exit_status status = exit_status::bad_input;
+  bool reader_is_gone = false;
+  try {
+    const exit_status found = command();
+    flush_standard_output();
+    status = found;
+  } catch (const reader_gone&) {  // "contct run .. | head" ends after writing its files
+    reader_is_gone = true;
+  } catch (const kernel_failure& e) {
+    complain("the leading kernel gave no answer: {}", whole_line(e.what()));
+    status = exit_status::kernels_differ;
+  } catch (const usage_error& e) {
+    complain("{}", e.what());
+  } catch (const std::system_error& e) {
+    complain("{}{}", std::ferror(stdout) != 0 ? "standard output: " : "", whole_line(e.what()));
+  } catch (const std::bad_alloc&) {
+    end_for_memory();
+  } catch (const std::exception& e) {
+    complain("{}", whole_line(e.what()));
+  }
+  leave();
+  if (reader_is_gone) {
+    (void)std::signal(SIGPIPE, SIG_DFL);
+    (void)std::raise(SIGPIPE);
+  }
+  return static_cast<int>(status);
+}
+
+void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items, int indent) {
+  for (const std::string& line : wrap(items, t.width - indent))
+    print_text(fmt::format("{:{}}{}\n", "", indent, painted(t, p, line)));
 }
 
 void complain_of(const std::vector<std::string>& lines) {
@@ -136,16 +178,11 @@ std::vector<std::string> common_facts() {
 }
 
 std::string utc_now() {
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing here sets variables
-  const char* const given = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::int64_t most = 253'402'300'799;  // the end of the year 9999
   // A clock that was never set may show any year, so its time is clamped.
-  const auto seconds = given == nullptr ? std::clamp<std::int64_t>(std::time(nullptr), 0, most)
-                                        : number_in<std::int64_t>(given);
-  if (!seconds || *seconds < 0 || *seconds > most)
-    throw std::invalid_argument(
-        fmt::format("SOURCE_DATE_EPOCH: found \"{}\"; allowed: seconds since 1970, 0 to {}", given, most));
-  const auto time = static_cast<std::time_t>(*seconds);
+  const std::time_t time =
+      environment_number("SOURCE_DATE_EPOCH", std::clamp<std::int64_t>(std::time(nullptr), 0, most), most,
+                         "seconds since 1970, 0 to 253402300799");
   std::tm utc{};
   (void)gmtime_r(&time, &utc);
   return fmt::format("{}-{:02}-{:02} {:02}:{:02} UTC", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
@@ -211,21 +248,19 @@ void output_files::write(const check_report& report) const {
   write("--markdown", markdown(report));
 }
 
-progress::progress(std::int64_t all, std::string what, bool quiet)
+progress::progress(bool quiet)
     : wanted_(!quiet && isatty(STDERR_FILENO) != 0),
-      after_(wait_before_progress()),
-      between_(std::min(0.2, after_.count())),
-      all_(all),
-      what_(std::move(what)) {}
+      after_(environment_number("CONTCT_PROGRESS_AFTER", 1.0, std::numeric_limits<double>::infinity(),
+                                "seconds, 0 or more")),
+      between_(std::min(0.2, after_.count())) {}
 
 bool progress::is_due() const {
   const auto now = clock::now();
   return wanted_ && now - begun_ >= after_ && now - last_ >= between_;
 }
 
-void progress::reached(std::int64_t done) {
-  if (is_due())
-    say(fmt::format("{:3} % of {} {}", 100 * done / std::max<std::int64_t>(all_, 1), all_, what_));
+void progress::reached(std::int64_t done, std::int64_t all, const char* what) {
+  if (is_due()) say(fmt::format("{:3} % of {} {}", 100 * done / std::max<std::int64_t>(all, 1), all, what));
 }
 
 void progress::say(std::string_view words) {

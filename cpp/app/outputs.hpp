@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -19,12 +20,11 @@
 
 namespace contct {
 
-/// Opens closed standard streams. Otherwise output files would get the descriptors of the closed streams.
-void hold_standard_streams();
-
-/// Ends the process with a message and exit status 2 if memory is exhausted. Calls no destructors, which may
-/// need memory. contct and contct-replay pass this function to std::set_new_handler.
-[[noreturn]] void end_for_memory();
+/// Runs the command that a program's command line requests, prints the messages of exceptions, and returns
+/// the exit status. `leave` is called last. If standard output is a pipe without a reader, ends the process
+/// by SIGPIPE, as filters do.
+[[nodiscard]] int run_program(
+    const std::function<exit_status()>& command, const std::function<void()>& leave = [] {});
 
 /// Prints "contct: ..." on standard error, escaped by `terminal_text`. A failure to print is ignored, because
 /// the exit status reports the error.
@@ -43,8 +43,8 @@ void complain(fmt::format_string<Arguments...> words, Arguments&&... arguments) 
 /// Prints each line as complain does.
 void complain_of(const std::vector<std::string>& lines);
 
-/// Prints `items` in lines of the terminal's width. See wrap.
-void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items);
+/// Prints `items` in lines of the terminal's width, each line behind `indent` blanks. See wrap.
+void print_wrapped(const terminal& t, paint p, const std::vector<std::string>& items, int indent = 0);
 
 enum class outcome { passed, failed, skipped };
 constexpr outcome passed_if(bool good) {
@@ -129,19 +129,19 @@ class output_files {
 /// standard error is not a terminal, or if `quiet` is true.
 class progress {
  public:
-  /// `what` names the counted items, for example "problems". Throws std::invalid_argument if
-  /// CONTCT_PROGRESS_AFTER is not a number of seconds.
-  progress(std::int64_t all, std::string what, bool quiet);
+  /// Throws std::invalid_argument if CONTCT_PROGRESS_AFTER is not a number of seconds.
+  explicit progress(bool quiet);
   ~progress() { erase(); }
   progress(const progress&) = delete;
   progress& operator=(const progress&) = delete;
 
-  void reached(std::int64_t done);
+  /// Shows a count. `what` names the counted items, for example "problems".
+  void reached(std::int64_t done, std::int64_t all, const char* what);
 
-  /// Shows a text instead of a count.
+  /// Shows a text.
   void say(std::string_view words);
 
-  /// Erases the line before other text is printed. The next count shows it again.
+  /// Erases the line before other text is printed. The next text shows it again.
   void erase();
 
  private:
@@ -151,8 +151,6 @@ class progress {
   bool wanted_;
   std::chrono::duration<double> after_, between_;
   bool shown_ = false;
-  std::int64_t all_;
-  std::string what_;
   clock::time_point begun_ = clock::now(), last_ = begun_;
 };
 

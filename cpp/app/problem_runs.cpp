@@ -4,10 +4,8 @@
 #include <stdexcept>
 
 #include "app/kernel_report.hpp"
-#include "contct/matrix/cholesky.hpp"
+#include "contct/linear/cholesky.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/text/strings.hpp"
-#include "contct/write/words.hpp"
 
 namespace contct {
 
@@ -37,16 +35,20 @@ problem read_with_warnings(const problem_options& options, const std::vector<out
   return p;
 }
 
+std::vector<std::string> beside_program(std::string_view name, std::initializer_list<const char*> folders) {
+  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+  std::vector<std::string> places;
+  for (const char* folder : folders) places.push_back((here / folder / name).lexically_normal());
+  return places;
+}
+
 fs::path find_reference(const std::string& asked) {
   if (!asked.empty()) return asked;
-  const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-  std::string looked_at;
-  for (const char* from_here : {CONTCT_INSTALLED_REFERENCE, "../../reference"}) {
-    fs::path found = (here / from_here).lexically_normal();
-    if (fs::exists(found / "verification.toml")) return found;
-    looked_at += (looked_at.empty() ? "" : " nor ") + (found / "verification.toml").string();
-  }
-  throw input_error("there is neither " + looked_at + "; name the folder with --reference");
+  const std::vector<std::string> places =
+      beside_program("verification.toml", {CONTCT_INSTALLED_REFERENCE, "../../reference"});
+  for (const std::string& place : places)
+    if (fs::exists(place)) return fs::path(place).parent_path();
+  throw input_error("there is neither " + joined(places, " nor ") + "; name the folder with --reference");
 }
 
 std::vector<std::string> golden_faults(kernel& k) {
@@ -66,26 +68,28 @@ std::vector<std::string> golden_faults(kernel& k) {
     const std::string text = read_input(file.string(), "trace");
     trace_reader calls(text, file.string());
     const trace_header h = calls.read_header();
-    if (comparable(h, k.facts())) answers = replay(h, calls, k, nullptr, std::move(answers)).faults;
+    if (!comparable(h, k.facts())) continue;
+    follower f = follower_of(h, k);
+    std::swap(f.faults, answers);
+    (void)replay(calls, f);
+    std::swap(f.faults, answers);
   }
   return known_faults(answers);
 }
-
-path_progress::path_progress(std::size_t steps, bool quiet)
-    : line(static_cast<std::int64_t>(steps), "steps", quiet), steps_(steps) {}
 
 void path_progress::called(const answered_call& /*c*/) {
   line.say(fmt::format("step {} of {}, increment {}", step_, steps_, ++number_));
 }
 
-void path_progress::incremented(const increment& i) {
-  line.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", i.step, steps_,
-                       i.number + 1, 100.0 * i.fraction));
+void path_progress::reached(int step, int number, double fraction) {
+  line.say(fmt::format("step {} of {}, increment {}, {:.0f} % of the step's load", step, steps_, number,
+                       100.0 * fraction));
 }
 
-void path_progress::step_ended(const step_state& s) {
-  step_ = s.step + 1;
-  number_ = 0;
+void path_progress::incremented(const increment& i) {
+  reached(i.step, i.number + 1, i.fraction);
+  step_ = i.fraction < 1.0 ? i.step : i.step + 1;
+  number_ = i.fraction < 1.0 ? i.number : 0;
 }
 
 }  // namespace contct

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/outputs.hpp"
 #include "contct/kernel/kernel.hpp"
-#include "contct/model/problem.hpp"
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
+#include "contct/structure/problem.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
@@ -25,6 +28,10 @@ void refuse_engine_option(const std::string& name);
 [[nodiscard]] problem read_with_warnings(const problem_options& options,
                                          const std::vector<output_option>& outputs);
 
+/// The places of the file or folder `name` in `folders`, which are relative to the program's own folder.
+[[nodiscard]] std::vector<std::string> beside_program(std::string_view name,
+                                                      std::initializer_list<const char*> folders);
+
 /// Returns the folder `asked`. If `asked` is empty, returns the reference/ that is installed with the
 /// program, found relative to the program, or else the reference/ of the source tree. Throws input_error if
 /// there is neither folder.
@@ -37,11 +44,11 @@ void refuse_engine_option(const std::string& name);
 /// path must erase `line` first.
 class path_progress final : public observer {
  public:
-  path_progress(std::size_t steps, bool quiet);
+  path_progress(std::size_t steps, bool quiet) : line(quiet), steps_(steps) {}
 
   void called(const answered_call& c) override;
   void incremented(const increment& i) override;
-  void step_ended(const step_state& s) override;
+  void reached(int step, int number, double fraction);
 
   progress line;
 

@@ -5,7 +5,7 @@
 
 #include "app/kernel_report.hpp"
 #include "app/outputs.hpp"
-#include "contct/compare/compare.hpp"
+#include "contct/harness/compare.hpp"
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/text/input_text.hpp"
@@ -15,8 +15,8 @@ namespace contct {
 namespace {
 
 /// The verdict of a replay. Without strict floating point, a mismatch is attributed to the environment.
-std::string verdict_of(const replay_report& r, const floating_point& fp) {
-  if (r.compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
+std::string verdict_of(const tally& compared, const floating_point& fp) {
+  if (compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
   const std::string but = fmt::format(", but the environment is not strict ({})", describe(fp));
   return "equal to the bit" + (fp.strict() ? "" : but);
 }
@@ -27,15 +27,15 @@ struct replayed {
   nearness near;
   std::map<std::string, fault_finder> faults;  // one for each kernel name
 
-  void add(const std::string& file, const std::string& text, const replay_report& r) {
+  void add(const std::string& file, const std::string& text, std::int64_t calls, const follower& f) {
     report.traces.push_back(
-        {std::filesystem::path(file).stem().string(), sha256(text), r.calls, r.compared.mismatches});
-    report.calls += r.calls;
-    report.compared += r.compared;
-    near.most_ulps = std::max(near.most_ulps, r.near.most_ulps);
-    near.same_events = near.same_events && r.near.same_events;
-    if (report.first_mismatch.empty() && r.first)
-      report.first_mismatch = {report.traces.back().name + ": " + words_of(*r.first)[0]};
+        {std::filesystem::path(file).stem().string(), sha256(text), calls, f.compared.mismatches});
+    report.calls += calls;
+    report.compared += f.compared;
+    near.most_ulps = std::max(near.most_ulps, f.near.most_ulps);
+    near.same_events = near.same_events && f.near.same_events;
+    if (report.first_mismatch.empty() && f.first())
+      report.first_mismatch = {report.traces.back().name + ": " + words_of(*f.first())[0]};
   }
 };
 
@@ -54,21 +54,22 @@ check_result replay_one(const std::string& file, const std::string& text, const 
     return result;
   }
   const std::unique_ptr<class kernel> k = make_kernel(kernel);
-  progress shown(1, "trace", quiet);
-  const replay_report r = replay(
-      h, calls, *k, [&shown, &file](std::int64_t done) { shown.say(file + ": " + counted(done, "call")); },
-      std::exchange(all.faults[kernel], {}));
-  all.faults[kernel] = r.faults;
+  progress shown(quiet);
+  follower f = follower_of(h, *k);
+  std::swap(f.faults, all.faults[kernel]);
+  std::int64_t done = 0;
+  (void)replay(calls, f, [&](const auto&...) { shown.say(file + ": " + counted(++done, "call")); });
+  std::swap(f.faults, all.faults[kernel]);
   shown.erase();
-  if (r.calls == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
+  if (done == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
   const floating_point fp = probe_floating_point();
-  result.what = passed_if(r.compared.mismatches == 0);
+  result.what = passed_if(f.compared.mismatches == 0);
   result.summary =
-      fmt::format("{}; {}, {} compared, {}", verdict_of(r, fp), counted(r.calls, "call"),
-                  counted(r.compared.values, "value"), counted(r.compared.mismatches, "mismatch"));
-  all.add(file, text, r);
-  if (!r.first) return result;
-  result.details = joined(words_of(*r.first), "\n") + "\n";
+      fmt::format("{}; {}, {} compared, {}", verdict_of(f.compared, fp), counted(done, "call"),
+                  counted(f.compared.values, "value"), counted(f.compared.mismatches, "mismatch"));
+  all.add(file, text, done, f);
+  if (!f.first()) return result;
+  result.details = joined(words_of(*f.first()), "\n") + "\n";
   if (!fp.strict()) result.details += "the cause is the environment, not the kernel: " + describe(fp) + "\n";
   return result;
 }

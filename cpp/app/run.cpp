@@ -1,5 +1,5 @@
 // contct run: follows the path of a problem, by both rules or by the named kernels.
-#include "contct/session/run.hpp"
+#include "contct/results/run.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,8 +10,8 @@
 #include "contct/kernel/registry.hpp"
 #include "contct/number/probe.hpp"
 #include "contct/path/solve_problem.hpp"
-#include "contct/session/path_states.hpp"
-#include "contct/session/rule_1989.hpp"
+#include "contct/results/path_states.hpp"
+#include "contct/results/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* csv_pairs = "--csv (its pairs)";
 constexpr const char* csv_states = "--csv (its states)";
+constexpr const char* csv_supports = "--csv (its supports)";
 constexpr const char* csv_envelope = "--csv (its envelope)";
 constexpr const char* vtu_collection = "--vtu (its collection)";
 constexpr const char* vtu_increments = "--vtu (its increments)";
@@ -58,6 +59,7 @@ std::vector<output_option> outputs_of(const run_options& o) {
                                     {"--csv", o.csv},
                                     {csv_pairs, table_beside(o.csv, ".pairs")},
                                     {csv_states, table_beside(o.csv, ".states")},
+                                    {csv_supports, table_beside(o.csv, ".supports")},
                                     {csv_envelope, o.envelope ? table_beside(o.csv, ".envelope") : ""},
                                     {"--proof", o.proof}};
   if (!o.vtu.empty()) add_grid_files(o.vtu, all);
@@ -110,83 +112,74 @@ int node_named(const model& m, const std::string& name) {
   throw std::invalid_argument(fmt::format("--node: found {}; allowed: {}", in_quotes(name), allowed));
 }
 
-/// The input of a run. It is complete before any output file is opened.
-struct run_setup {
-  const run_options& options;
-  std::vector<output_option> outputs = outputs_of(options);
-  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
-  std::string date = utc_now();
-  terminal screen = look_at_terminal();
-  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // the heading, table and verdicts
-  problem what = {};
-  linear_structure structure = {};
-};
-
-run_setup set_up(const run_options& o) {
-  run_setup setup{o};
+/// Reads the problem, and throws std::invalid_argument if the options do not go with it.
+problem problem_of(const run_options& o, const std::vector<output_option>& outputs) {
   refuse_bad_options(o);
-  setup.what = read_with_warnings(o, setup.outputs);
-  if (!o.vtu.empty()) check_grid_coordinates(setup.what);
-  if (o.refine) (void)refined(setup.what);  // throws if the structure is given by a matrix
-  setup.structure = structure_of(setup.what);
-  return setup;
+  problem p = read_with_warnings(o, outputs);
+  if (!o.vtu.empty()) check_grid_coordinates(p);
+  if (o.refine) (void)refined(p);  // throws if the structure is given by a matrix
+  return p;
 }
 
-run_request request_of(const run_setup& setup) {
-  const run_options& o = setup.options;
+run_request request_of(const run_options& o, const model& m, const std::string& date) {
   run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
   if (!o.final_only) r.kernels = o.kernels;
   if (o.kernels.empty() && o.free_run) r.kernels = kernels_of_1989;
   r.both_rules = r.kernels.empty() && !o.final_only;
   r.pictures = !o.vtu.empty();
   r.max_increments = o.max_increments;
-  r.date = setup.date;
-  if (!o.watched.empty()) r.watched = node_named(setup.what.geometry, o.watched);
+  r.date = date;
+  if (!o.watched.empty()) r.watched = node_named(m, o.watched);
   return r;
 }
 
-/// A run at the terminal. Opens files before solving, so that errors of files are reported at once.
+/// A run at the terminal. Its members are made in this order: the input is complete before any output file is
+/// opened, and files are opened before solving, so that errors of files are reported at once.
 struct shown_run {
-  const run_setup& setup;
-  contct::run run{setup.what, setup.structure, request_of(setup)};
-  output_files files{setup.outputs};
+  const run_options& options;
+  std::vector<output_option> outputs = outputs_of(options);
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+  std::string date = utc_now();
+  terminal screen = look_at_terminal();
+  bool prints = !options.report.quiet && !takes_standard_output(outputs);  // the heading, table and verdicts
+  problem what = problem_of(options, outputs);
+  linear_structure structure = structure_of(what);
+  contct::run run{what, structure, request_of(options, what.geometry, date)};
+  output_files files{outputs};
   bool has_verdict = false;
   std::string differences = {};  // lines about differences of the kernels
 };
 
 void print_heading(const shown_run& o) {
-  const run_setup& setup = o.setup;
-  if (!setup.prints) return;
-  for (const std::string& line : wrap({on_one_line(setup.what.title)}, setup.screen.width))
-    if (!line.empty()) print_text(fmt::format("{}\n", painted(setup.screen, paint::strong, line)));
+  const terminal& t = o.screen;
+  for (const std::string& line : wrap({on_one_line(o.what.title)}, t.width))
+    if (!line.empty()) print_text(fmt::format("{}\n", painted(t, paint::strong, line)));
   const std::vector<std::string>& kernels = o.run.result.kernels;
   const std::vector<std::string> facts = {
-      fmt::format("{}, {}, {}", counted(nodes(setup.what.geometry), node_name(setup.what.geometry)),
-                  counted(setup.what.pairs.size(), "pair"), counted(setup.what.steps.size(), "step")),
+      fmt::format("{}, {}, {}", counted(nodes(o.what.geometry), node_name(o.what.geometry)),
+                  counted(o.what.pairs.size(), "pair"), counted(o.what.steps.size(), "step")),
       kernels.empty() ? "final states only" : fmt::format("kernels {}", joined(kernels, ", ")),
-      "engine " + o.run.result.engine + (setup.structure.stiffness.is_band() ? "" : ", sparse")};
-  for (const std::string& line : wrap(facts, setup.screen.width)) print_text(fmt::format("{}\n", line));
-  print_text("\n");
+      "engine " + o.run.result.engine + (o.structure.stiffness.is_band() ? "" : ", sparse")};
+  print_text(joined(wrap(facts, t.width), "\n") + "\n\n");
 }
 
 void print_verdict(shown_run& o, paint p, const std::vector<std::string>& items) {
-  if (!o.setup.prints) return;
+  if (!o.prints) return;
   if (!std::exchange(o.has_verdict, true)) print_text("\n");
-  print_wrapped(o.setup.screen, p, items);
+  print_wrapped(o.screen, p, items);
 }
 
 /// Follows the path and prints a table of its increments, or only of the ends of steps.
 void go(shown_run& o) {
-  const run_setup& setup = o.setup;
-  print_heading(o);
-  path_progress progress(setup.what.steps.size(), setup.options.report.quiet);
+  if (o.prints) print_heading(o);
+  path_progress progress(o.what.steps.size(), o.options.report.quiet);
   const output_files& f = o.files;
   o.run.go({f["--json"], result_parts::ends, f["--log"], f["--trace"], f["--proof"], f["--html"], f["--csv"],
-            f[csv_pairs], f[csv_states], f[csv_envelope]},
+            f[csv_pairs], f[csv_states], f[csv_supports], f[csv_envelope]},
            {&progress});
   progress.line.erase();
-  if (!setup.prints) return;
-  const run_table rows = table_of(o.run.result, setup.screen, setup.options.detail);
+  if (!o.prints) return;
+  const run_table rows = table_of(o.run.result, o.screen, o.options.detail);
   print_text(rows.text);
   if (!rows.legend.empty()) print_verdict(o, paint::quiet, rows.legend);
 }
@@ -264,16 +257,16 @@ check_report check_report_of(const shown_run& o) {
     r.results.push_back({"1989 rule", is_wrong ? outcome::skipped : outcome::passed,
                          lines.empty() ? "not compared" : lines.front(), joined(lines, "\n")});
   }
-  const std::string ended = joined(end_lines(run.what, run.end), "\n");
+  const std::string ended = joined(words_of_ends(run.what, run.end), "\n");
   const bool solved = run.end.status == path_status::solved;
   r.results.push_back({"path", passed_if(solved), solved ? "every step's load is applied" : ended, ended});
-  if (run.judged.all_certified()) {
+  if (run.all_certified()) {
     r.results.push_back({"certificate", outcome::passed, "every final state is certified", ""});
   } else {  // fails only with --strict
-    r.results.push_back({"certificate", o.setup.options.strict ? outcome::failed : outcome::skipped,
+    r.results.push_back({"certificate", o.options.strict ? outcome::failed : outcome::skipped,
                          "NOT certified", joined(certificate_complaints(run), "\n")});
   }
-  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - o.setup.started).count();
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - o.started).count();
   return r;
 }
 
@@ -286,32 +279,28 @@ void write_grids(const output_files& files, const std::string& vtu, const run_re
   files.write(vtu_collection, pvd_of_states(fs::path(vtu).stem().string(), states.size()));
 }
 
-void write_files(shown_run& o) {
-  write_outputs(o.run);
-  if (o.files["--vtu"] != nullptr) write_grids(o.files, o.setup.options.vtu, o.run.result);
-  o.files.write(check_report_of(o));
-}
-
 /// Ends a run: prints the certificate, writes the files and prints messages. Returns the exit status.
 exit_status finish(shown_run& o) {
   const bool solved = o.run.result.end.status == path_status::solved;
-  const bool certified = o.run.result.judged.all_certified();
+  const bool certified = o.run.result.all_certified();
   std::vector<std::string> summary = certificate_summary(o.run.result, solved);
   if (solved && certified) summary.front() += " for this mesh";
   print_verdict(o, solved && certified ? paint::good : paint::bad, summary);
   const exit_status status = o.run.exit();
-  if (status != exit_status::bad_input) write_files(o);  // a run with bad input has no numbers
-  flush_standard_output();                               // the table comes before the messages
+  if (status != exit_status::bad_input) {  // a run with bad input has no numbers
+    write_outputs(o.run);
+    if (o.files["--vtu"] != nullptr) write_grids(o.files, o.options.vtu, o.run.result);
+    o.files.write(check_report_of(o));
+  }
+  flush_standard_output();  // the table comes before the messages
   complain_of(end_messages(o.run.result));
-  return status == exit_status::solved && o.setup.options.strict && !certified ? exit_status::uncertified
-                                                                               : status;
+  return status == exit_status::solved && o.options.strict && !certified ? exit_status::uncertified : status;
 }
 
 }  // namespace
 
 exit_status run_command(const run_options& options) {
-  const run_setup setup = set_up(options);
-  shown_run o{setup};
+  shown_run o{options};
   go(o);
   report_comparison(o);
   if (options.refine) report_refinement(o);

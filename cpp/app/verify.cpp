@@ -1,5 +1,5 @@
 // contct verify: checks every problem in reference/ by its published, closed-form and recomputed numbers.
-#include "contct/lab/verify.hpp"
+#include "contct/results/verify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ json json_of(const verified_number& n) {
 
 json json_of(const verified_case& c) {
   json certificates = json::array();
-  for (const auto& judged : c.certificates) certificates.push_back(certificate_json(judged));
+  for (const solved_step& s : c.steps) certificates.push_back(certificate_json(s));
   json numbers = json::array();
   for (const verified_number& n : c.numbers) numbers.push_back(json_of(n));
   return {{"file", c.file},
@@ -104,13 +104,6 @@ std::string quantity_head(const expected_number& e) {
   return words == "toggles" ? "events" : words;
 }
 
-/// Prints `words` in indented lines below a row.
-void print_below(const terminal& t, paint p, const std::string& words) {
-  constexpr int indent = 9;
-  for (const std::string& line : wrap({words}, t.width - indent))
-    print_text(fmt::format("{:{}}{}\n", "", indent, painted(t, p, line)));
-}
-
 /// Prints a row and below it its exact value. The source and the reason for the tolerance follow if they
 /// differ from those of the row before.
 void print(const terminal& t, const verified_number& n, std::string& printed) {
@@ -119,14 +112,15 @@ void print(const terminal& t, const verified_number& n, std::string& printed) {
   print_text(fmt::format(row, e.step, quantity_head(e), words_of(e, e.value), words_of(e, n.computed),
                          fmt::format("{:.0e}", std::abs(n.difference())), fmt::format("{:.0e}", e.tolerance),
                          painted(t, p, mark_of(n))));
-  if (!n.apart.empty()) print_below(t, paint::bad, n.apart);
+  constexpr int below = 9;
+  if (!n.apart.empty()) print_wrapped(t, paint::bad, {n.apart}, below);
   if (!e.exact.empty() && e.quantity != "state" && e.exact != fmt::format("{}", e.value))
-    print_below(t, paint::quiet, "exact value " + e.exact);
+    print_wrapped(t, paint::quiet, {"exact value " + e.exact}, below);
   std::string source =
       fmt::format("{}: {}; tolerance: {}", e.kind, e.source, e.because.empty() ? "exact" : e.because);
-  if (source != printed) print_below(t, paint::quiet, source);
+  if (source != printed) print_wrapped(t, paint::quiet, {source}, below);
   printed = std::move(source);
-  if (e.faithful) print_below(t, paint::quiet, e.reason);
+  if (e.faithful) print_wrapped(t, paint::quiet, {e.reason}, below);
 }
 
 void print_legend(const terminal& t) {
@@ -164,8 +158,8 @@ void print(const terminal& t, const totals& all) {
 }
 
 /// All input files: the table, its problems, and the files that the problems name.
-std::vector<output_option> files_read(const std::string& table, const fs::path& folder,
-                                      const std::vector<verification_case>& cases) {
+std::vector<output_option> input_files(const std::string& table, const fs::path& folder,
+                                       const std::vector<verification_case>& cases) {
   std::vector<output_option> all = {{"the table of numbers", table}};
   for (const verification_case& c : cases) {
     const std::string file = (folder / c.file).string();
@@ -183,16 +177,17 @@ exit_status run_command(const verify_options& options) {
   const std::vector<output_option> outputs = with_reports({{"--json", options.json}}, options.report);
   const std::vector<verification_case> cases = read_verification(table);
   const bool writes = std::ranges::any_of(outputs, [](const output_option& o) { return !o.path.empty(); });
-  if (writes) refuse_shared_outputs(outputs, files_read(table, reference / "problems", cases));
+  if (writes) refuse_shared_outputs(outputs, input_files(table, reference / "problems", cases));
   const output_files files(outputs);
   const bool silent = options.report.quiet || takes_standard_output(outputs);
   const terminal t = look_at_terminal();
   totals all;
   check_report report{"contct verify", common_facts(), {}, 0.0};
   json judged = json::array();
-  progress shown(static_cast<std::int64_t>(cases.size()), "problems", options.report.quiet);
+  progress shown(options.report.quiet);
+  const auto count = [&] { shown.reached(all.cases, std::ssize(cases), "problems"); };
   if (!silent) print_legend(t);
-  shown.reached(0);
+  count();
   for (const verification_case& c : cases) {
     const verified_case verified = verify_case(c, read_problem((reference / "problems" / c.file).string()));
     shown.erase();
@@ -200,7 +195,7 @@ exit_status run_command(const verify_options& options) {
     all.add(verified);
     report.results.push_back(result_of(verified));
     judged.push_back(json_of(verified));
-    shown.reached(all.cases);
+    count();
   }
   shown.erase();
   if (!silent) print(t, all);

@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
 __all__ = ["Answer", "Call", "Error", "Exact", "InputError", "Inputs", "Judgement", "NotSolved", "Record", "Result", "about",
-           "call", "certify", "check", "exact", "explain", "judge", "prove", "read", "replay", "run", "to_toml"]
+           "call", "certify", "check", "exact", "explain", "judge", "load", "prove", "read", "replay", "run", "to_toml"]
 
 Problem = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Folder = Union[None, str, "os.PathLike[str]"]
@@ -88,7 +88,6 @@ def _optional_module(name: str) -> Any:
 _numpy = _optional_module("numpy")
 
 
-_ARRAYS = {"w", "displacement", "shear", "moment", "mx", "my", "mxy", "x", "y"}  # keys with NumPy arrays
 _RATIONAL = {"fraction", "w", "displacement", "gap", "force", "value", "motion", "work"}  # keys of fractions
 
 
@@ -107,7 +106,7 @@ class Record(Mapping[str, Any]):
         if isinstance(value, dict):
             return Record(value, self._rational)
         if isinstance(value, list):
-            if key in _ARRAYS and _numpy and all(isinstance(x, (int, float)) for x in value):
+            if _numpy and value and all(isinstance(x, float) for x in value):
                 return _numpy.array(value, dtype=_numpy.float64)
             return [self._view(key, item) for item in value]
         if self._rational and key in _RATIONAL and isinstance(value, str):
@@ -182,7 +181,7 @@ def _coordinates(result: Result, key: str) -> Any:
 
 
 class Result(Answer):
-    """The result of `run` or `certify`. reference/result-file.md has every key."""
+    """The result of `run`, `load` or `certify`. reference/result-file.md has every key."""
     title: str
     kernels: list[str]
     engine: str
@@ -234,15 +233,15 @@ class Result(Answer):
         return (f'<iframe srcdoc="{html.escape(page)}" title="{html.escape(self.title)}" sandbox="allow-scripts"'
                 ' style="width: 100%; height: 45em; border: 0"></iframe>')
 
-
     def plot(self, quantity: str = "w", step: int = -1, ax: Any = None) -> Any:
         """Draw the end of `steps[step]` with matplotlib, and return the axes. The first use runs the problem again.
 
-        `quantity` is "w", "moment" or "shear" for a beam. Dots mark extremes; for "w", squares mark pairs in contact,
+        `quantity` is w, moment or shear for a beam. Dots mark extremes; for "w", squares mark pairs in contact,
         and bars mark the faces of separated pairs. A plate has only "w", in colours."""
         shown = self._with_structure()
         kind, end = shown.structure.kind, shown.steps[step]
-        allowed = {"beam": ["w", "moment", "shear"], "plate": ["w"]}.get(kind, [])
+        along = [key for key in end.elements[0].pieces[0] if key != "x"] if kind == "beam" else []
+        allowed = ["w"] if kind == "plate" else along
         if quantity not in allowed:
             raise InputError(f"plot: found quantity {quantity!r} of a {kind}; allowed: {', '.join(allowed) or 'beams and plates'}")
         if ax is None:
@@ -250,8 +249,8 @@ class Result(Answer):
                 ax = importlib.import_module("matplotlib.pyplot").subplots()[1]
             except ImportError as error:
                 raise ImportError(f"contct.Result.plot: {error}. It needs matplotlib (Debian: python3-matplotlib)") from error
-        length, force = (f" [{shown.units.length}]", f" [{shown.units.force}]") if shown.units else ("", "")
-        words = quantity + {"w": length, "shear": force, "moment": (force + length).replace("] [", " ")}[quantity]
+        length = f" [{shown.units.length}]" if shown.units else ""
+        words = quantity + next(f" [{row.unit}]" if row.unit else "" for row in shown.quantities if row.key == quantity)
         title = f"Step {end.step}" + (f", {end.name}" if end.name else "")
         if kind == "beam":
             _plot_beam(shown, end, quantity, ax)
@@ -270,45 +269,22 @@ class Result(Answer):
         return self if self._drawable is None else self._drawable
 
 
-def _hermite(h: float, y0: float, y1: float, slope0: float, slope1: float, a: float, b: float) -> float:
-    return y0 * b * b * (1 + 2 * a) + y1 * a * a * (1 + 2 * b) + h * (slope0 * a * b * b - slope1 * a * a * b)
-
-
-def _pieces(shown: Record, end: Record, e: int) -> list[tuple[Any, ...]]:
-    """x, w, theta, moment and shear at both ends of each piece of element `e`, and the piece's imposed curvature."""
-    own, nodes = end.elements[e], shown.structure.nodes
-    if "pieces" in own:
-        return [(p.x, p.w, p.theta, p.moment, p.shear, p.curvature) for p in own.pieces]
-    w0, t0, w1, t1 = end.displacement[2 * e:2 * e + 4]
-    if e + 2 in shown.structure.get("hinges", []):  # theta of a node with a hinge is the slope on the right
-        h, (m0, m1), (v0, v1) = nodes[e + 1].x - nodes[e].x, own.moment, own.shear
-        t1 = t0 + h * ((m0 + m1) / 2 + h * (v0 - v1) / 12) / shown.structure.EI[e]
-    return [((nodes[e].x, nodes[e + 1].x), (w0, w1), (t0, t1), own.moment, own.shear, 0.0)]
-
-
-def _along(shown: Record, end: Record, quantity: str) -> tuple[list[float], list[float]]:
-    """x and the quantity along a beam, also between nodes: exact if the load along an element is linear."""
-    stiffness = shown.structure.EI
-    parts = max(2, 480 // len(stiffness))
+def _along(end: Record, quantity: str) -> tuple[list[float], list[float]]:
+    """x and a quantity along a beam, also between nodes, from the polynomials of its elements."""
+    parts = max(2, 480 // len(end.elements))
     xs, ys = [], []
-    for e, EI in enumerate(stiffness):
-        for (left, right), (w0, w1), (t0, t1), (m0, m1), (v0, v1), curvature in _pieces(shown, end, e):
-            h = right - left
-            # Curvatures at the ends, minus the curvatures of the cubic that deflections and slopes determine.
-            k0 = m0 / EI + curvature - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h
-            k1 = m1 / EI + curvature - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h
-            for a, b in ((k / parts, 1 - k / parts) for k in range(parts + 1)):
-                xs.append(left + a * h)
-                ys.append(_hermite(h, m0, m1, v0, v1, a, b) if quantity == "moment"
-                          else 6 * a * b * (m1 - m0) / h + v0 * b * (1 - 3 * a) + v1 * a * (3 * a - 2) if quantity == "shear"
-                          else _hermite(h, w0, w1, t0, t1, a, b) + (h * a * b) ** 2 / 2 * (k0 * b + k1 * a))
+    for piece in (piece for own in end.elements for piece in own.pieces):
+        (left, right), polynomial = piece.x, list(piece[quantity])
+        for t in (k / parts for k in range(parts + 1)):
+            xs.append(left + t * (right - left))
+            ys.append(sum(a * t**power for power, a in enumerate(polynomial)))
     return xs, ys
 
 
 def _plot_beam(shown: Record, end: Record, quantity: str, ax: Any) -> None:
     ax.axhline(0, color="0.8", linewidth=1)
-    xs, ys = _along(shown, end, quantity)
-    ax.plot(xs, ys, color={"w": "black", "moment": "tab:blue", "shear": "tab:orange"}[quantity], label=quantity)
+    xs, ys = _along(end, quantity)
+    ax.plot(xs, ys, color="black" if quantity == "w" else "tab:blue", label=quantity)
     extremes = [end.extremes[quantity][bound] for bound in ("min", "max")]
     ax.plot([v.x for v in extremes], [v.value for v in extremes], "o", color="0.3", markersize=4, label="extremes")
     near = 2.5 * max(abs(v.value) for v in extremes)  # a face much farther away would flatten the line
@@ -608,6 +584,26 @@ def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional
         why = "; ".join([f"{result._verdict}; allowed with strict=True: solved, kernels equal, certified", *result.messages])
         raise NotSolved(why, result.exit or 3, result)
     return result
+
+
+def load(path: Union[str, "os.PathLike[str]"]) -> Result:
+    """Read a file of `contct run --json`. The older format contct-result-1 has no `quantities`, so no units of numbers;
+    its `certificate.exact` is read as `certified`, and its `ended_by: "oracle"` as "reference". Raises InputError for
+    any other file."""
+    try:
+        data = json.loads(Path(path).read_bytes())
+        form = data["format"]
+    except (ValueError, KeyError, TypeError):
+        form = None
+    if form not in ("contct-result-2", "contct-result-1"):
+        raise InputError(f"found {f'the format {form!r}' if form else 'no format'}; allowed: a result file of contct run --json", str(path))
+    for step in data["steps"]:
+        if "exact" in (step["certificate"] or {}):
+            step["certificate"]["certified"] = step["certificate"].pop("exact")
+        if step.get("ended_by") == "oracle":
+            step["ended_by"] = "reference"
+    status = {"solved": 0, "kernels-disagree": 1, "mechanism": 4}.get(data["status"], 5)
+    return Result({"result": data, "exit": status, "messages": data["warnings"]})
 
 
 def check(problem: Problem, *, folder: Folder = None, allow_outside: bool = False) -> Answer:

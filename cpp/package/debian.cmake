@@ -97,7 +97,7 @@ set(needed libgfortran-${gfortran}-dev liblapack-dev libblas-dev libtomlplusplus
 if(CONTCT_HAS_CHOLMOD)
   list(APPEND needed libsuitesparse-dev)
 endif()
-if(CONTCT_GMP AND GMP_INCLUDE_DIR AND GMP_LIBRARY)
+if(CONTCT_HAS_GMP)
   list(APPEND needed libgmp-dev)
 endif()
 list(JOIN needed ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)

@@ -112,20 +112,16 @@ quad __wrap___subtf3(quad a, quad b) {
 
 quad __wrap___multf3(quad a, quad b) {
   struct number x, y;
-  if (!read(a, &x) | !read(b, &y)) return plain(a) * plain(b);
-  const int sign = x.sign ^ y.sign;
-  if (x.m == 0 || y.m == 0) return written((struct number){sign, 0, 0});
-  return written(rounded(sign, (wide)x.m * y.m, x.exponent + y.exponent, 0));
+  if (!read(a, &x) | !read(b, &y) || x.m == 0 || y.m == 0) return plain(a) * plain(b);
+  return written(rounded(x.sign ^ y.sign, (wide)x.m * y.m, x.exponent + y.exponent, 0));
 }
 
 quad __wrap___divtf3(quad a, quad b) {
   struct number x, y;
-  if (!read(a, &x) | !read(b, &y) || y.m == 0) return plain(a) / plain(b);
-  const int sign = x.sign ^ y.sign;
-  if (x.m == 0) return written((struct number){sign, 0, 0});
+  if (!read(a, &x) | !read(b, &y) || x.m == 0 || y.m == 0) return plain(a) / plain(b);
   const wide first = (wide)x.m << 63, rest = first % y.m << 64; /* 64 bits of the quotient, and 64 more */
   const wide quotient = first / y.m << 64 | rest / y.m;
-  return written(rounded(sign, quotient, x.exponent - y.exponent - 127, rest % y.m != 0));
+  return written(rounded(x.sign ^ y.sign, quotient, x.exponent - y.exponent - 127, rest % y.m != 0));
 }
 
 quad __wrap_sqrtl(quad a) {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "contct/kernel/child_kernel.hpp"
-#include "contct/matrix/cholesky.hpp"
+#include "contct/linear/cholesky.hpp"
 
 extern "C" {
 void ilaver_(int* major, int* minor, int* patch);

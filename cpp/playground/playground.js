@@ -10,7 +10,7 @@ let textsBefore = null; // the TextHistory for undo
 
 let model = null;   // contct_check's answer for the last accepted text
 let chosen = 0;     // the pair to explain, from 0
-let dragging = null; // { to, x, y } during a drag
+let dragging = null; // { moved } during a drag
 let busy = false;   // true while a result is drawn for the first time
 let later = 0;      // timer of the work that waits for a pause
 let milliseconds = 0; // time from a text to its picture
@@ -56,17 +56,15 @@ function withdrawVerdict(why) {
 /** Shows the program's error message about the text. A click on it moves to the place of the error. */
 function complain(error) {
   withdrawVerdict("the text cannot be run");
-  const button = element("button", { type: "button", class: "bad" }, error.message);
-  const lines = editor.value.split("\n");
-  let [from, to] = [0, 0];
-  if (error.line !== null && error.line <= lines.length) {
-    for (let i = 0; i + 1 < error.line; ++i) from += lines[i].length + 1;
-    to = from + lines[error.line - 1].length;
-    if (error.column !== null) from += [...lines[error.line - 1]].slice(0, error.column - 1).join("").length;
-    button.addEventListener("click", () => { editor.focus(); editor.setSelectionRange(from, to); });
-  }
+  const line = editor.value.split("\n")[(error.line ?? 0) - 1];
+  const [from, to] = line === undefined ? [0, 0] : [spanOf(editor.value, { line: error.line, column: error.column ?? 1 })[0],
+    spanOf(editor.value, { line: error.line, column: 1, length: line.length })[1]];
   mark(from, to, "wrong");
-  byId("message").replaceChildren(button);
+  byId("message").replaceChildren(button(error.message, () => {
+    if (line === undefined) return;
+    editor.focus();
+    editor.setSelectionRange(from, to);
+  }, { class: "bad" }));
 }
 
 function tell(messages) {
@@ -97,9 +95,7 @@ function recompute({ asked = false, state = current } = {}) {
 
 function waitForButton() {
   withdrawVerdict("the problem is large; press its button to run it");
-  const button = element("button", { type: "button" }, `Run: ${model.dofs} dofs, ${model.steps.length} steps`);
-  button.addEventListener("click", () => recompute({ asked: true }));
-  byId("message").replaceChildren(button);
+  byId("message").replaceChildren(button(`Run: ${model.dofs} dofs, ${model.steps.length} steps`, () => recompute({ asked: true })));
 }
 
 /** The parts that take longer than a frame: the explanation by the listing, and the additional parts of the report. */
@@ -120,42 +116,22 @@ function afterPause() {
 
 // ---- items that can be dragged ----
 
-/** An item that can be dragged, or moved by the arrow keys. `begin` returns a function of the pixels since the drag
-    began. */
-function handle(attributes, words, begin) {
-  const made = svg("rect", { class: "handle", tabindex: "0", role: "slider", "aria-label": words, rx: 4, fill: "none", ...attributes }, svg("title", {}, words));
-  made.addEventListener("pointerdown", (event) => {
-    event.preventDefault();
-    dragging = { to: begin(), x: event.clientX, y: event.clientY };
-    held = { times: scene.times };
+/** A handle of the report's picture. `begin` returns a function of the pixels since the drag began. */
+function pictureHandle(place, words, begin, more = {}) {
+  return handle({ ...place, rx: 4 }, words, {
+    ...more,
+    begin: () => {
+      dragging = { moved: false };
+      held = { times: scene.times };
+      return begin();
+    },
+    end: () => {
+      dragging = held = null;
+      load(result, current);
+    },
+    step: (way, far) => begin()(...way.map((pixel) => pixel * (far ? 20 : 4))),
   });
-  keepTouch(made);
-  made.addEventListener("keydown", (event) => {
-    const step = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    const index = [...made.ownerSVGElement.querySelectorAll(".handle")].indexOf(made);
-    begin()(...step.map((s) => s * (event.shiftKey ? 20 : 4)));
-    byId("picture").querySelectorAll(".handle")[index]?.focus();
-  });
-  return made;
 }
-
-let pending = null; // the last movement, which the next frame handles
-addEventListener("pointermove", (event) => {
-  if (!dragging) return;
-  if (pending === null) requestAnimationFrame(() => {
-    const [x, y] = pending;
-    pending = null;
-    if (dragging) dragging.to(x - dragging.x, y - dragging.y);
-  });
-  pending = [event.clientX, event.clientY];
-});
-for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => {
-  if (!dragging) return;
-  dragging = held = null;
-  load(result, current);
-});
 
 /** Adds all handles of a beam; for a plate, only those of faces. */
 function addHandles(f) {
@@ -170,7 +146,7 @@ function addFaceHandle(root, p, i) {
   if (pixels === 0) return;
   const [x, y] = page.spot(projected(faceAt(p, Math.min(1, page.on.limit / Math.abs(pixels * p.face || 1)) * scene.times)));
   if (i === chosen) root.append(svg("circle", { cx: x, cy: y, r: half + 5, class: "chosen" }));
-  const made = handle({ x: x - half - 2, y: y - 10, width: 2 * half + 4, height: 20 }, `face of pair ${p.pair} at ${rough(p.face)}, ${looks[p.look]}`, () => {
+  const made = pictureHandle({ x: x - half - 2, y: y - 10, width: 2 * half + 4, height: 20 }, `face of pair ${p.pair} at ${rough(p.face)}, ${looks[p.look]}`, () => {
     const from = known.face;
     return (dx, dy) => {
       const moved = from - dy / pixels;
@@ -195,16 +171,16 @@ function loadHandle(f, p) {
   const { X, Y, ends } = page;
   const xs = structure.nodes.map((n) => n.x);
   const x = p.x ? p.x.value : xs[p.node.value - 1] ?? ends[0];
-  const y = Y(deflectionAt(f, x));
-  return handle({ x: X(x) - 12, y: p.w.value < 0 ? y - 60 : y + 8, width: 24, height: 52, class: "handle across" },
+  const y = Y(valueAt(f, "w", x));
+  return pictureHandle({ x: X(x) - 12, y: p.w.value < 0 ? y - 60 : y + 8, width: 24, height: 52 },
     `load of step ${p.step}: ${rough(p.w.value)} at x = ${rough(x)}`, () => {
       const [from, length] = [p.w.value, (ends[1] - ends[0]) / (X(ends[1]) - X(ends[0]))];
       return (dx, dy) => {
         const to = x + dx * length;
-        const node = xs.reduce((best, at, i) => (Math.abs(at - to) < Math.abs(xs[best] - to) ? i : best), 0);
+        const node = nearestTo(to, xs);
         change({ [p.w.key]: from - (dy / 60) * (Math.abs(from) || 1), ...(p.node ? { [p.node.key]: node + 1 } : { [p.x.key]: xs[node] }) });
       };
-    });
+    }, { class: "handle across" });
 }
 
 function addUniformHandle(root, step) {
@@ -212,7 +188,7 @@ function addUniformHandle(root, step) {
   if (!uniform) return;
   const right = page.width - 30;
   root.append(label(right - 8, 17, `uniform ${rough(uniform.value)}`, { "text-anchor": "end", class: "value" }),
-    handle({ x: right - 150, y: 2, width: 150, height: 22 }, `uniform load of step ${step}: ${rough(uniform.value)}`, () => {
+    pictureHandle({ x: right - 150, y: 2, width: 150, height: 22 }, `uniform load of step ${step}: ${rough(uniform.value)}`, () => {
       const from = uniform.value;
       return (dx, dy) => change({ [uniform.key]: from - (dy / 100) * (Math.abs(from) || 1) });
     }));

@@ -97,21 +97,18 @@ function hintOf(digest, first, quantity, right) {
 
 // ---- the page ----
 
-class KernelJudge {
+class KernelJudge extends Scene {
   constructor(holder) {
+    super(holder, "div");
     // NaN and infinity are texts in JSON.
     const real = (x) => (typeof x === "string" ? Number(x.replace("inf", "Infinity")) : x);
     this.calls = given.golden.map((c) => ({ ...c, dofs: c.dofs.map((d) => d.map(real)), pairs: c.pairs.map((p) => p.map(real)), smin: real(c.smin), ss: c.ss.map(real) }));
     this.source = element("textarea", { spellcheck: "false", rows: "16", "aria-label": "A kernel in JavaScript" });
     this.source.value = emptyKernel;
-    this.button = element("button", { type: "button" }, "Judge");
-    this.button.addEventListener("click", () => this.judge());
-    this.words = element("div", { class: "told", role: "status", "aria-live": "polite" });
-    this.picture = element("div", { class: "picture" });
-    holder.classList.add("scene", "port");
+    this.button = button("Judge", () => this.judge());
+    holder.classList.add("port");
     holder.replaceChildren(this.source, element("div", { class: "controls" }, this.button), this.words, this.picture);
     holder.dataset.lives = "yes";
-    scenes.push(this);
   }
 
   async judge(source = this.source.value) {

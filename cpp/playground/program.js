@@ -22,6 +22,13 @@ function answerOf(name, ...texts) {
 
 const ask = (name, text, options) => JSON.parse(answerOf(name, text, JSON.stringify({ file: "problem.toml", ...options })));
 
+/** The result of a problem's run, with all states. */
+function resultOf(text, kernels) {
+  const answer = ask("run", text, { kernels, states: true });
+  if (answer.error) throw new Error(answer.error.message);
+  return answer.result;
+}
+
 /** The text of a dragged number: 4 digits, or an integer if the key needs one. */
 function written(x, place) {
   if (place.whole && /(^|\.)(node|nodes|elements|nx|ny)(\[|$)/.test(place.key)) return String(Math.round(x));
@@ -78,8 +85,43 @@ function listenForUndo(holder, act) {
 }
 addEventListener("keydown", (event) => { if (document.activeElement === document.body && takeBack) takeBack(event); });
 
-/** Lets a touch drag continue when its handle is drawn again. Otherwise the browser would scroll. */
-const keepTouch = (handle) => handle.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
+function button(words, act, more = {}) {
+  const made = element("button", { type: "button", ...more }, words);
+  made.addEventListener("click", act);
+  return made;
+}
+
+/** A rectangle that can be dragged, or moved by the arrow keys. It keeps the focus when it is drawn again. `begin` returns
+    a function of the pixels since the drag began; `end` is called after the drag. `step` receives the direction of an
+    arrow key on the page, and whether Shift is pressed. `more` are further attributes. */
+function handle(place, words, { begin, end = () => {}, step, ...more }) {
+  const made = svg("rect", { ...place, fill: "none", class: "handle", tabindex: "0", role: "slider", "aria-label": words, ...more }, svg("title", {}, words));
+  // Without this, the browser would scroll when the handle is drawn again during a touch.
+  made.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
+  made.addEventListener("pointerdown", (event) => {
+    event.preventDefault();
+    const [x, y, to] = [event.clientX, event.clientY, begin()];
+    const drag = new AbortController();
+    const during = { signal: drag.signal };
+    let moved = null; // the last movement, which the next frame handles
+    const follow = () => { if (moved) to(...moved); moved = null; };
+    addEventListener("pointermove", (e) => {
+      if (moved === null) requestAnimationFrame(follow);
+      moved = [e.clientX - x, e.clientY - y];
+    }, during);
+    for (const name of ["pointerup", "pointercancel"]) addEventListener(name, () => { drag.abort(); follow(); end(); }, during);
+  });
+  made.addEventListener("keydown", (event) => {
+    const way = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const holder = made.ownerSVGElement.parentNode;
+    const index = [...holder.querySelectorAll(".handle")].indexOf(made);
+    step(way, event.shiftKey);
+    holder.querySelectorAll(".handle")[index]?.focus();
+  });
+  return made;
+}
 
 const undoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && event.key.toLowerCase() === "z" && !event.shiftKey;
 const redoes = (event) => (event.ctrlKey || event.metaKey) && !event.altKey && (event.key.toLowerCase() === "y" || (event.key.toLowerCase() === "z" && event.shiftKey));

@@ -7,6 +7,8 @@
 const stillAsked = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 const scenes = [];  // all scenes of the page, in order
 
+const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
+
 /** The shape of a beam: [x, w] along its elements, cubic between nodes. */
 function shapeOf(nodes, u, parts = 6) {
   const points = [[nodes[0], u[0]]];
@@ -17,30 +19,41 @@ function shapeOf(nodes, u, parts = 6) {
   return points;
 }
 
-class ContactScene {
+const nearestTo = (x, xs) => xs.reduce((best, at, i) => (Math.abs(at - x) < Math.abs(xs[best] - x) ? i : best), 0);
+
+/** A place of the page with words, a picture and controls. `kind`: the name of the element for the words. */
+class Scene {
+  constructor(holder, kind = "p") {
+    this.words = element(kind, { class: "told", role: "status", "aria-live": "polite" });
+    this.picture = element("div", { class: "picture" });
+    this.holder = holder;
+    holder.classList.add("scene");
+    scenes.push(this);
+  }
+
+  /** Shows the words, the picture, the buttons and other elements. The picture is drawn again if its width changes. */
+  showAll(buttons, ...others) {
+    this.holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...buttons), ...others);
+    new ResizeObserver(() => this.draw()).observe(this.picture);
+  }
+}
+
+class ContactScene extends Scene {
   /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size.
       `beside`: equivalent code for each line of the listing. */
   constructor(holder, { text, load = "step[1].point[1]", most = 1, kernels = ["fortran", "cpp"], listing = "", beside = null, question = "" }) {
-    Object.assign(this, { holder, load, most, kernels, beside, question });
+    super(holder);
+    Object.assign(this, { load, most, kernels, beside, question });
     this.history = new TextHistory(text);
     this.listing = listing.split("\n").slice(0, -1).map((words) => element("li", {}, words));
     this.build();
     this.solve();
     this.show("end");
-    scenes.push(this);
-    new ResizeObserver(() => this.draw()).observe(this.picture);
   }
 
   // ---- elements of the page ----
 
   build() {
-    const button = (words, act, more = {}) => {
-      const made = element("button", { type: "button", ...more }, words);
-      made.addEventListener("click", act);
-      return made;
-    };
-    this.words = element("p", { class: "told", role: "status", "aria-live": "polite" });
-    this.picture = element("div", { class: "picture" });
     this.buttons = {
       step: button("Step", () => this.step(), { "data-act": "step" }),
       into: button("Step into", () => this.stepInto(), { "data-act": "into" }),
@@ -52,8 +65,7 @@ class ContactScene {
     this.values = element("dl", { class: "values" });
     this.lines = element("ol", { class: "listing", tabindex: "0", role: "region", "aria-label": "The listing" }, ...this.listing);
     this.inside = element("div", { class: "inside", hidden: "" }, this.values, this.lines);
-    this.holder.classList.add("scene");
-    this.holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...Object.values(this.buttons)), this.inside);
+    this.showAll(Object.values(this.buttons), this.inside);
     listenForUndo(this.holder, (way) => this.restore(this.history[way]()));
   }
 
@@ -63,9 +75,7 @@ class ContactScene {
   solve() {
     const text = this.history.text;
     this.numbers = ask("check", text, { places: true }).result.numbers;
-    const answer = ask("run", text, { kernels: this.kernels, states: true });
-    if (answer.error) throw new Error(answer.error.message);
-    this.result = answer.result;
+    this.result = resultOf(text, this.kernels);
     this.told = ask("explain", text, { kernels: this.kernels }).result.increments;
     this.nodes = this.result.structure.nodes.map((n) => n.x);
     this.pairs = this.result.structure.pairs.map((p) => ({ ...p, at: p.node - 1, side: p.surface === "above" ? 1 : -1 }));
@@ -93,9 +103,8 @@ class ContactScene {
   get force() { return this.number("w").value; }
   get node() {
     const [node, x] = [this.number("node"), this.number("x")];
-    return node ? node.value - 1 : this.nearest(x.value);
+    return node ? node.value - 1 : nearestTo(x.value, this.nodes);
   }
-  nearest(x) { return this.nodes.reduce((best, at, i) => (Math.abs(at - x) < Math.abs(this.nodes[best] - x) ? i : best), 0); }
 
   // ---- the path ----
 
@@ -193,39 +202,19 @@ class ContactScene {
 
   addHandle(root, x, top) {
     const words = `load ${rough(this.force)} at x = ${rough(this.nodes[this.node])}; arrow keys move it`;
-    const made = svg("rect", { x: x - 24, y: top - 8, width: 48, height: 72, rx: 8, fill: "none", class: "handle across", tabindex: "0", role: "slider", "aria-label": words,
-      "aria-valuenow": String(this.force), "aria-valuemin": String(-this.most), "aria-valuemax": "0" }, svg("title", {}, words));
-    made.addEventListener("pointerdown", (event) => this.drag(event));
-    keepTouch(made);
-    made.addEventListener("keydown", (event) => {
-      const [across, along] = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key] || [0, 0];
-      if (across === 0 && along === 0) return;
-      event.preventDefault();
-      this.push(Math.max(0, Math.min(this.nodes.length - 1, this.node + across)), this.force + (along * this.most) / 40, false);
-      this.picture.querySelector(".handle").focus();
-    });
-    root.append(made);
-  }
-
-  drag(event) {
-    event.preventDefault();
-    const [x, y, force, from] = [event.clientX, event.clientY, this.force, this.nodes[this.node]];
-    let [follows, waiting] = [false, null];
-    const move = (e) => {
-      if (waiting === null) requestAnimationFrame(() => {
-        const [dx, dy] = waiting;
-        waiting = null;
-        this.push(this.nearest(from + dx / this.page.scale), force - (dy * this.most) / 150, follows);
-        follows = true;
-      });
-      waiting = [e.clientX - x, e.clientY - y];
-    };
-    const end = () => {
-      removeEventListener("pointermove", move);
-      for (const name of ["pointerup", "pointercancel"]) removeEventListener(name, end);
-    };
-    addEventListener("pointermove", move);
-    for (const name of ["pointerup", "pointercancel"]) addEventListener(name, end);
+    const range = { "aria-valuenow": String(this.force), "aria-valuemin": String(-this.most), "aria-valuemax": "0" };
+    root.append(handle({ x: x - 24, y: top - 8, width: 48, height: 72, rx: 8 }, words, {
+      class: "handle across", ...range,
+      begin: () => {
+        const [force, from] = [this.force, this.nodes[this.node]];
+        let follows = false;
+        return (dx, dy) => {
+          this.push(nearestTo(from + dx / this.page.scale, this.nodes), force - (dy * this.most) / 150, follows);
+          follows = true;
+        };
+      },
+      step: ([across, down]) => this.push(Math.max(0, Math.min(this.nodes.length - 1, this.node + across)), this.force - (down * this.most) / 40, false),
+    }));
   }
 
   // ---- the picture ----
@@ -234,7 +223,7 @@ class ContactScene {
       loads, so that the beam moves with the finger. */
   frameOnce() {
     if (this.deep) return;
-    const largest = ask("run", withNumbers(this.history.text, this.numbers, { [`${this.load}.w`]: -this.most }), { kernels: this.kernels, states: true }).result;
+    const largest = resultOf(withNumbers(this.history.text, this.numbers, { [`${this.load}.w`]: -this.most }), this.kernels);
     const [first] = largest.steps[0].increments;
     const reach = (first.displacement ?? largest.steps[0].displacement).map((w) => Math.abs(w) / first.s).filter((_, i) => i % 2 === 0);
     this.deep = Math.max(...this.pairs.map((p) => 1.5 * Math.abs(p.face)), ...reach);
@@ -264,7 +253,7 @@ class ContactScene {
 
   drawSupports(root) {
     const { X, Y } = this.page;
-    const turned = new Set(this.result.structure.supports.filter((s) => s.dof === "theta").map((s) => s.node));
+    const turned = new Set(this.result.structure.supports.filter((s) => s.dof !== "w").map((s) => s.node));
     for (const s of this.result.structure.supports.filter(({ dof }) => dof === "w")) {
       const [x, y] = [X(this.nodes[s.node - 1]), Y(0)];
       if (!turned.has(s.node)) root.append(shape(`M${x} ${y + 3}l9 15h-18z`, "support"));

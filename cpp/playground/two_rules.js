@@ -2,29 +2,16 @@
 // deflection fills the picture, so that a small permanent deflection is visible. The program computes every number.
 "use strict";
 
-class TwoRules {
+class TwoRules extends Scene {
   /** `names`: a description of each step. `kernels`: kernels of the 1989 rule. */
   constructor(holder, { text, names, kernels = ["fortran", "cpp"] }) {
-    const endsBy = (kernels) => {
-      const answer = ask("run", text, { kernels, states: true });
-      if (answer.error) throw new Error(answer.error.message);
-      return answer.result;
-    };
-    [this.old, this.right] = [endsBy(kernels), endsBy(["corrected"])];
+    super(holder);
+    [this.old, this.right] = [resultOf(text, kernels), resultOf(text, ["corrected"])];
     const { nodes, supports, pairs } = this.old.structure;
-    Object.assign(this, { holder, supports, pairs, nodes: nodes.map((n) => n.x), steps: ["no load yet", ...names], at: 0 });
-    this.words = element("p", { class: "told", role: "status", "aria-live": "polite" });
-    this.picture = element("div", { class: "picture" });
-    this.buttons = this.steps.map((words, k) => {
-      const made = element("button", { type: "button", "aria-pressed": "false" }, sentence(words).slice(0, -1));
-      made.addEventListener("click", () => this.show(k));
-      return made;
-    });
-    holder.classList.add("scene");
-    holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...this.buttons));
-    new ResizeObserver(() => this.draw()).observe(this.picture);
+    Object.assign(this, { supports, pairs, nodes: nodes.map((n) => n.x), steps: ["no load yet", ...names], at: 0 });
+    this.buttons = this.steps.map((words, k) => button(sentence(words).slice(0, -1), () => this.show(k), { "aria-pressed": "false" }));
+    this.showAll(this.buttons);
     this.show(0);
-    scenes.push(this);
   }
 
   show(k) {

@@ -4,7 +4,7 @@
     python3 reference/benchmarks/make.py --check    compares the existing files, and writes nothing
 
 reference/check_problem.py reads the problem files, without the program. The exact numbers are those of
-reference/verification.toml, which tests/lab/write_exact.py computes by `contct exact`.
+reference/verification.toml, which tests/results/write_exact.py computes by `contct exact`.
 """
 import json
 import sys
@@ -51,11 +51,9 @@ def structure(toml, problem, labels):
         return {"kind": "matrix", "dofs": labels, "stiffness": entries}
     lines = [[float(x) for x in line] for line in problem.lines]
     if len(lines) == 1:
-        # The diagonal entry of an element's left rotation is 4 EI / h, or 3 EI / h with a hinge at the right end.
         hinges = [problem.lines[0].index(real(hinge["x"])) + 1 for hinge in toml.get("hinge", [])]
-        stiffness = [element.stiffness[1][1] * (b - a) / (3 if e + 2 in hinges else 4)
-                     for e, ((element, _, _), a, b) in enumerate(zip(problem.elements, problem.lines[0], problem.lines[0][1:]))]
-        return {"kind": "beam", "x": lines[0], "EI": [float(EI) for EI in stiffness], "hinges": hinges}
+        elements = [element for element, *_ in problem.elements]
+        return {"kind": "beam", "x": lines[0], "EI": [float(element.EI) for element in elements], "hinges": hinges}
     plate = problem.elements[0][0]
     return {"kind": "plate", "x": lines[0], "y": lines[1], "D": float(plate.D), "nu": float(plate.nu)}
 

@@ -1,253 +1,272 @@
-// Tests output files: a run never overwrites its input or another output, never leaves half a file, and
-// reports every failure. Also tests the JUnit and Markdown reports.
+// Tests the files that contct writes: report page, tables, grids and reports of tests; that progress is shown
+// only on a terminal; and that large structures need little memory, which for a plate depends on its shorter
+// side.
 #include "app/outputs.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <string>
+#include <cmath>
+#include <sstream>
 
 #include "app/process.hpp"
 #include "catch.hpp"
-#include "read/bad_inputs.hpp"
+#include "read/good_problem.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
 
-using words = std::vector<std::string>;
+const std::string two_by_two =
+    "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 -1\n2 2 2\n";
 
-/// Runs a command that must be refused, checks that no file changed, and returns the message.
-std::string refusal(const scratch_folder& dir, const words& arguments, const process_options& options = {}) {
-  const auto before = dir.files();
-  const finished f = contct_program(dir.path(), arguments, options);
-  INFO(f.out << f.err);
-  CHECK(f.exit == 2);
-  CHECK(f.out.empty());
-  CHECK(dir.files() == before);
-  return f.err;
+/// Returns a problem on the matrix K.mtx with these further keys of [matrix].
+std::string spring_problem(const std::string& keys = "") {
+  return "[matrix]\nstiffness = 'K.mtx'\n" + keys +
+         "[[contact]]\ndof = '2'\nsurface = 'below'\nface = -0.5\nstiffness = 10\n"
+         "[[step]]\npoint = [ { dof = '2', value = -3 } ]\n";
 }
 
-const check_report two_of_three{
-    "contct replay",
-    {"floating point: strict"},
-    {{"a.trace: cpp", outcome::passed, "equal", ""},
-     {"b <&> \"c\".trace: mine", outcome::failed, "1 mismatch | here", "call 1: SS(1)\n\x01 odd"},
-     {"c.trace: cpp", outcome::skipped, "another precision", ""}},
-    0.5};
+nlohmann::json data_of(const std::string& html) {
+  const std::size_t from = html.find("id=\"data\">") + 10;
+  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+}
+
+const std::string erased = "\r\033[K";
+
+/// Commands that show progress, each with a text that it must show.
+const std::pair<std::string, std::string> long_works[] = {
+    {"run plate.toml", "step 2 of 2, increment "},
+    {"explain plate.toml --json /dev/null", "step 2 of 2, increment "},
+    {"exact plate.toml", "step 2 of 2, increment "},
+    {"verify --reference @", " problems"},
+    {"fuzz --calls 2000", " % of "},
+    {"replay @traces/ties.trace", "ties.trace: 1 call"}};
+
+/// Returns options for standard error on a terminal, with progress at once. `both`: with standard output.
+process_options at_terminal(bool both = false) {
+  return {"", {{"TERM", "dumb"}, {"CONTCT_PROGRESS_AFTER", "0"}}, both, "", true};
+}
+
+/// Returns the numbers `from`, `from` + `by`, .. up to `to` as a list.
+std::string every(int from, int to, int by) {
+  std::string list;
+  for (int i = from; i <= to; i += by) list += std::to_string(i) + ", ";
+  return list;
+}
+
+/// Returns a plate of 3000 by 2 elements that is supported at every tenth line across the plate, and sags
+/// onto a stop in every fiftieth span.
+std::string strip(bool along_x) {
+  const std::string size = along_x ? "[3000, 2]" : "[2, 3000]";
+  const int next = along_x ? 1 : 3;    // from a line across to the next
+  const int row = along_x ? 3001 : 1;  // from a node of a line to the next
+  std::string supported;
+  for (int i = 1; i <= 3; ++i)
+    supported += every(1 + (i - 1) * row, 1 + (i - 1) * row + 3000 * next, 10 * next);
+  return "[plate]\nsize = " + size + "\nelements = " + size +
+         "\nD = 1\nnu = 0.3\n[[support]]\nfix = 'w'\nnodes = [" + supported + "]\n[[contact]]\nnodes = [" +
+         every(1 + row + 5 * next, 1 + row + 3000 * next, 500 * next) +
+         "]\nsurface = 'below'\nface = -0.01\nstiffness = 100\n[[step]]\nuniform = -0.001\n";
+}
+
+nlohmann::json steps_of(const std::string& text, long most_kib) {
+  const workplace here({{"large.toml", text}});
+  const finished f = here.contct("run large.toml --json large.json");
+  INFO(f.out << f.err);
+  CHECK(f.exit == 0);
+#if !defined(__SANITIZE_ADDRESS__)
+  CHECK(f.peak_kib < most_kib);
+#else
+  (void)most_kib;
+#endif
+  return here.json("large.json")["steps"];
+}
 
 }  // namespace
 
-TEST_CASE(
-    "no command writes an output over a file that the problem file names, under any path or through a link") {
-  const scratch_folder dir;
-  fs::copy(root / "reference/structures", dir.path(), fs::copy_options::recursive);
-  fs::create_hard_link(dir.path() / "frame.mtx", dir.path() / "hard");
-  const std::string before = dir.read("frame.mtx");
-  int refused = 0;
-  const auto refuse = [&](const words& output, const std::string& problem, const std::string& name) {
-    INFO(output[0] << " " << output[1] << " " << name);
-    CHECK_THAT(refusal(dir, {output[0], problem, output[1], name}),
-               Contains(output[1] + " " + name + ": found the same file as a file that the problem names"));
-    ++refused;
-  };
-  for (const words& output : {words{"run", "--json"},
-                              {"run", "--html"},
-                              {"run", "--csv"},
-                              {"run", "--log"},
-                              {"run", "--trace"},
-                              {"run", "--proof"},
-                              {"run", "--junit"},
-                              {"run", "--markdown"},
-                              {"explain", "--json"},
-                              {"exact", "--json"}})
-    refuse(output, "frame.toml", "hard");
-  for (const char* file : {"frame.mtx", "frame.dof", "frame.xyz", "wind.mtx"})
-    refuse({"run", "--json"}, "frame.toml", file);
-  for (const char* file : {"calculix/console.sti", "calculix/console.dof", "calculix/console.inp"})
-    refuse({"run", "--json"}, "calculix/console.toml", file);
-  CHECK(refused == 17);
-  CHECK(dir.read("frame.mtx") == before);
+TEST_CASE("contct run writes the files that it names, and an output - alone on standard output") {
+  const workplace here({{"pb.toml", good_problem}});
+  here.check("run pb.toml --html -", 0, {"^<!DOCTYPE html>"});
+  here.check("run pb.toml --csv -", 0, {"^step,increment,"});
+  const finished f = here.contct("run - --json -", {good_problem, {}, false});
+  CHECK(nlohmann::json::parse(f.out)["status"] == "solved");
+  CHECK(here.files() == texts{"pb.toml"});  // no table of pairs is written
+  here.check("run pb.toml --html o.html --csv o.csv --vtu o.vtu", 0, {"equal to the bit"});
+  CHECK(here.files() == texts{"o.000.vtu", "o.001.vtu", "o.002.vtu", "o.csv", "o.html", "o.pairs.csv",
+                              "o.pvd", "o.states.csv", "o.supports.csv", "o.vtu", "pb.toml"});
+  here.check("run pb.toml --quiet --csv e.csv --envelope", 0, {""});
+  check_words(here.read("e.envelope.csv"), {"x,w_min,w_min_step,w_max,w_max_step,moment_min"});
 }
 
-TEST_CASE("contct run refuses a table of pairs that would replace a file that the problem file names") {
-  const scratch_folder dir;
-  dir.write("K.pairs.csv", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2\n");
-  dir.write("p.toml",
-            "[matrix]\nstiffness = \"K.pairs.csv\"\n[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n");
-  CHECK_THAT(refusal(dir, {"run", "p.toml", "--csv", "K.csv"}),
-             Contains("K.pairs.csv: found the same file as"));
-  CHECK_THAT(dir.read("K.pairs.csv"), Contains("MatrixMarket"));
-}
-
-TEST_CASE("contct verify refuses to overwrite verification.toml or a reference problem") {
-  const scratch_folder dir;
-  fs::copy(root / "reference/verification.toml", dir.path());
-  fs::copy(root / "reference/problems", dir.path() / "problems", fs::copy_options::recursive);
-  for (const std::string file : {"verification.toml", "problems/pb07-three-gap-supports.toml"}) {
-    const std::string before = dir.read(file);
-    for (const char* option : {"--json", "--junit", "--markdown"})
-      CHECK_THAT(refusal(dir, {"verify", "--reference", ".", option, file}),
-                 Contains("found the same file as"));
-    CHECK(dir.read(file) == before);
-  }
-}
-
-TEST_CASE("every command refuses an output file with an empty name") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  int refused = 0;
-  for (const words& command : {words{"run", "pb.toml", "--json", "--html", "--csv", "--vtu", "--log",
-                                     "--trace", "--proof", "--junit", "--markdown"},
-                               {"explain", "pb.toml", "--json"},
-                               {"exact", "pb.toml", "--json"},
-                               {"replay", "none.trace", "--junit", "--markdown"},
-                               {"fuzz", "--calls=1", "--json", "--out", "--junit", "--markdown"},
-                               {"verify", "--quiet", "--json", "--junit", "--markdown"}}) {
-    for (std::size_t i = 2; i < command.size(); ++i) {
-      const words given = {command[0], command[1], command[i], ""};
-      CHECK_THAT(refusal(dir, given), Contains(command[i] + ": found an empty name; allowed: a file name"));
-      CHECK_THAT(refusal(dir, {command[0], command[1], command[i] + "="}), Contains(command[i] + ": "));
-      ++refused;
+TEST_CASE("the report page has the JSON result, the structure, the states within steps and the calls") {
+  for (const std::string file :
+       {"pb01-cantilever-tip-stop", "pb07-three-gap-supports", "pp03d-corners-and-settled-stop-n4"}) {
+    const workplace here;
+    here.check("run @problems/" + file + ".toml --json o.json --html o.html", 0, {}, {"!error"});
+    const auto result = here.json("o.json");
+    const auto data = data_of(here.read("o.html"));
+    check_like(data, result, 0.0);
+    for (const char* more : {"file", "date", "words", "structure", "calls_made", "log", "log_bytes"})
+      CHECK(data.contains(more));
+    CHECK(data["calls"].size() == result["lockstep"]["calls"]);
+    CHECK(data["structure"]["pairs"].size() == result["steps"][0]["pairs"].size());
+    for (const auto& step : data["steps"]) {
+      CHECK((step.contains("load") && step.contains("largest")));
+      for (std::size_t i = 0; i < step["increments"].size(); ++i) {
+        const auto& state = i + 1 < step["increments"].size() ? step["increments"][i] : step;
+        CHECK(state["displacement"].size() == step["displacement"].size());
+        CHECK(state["elements"].size() == step["elements"].size());
+        CHECK(step["increments"][i].contains("displacement") == (i + 1 < step["increments"].size()));
+      }
     }
   }
-  CHECK(refused == 20);
 }
 
-TEST_CASE(
-    "contct run refuses two outputs in the same file, even if the options name the file by different paths") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  fs::create_symlink("out", dir.path() / "link");
-  fs::create_directory(dir.path() / "folder");
-  for (const char* log : {"out", "./out", "folder/../out", "link"}) {
-    INFO(log);
-    CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", "out", "--log", log}),
-               Contains(std::string("--log ") + log + ": found the same file as --json"));
+TEST_CASE("the report page has the date of the run, or the date in SOURCE_DATE_EPOCH if this is set") {
+  const workplace here({{"pb.toml", good_problem}});
+  std::vector<nlohmann::json> dates;
+  texts pages;
+  for (const process_options& o :
+       {process_options{"", {{"SOURCE_DATE_EPOCH", "86460"}}}, {"", {{"SOURCE_DATE_EPOCH", "86460"}}}, {}}) {
+    here.check("run pb.toml --html o.html", 0, {}, {}, o);
+    pages.push_back(here.read("o.html"));
+    dates.push_back(data_of(pages.back())["date"]);
   }
-  CHECK(contct_program(dir.path(), {"run", "pb.toml", "--json", "/dev/null", "--log", "/dev/null"}).exit ==
-        0);
-}
-
-TEST_CASE("contct run refuses to write an output over its problem file, also through a link") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  fs::create_symlink("pb.toml", dir.path() / "link");
-  fs::create_hard_link(dir.path() / "pb.toml", dir.path() / "hard");
-  for (const char* out : {"pb.toml", "link", "hard"}) {
-    INFO(out);
-    CHECK_THAT(refusal(dir, {"run", "pb.toml", "--json", out}), Contains("the same file as the problem"));
-    CHECK_THAT(refusal(dir, {"run", "link", "--log", out}), Contains("the same file as the problem"));
-  }
-  CHECK(dir.read("pb.toml") == good_problem);
-}
-
-TEST_CASE(
-    "an output file is refused if standard output is redirected to it, and the message suggests the name -") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  dir.write("out", "");
-  CHECK_THAT(
-      refusal(dir, {"run", "pb.toml", "--json", "out"}, {"", {}, false, (dir.path() / "out").string()}),
-      Contains("the same file as standard output"));
-}
-
-TEST_CASE("contct run writes an output whose name is a symbolic link to the target of the link") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  fs::create_symlink("target", dir.path() / "link");
-  for (int time = 0; time < 2; ++time) {
-    CHECK(contct_program(dir.path(), {"run", "pb.toml", "--json", "link"}).exit == 0);
-    CHECK(fs::is_symlink(dir.path() / "link"));
-    CHECK_THAT(dir.read("target"), Contains("contct-result-1"));
-  }
+  CHECK(dates[0] == "1970-01-02 00:01 UTC");
+  CHECK(pages[1] == pages[0]);
+  CHECK(dates[2].get<std::string>().starts_with("20"));
 }
 
 TEST_CASE("if standard output is full or closed, contct run writes the output files, and has exit status 2") {
-  const scratch_folder dir;
-  dir.write("pb.toml", good_problem);
-  for (const words& arguments : {words{"run", "pb.toml"},
-                                 {"run", "pb.toml", "--json", "-"},
-                                 {"kernels"},
-                                 {"--help"},
-                                 {"run", "--help"},
-                                 {"--version"}}) {
-    for (const char* output : {"/dev/full", "closed"}) {
-      INFO(arguments[0] << " to " << output);
-      CHECK_THAT(refusal(dir, arguments, {"", {}, false, output}), Contains("standard output: "));
-    }
-  }
-  for (const char* output : {"/dev/full", "closed"}) {
-    const finished f =
-        contct_program(dir.path(), {"run", "pb.toml", "--json", "out.json"}, {"", {}, false, output});
-    CHECK(f.exit == 2);
-    CHECK_THAT(f.err, Contains("standard output: "));
-    CHECK_THAT(dir.read("out.json"), Contains("\"status\":\"solved\"") || Contains("\"status\": \"solved\""));
-    fs::remove(dir.path() / "out.json");
+  const workplace here({{"pb.toml", good_problem}});
+  for (const std::string output : {"/dev/full", "closed"}) {
+    const process_options full{"", {}, false, output};
+    for (const char* line :
+         {"run pb.toml", "run pb.toml --json -", "kernels", "--help", "run --help", "--version"})
+      here.check(line, 2, {}, {"standard output: "}, full);
+    const std::string file = output.substr(output.size() - 4);
+    CHECK(here.contct("run pb.toml --json " + file, full).exit == 2);
+    CHECK(here.json(file)["status"] == "solved");
   }
 }
 
 TEST_CASE("contct run writes the whole report page of --html, even if a pipe to head cuts off the table") {
-  const scratch_folder dir;
   std::string text = good_problem;
   for (int i = 0; i < 2000; ++i) text += "[[step]]\npoint = [ { node = 3, w = -60.0 } ]\n";
-  dir.write("long.toml", text);
-  const std::string here = dir.path().string();
-  const std::string command = "cd '" + here +
-                              "' && '" CONTCT_PROGRAM
-                              "' run long.toml --html page.html --csv table.csv 2>errors | head -1 >table";
-  CHECK(std::system(command.c_str()) == 0);
-  CHECK_THAT(dir.read("table"), Contains("nodes, 1 pair, 2001 steps"));
-  CHECK(dir.read("errors").empty());
-  CHECK_THAT(dir.read("page.html"), Contains("</html>"));
-  CHECK(fs::exists(dir.path() / "table.csv"));
+  const workplace here({{"long.toml", text}});
+  CHECK(shell("cd '" + here.path().string() +
+              "' && '" CONTCT_PROGRAM
+              "' run long.toml --html page.html --csv table.csv 2>errors | head -1 >table")
+            .exit == 0);
+  check_words(here.read("table"), {"nodes, 1 pair, 2001 steps"});
+  check_words(here.read("errors"), {""});
+  check_words(here.read("page.html"), {"</html>"});
+  check_words(here.read("table.csv"), {"^step,"});
 }
 
-TEST_CASE("if the stiffness is too ill-conditioned, contct run has exit status 2 and writes no files") {
-  // PB9 with so large an EI that the bed's springs are lost to rounding.
-  const scratch_folder dir;
-  dir.write("stiff.toml",
-            "[beam]\nlength = 2.0\nelements = 40\nEI = 1e16\n[[bed]]\nmodulus = 5000.0\nface = 0.0\n"
-            "[[step]]\nuniform = [ { polynomial = [-20.0, 20.0, -5.0] } ]\n");
-  const finished f = contct_program(dir.path(), {"run", "stiff.toml", "--kernels", "fortran,cpp", "--json",
-                                                 "out.json", "--log", "out.log"});
-  INFO(f.out << f.err);
-  CHECK(f.exit == 2);
-  CHECK_THAT(f.err, Contains("too ill-conditioned"));
-  CHECK(dir.files() == words{"stiff.toml"});
+TEST_CASE("a matrix without coordinates has a page and tables, and --vtu needs coordinates of pairs") {
+  const workplace here({{"K.mtx", two_by_two},
+                        {"p.toml", spring_problem()},
+                        {"K.dof", "a.x\n2\n"},
+                        {"K.xyz", "a 1 2 3\n"},
+                        {"placed.toml", spring_problem("dofs = 'K.dof'\ncoordinates = 'K.xyz'\n")}});
+  here.check("run p.toml --html o.html --csv o.csv", 0);
+  here.check("run p.toml --vtu o.vtu --json o.json", 2, {},
+             {"--vtu: found the matrix K.mtx without coordinates; allowed:",
+              "coordinates = \"FILE\" in [matrix]", "mesh = \"FILE\" in [calculix]", "--csv and --json"});
+  here.check("run placed.toml --vtu p.vtu --html p.html", 0, {},
+             {"warning: --vtu: 1 of 1 pairs has no cell: the coordinates of their dofs are not known"});
+  check_words(here.read("o.html"), {"\"nodes\":[]", "\"dofs\":[{\"dof\":\"1\"}", "\"engine\": \"updated\""});
+  check_words(here.read("o.pairs.csv"), {"\r\n1,1,1,2,below,contact,"});
+  check_words(here.read("p.html"), {"1 of 2 dofs are not drawn: their labels"});
 }
 
-TEST_CASE("contct run does not report kernels that were never called as equal to the bit") {
-  const scratch_folder dir;
-  dir.write("loose.toml",
-            "[beam]\nx = [0, 1]\nEI = 1\n[[contact]]\nnode = 1\nsurface = \"below\"\nface = -1\n"
-            "stiffness = 1\n[[step]]\nuniform = -1\n");
-  const finished f = contct_program(dir.path(), {"run", "loose.toml"});
-  CHECK(f.exit == 4);
-  CHECK_THAT(f.out, Contains("fortran and cpp were never called, so nothing was compared"));
-  CHECK_THAT(f.out, !Contains("equal to the bit"));
+TEST_CASE("reports of tests count failed and skipped tests, and a test's text keeps XML and Markdown valid") {
+  const check_report report{
+      "contct replay",
+      {"floating point: strict"},
+      {{"a.trace: cpp", outcome::passed, "equal", ""},
+       {"b <&> \"c\".trace: mine", outcome::failed, "1 mismatch | here", "call 1: SS(1)\n\x01 odd"},
+       {"c.trace: cpp", outcome::skipped, "another precision", ""}},
+      0.5};
+  check_words(junit_xml(report),
+              {"<testsuites tests=\"3\" failures=\"1\" errors=\"0\" time=\"0.500\">",
+               " tests=\"3\" failures=\"1\" errors=\"0\" time=\"0.500\" skipped=\"1\">",
+               "name=\"b &lt;&amp;&gt; &quot;c&quot;.trace: mine\"",
+               "<failure message=\"1 mismatch | here\">call 1: SS(1)\n\xEF\xBF\xBD odd</failure>",
+               "<skipped message=\"another precision\"/>", "!\x01"});
+  check_words(junit_xml({"two\nlines", {}, {}, 0.0}), {"<testsuite name=\"two&#10;lines\" tests=\"0\""});
+  check_words(markdown(report), {"^## contct replay: failed\n", "1 passed, 1 failed, 1 skipped",
+                                 "| **failed** | 1 mismatch \\| here |", "```\ncall 1: SS(1)"});
 }
 
-TEST_CASE("a JUnit report counts failed and skipped tests, and escapes the characters that XML forbids") {
-  const std::string xml = junit_xml(two_of_three);
-  CHECK_THAT(xml, Contains("<testsuites tests=\"3\" failures=\"1\" errors=\"0\" time=\"0.500\">"));
-  CHECK_THAT(xml, Contains(" tests=\"3\" failures=\"1\" errors=\"0\" time=\"0.500\" skipped=\"1\">"));
-  CHECK_THAT(xml, Contains("name=\"b &lt;&amp;&gt; &quot;c&quot;.trace: mine\""));
-  CHECK_THAT(xml,
-             Contains("<failure message=\"1 mismatch | here\">call 1: SS(1)\n\xEF\xBF\xBD odd</failure>"));
-  CHECK_THAT(xml, Contains("<skipped message=\"another precision\"/>"));
-  CHECK(xml.find('\x01') == std::string::npos);
-  CHECK_THAT(junit_xml({"two\nlines", {}, {}, 0.0}),
-             Contains("<testsuite name=\"two&#10;lines\" tests=\"0\""));
+TEST_CASE("long commands show progress on a terminal and erase it, or with --quiet show nothing") {
+  const workplace here;
+  here.check("new plate", 0);
+  for (const auto& [line, shows] : long_works) {
+    const finished f = here.contct(line, at_terminal());
+    INFO(line);
+    CHECK(f.exit == 0);
+    check_words(f.err, {shows, "$" + erased, "!\n"});
+    check_words(f.out, {"!\r"});
+    here.check(line + " --quiet", 0, {""}, {""}, at_terminal());
+  }
+  here.check("run plate.toml", 0, {}, {},
+             {"", {{"CONTCT_PROGRESS_AFTER", "0"}}});  // standard error is a file
 }
 
-TEST_CASE(
-    "a Markdown summary begins with the verdict, and a test's text with Markdown characters keeps the table "
-    "valid") {
-  const std::string text = markdown(two_of_three);
-  CHECK(text.rfind("## contct replay: failed\n", 0) == 0);
-  CHECK_THAT(text, Contains("1 passed, 1 failed, 1 skipped"));
-  CHECK_THAT(text, Contains("| **failed** | 1 mismatch \\| here |"));
-  CHECK_THAT(text, Contains("```\ncall 1: SS(1)"));
+TEST_CASE("on a terminal with the table, the progress is erased before each row of the table") {
+  const workplace here;
+  here.check("new plate", 0);
+  const std::string run = "run plate.toml --kernels corrected";
+  const std::string seen = here.contct(run, at_terminal(true)).out;
+  check_words(seen, {"step 2 of 2, increment "});
+  // The text that remains visible: an erase sequence removes the part of the line before the sequence.
+  std::string screen;
+  std::istringstream lines(seen.substr(0, seen.rfind('\n') + 1));
+  for (std::string line; std::getline(lines, line); screen += line + "\n") {
+    if (line.ends_with("\r")) line.pop_back();
+    if (const std::size_t last = line.rfind(erased); last != std::string::npos) line.erase(0, last + 4);
+  }
+  CHECK(screen == here.contct(run).out);
+}
+
+TEST_CASE("a run of a plate of 3000 by 2 elements takes under 62 MB, as that of a plate of 2 by 3000") {
+  const auto lying = steps_of(strip(true), 62'000)[0];
+  const auto standing = steps_of(strip(false), 62'000)[0];
+  check_like(lying, R"({"w": "== 9003", "elements": "== 6000"})");
+  for (int i = 0; i < 6; ++i) {
+    CHECK(lying["pairs"][i]["state"] == "contact");
+    check_like(lying["pairs"][i]["force"], standing["pairs"][i]["force"], 1e-8);
+  }
+  for (int along = 0; along < 3001; ++along) {
+    for (int across = 0; across < 3; ++across) {
+      const double a = lying["w"][across * 3001 + along];
+      const double b = standing["w"][along * 3 + across];
+      if (std::abs(a - b) > 1e-9) FAIL("line " << along << ": " << a << " against " << b);
+    }
+  }
+}
+
+TEST_CASE("a plate of 100 by 100 elements takes under 462 MB, and a beam of 100,000 nodes under 200 MB",
+          "[long]") {
+  const auto step = steps_of(
+      "[plate]\nsize = [1, 1]\nelements = [100, 100]\nD = 1\nnu = 0.3\n[[support]]\nnodes = '1..101'\n"
+      "fix = ['w', 'wx']\n[[support]]\nnodes = '10101..10201'\nfix = ['w', 'wx']\n[[step]]\nuniform = -1\n",
+      462'000)[0];
+  // Two edges are simply supported and two free, so the plate bends along y with 0.01309 q a^4 / D in the
+  // middle.
+  check_like(step["w"][5100], -0.01309, 1e-3);
+  CHECK(step["elements"].size() == 10000);
+  const auto steps =
+      steps_of("[beam]\nEI = 1.0\nx = [" + every(0, 99999, 1) + "]\n[[support]]\nfix = 'w'\nnodes = [" +
+                   every(1, 100000, 9) + "]\n[[contact]]\nnodes = [" + every(5, 99999, 9000) +
+                   "]\nsurface = 'below'\nface = -0.01\nstiffness = 1.0\n"
+                   "[[step]]\nuniform = -0.001\n[[step]]\nuniform = 0\n",
+               200'000);
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[0]["w"].size() == 100000);
+  CHECK(steps[0]["elements"].size() == 99999);
+  CHECK(steps[0]["pairs"].size() == 12);
+  for (const auto& pair : steps[0]["pairs"]) CHECK(pair["state"] == "contact");
+  for (const auto& pair : steps[1]["pairs"]) CHECK(pair["state"] == "separated");
 }

@@ -7,7 +7,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
+
+#include "catch.hpp"
 
 namespace contct {
 namespace {
@@ -56,7 +60,7 @@ finished shell(const std::string& line) {
   return f;
 }
 
-finished contct_program(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
+finished contct_program(const std::filesystem::path& directory, const texts& arguments,
                         const process_options& options) {
   const scratch_folder streams;
   streams.write("in", options.input);
@@ -85,6 +89,43 @@ finished contct_program(const std::filesystem::path& directory, const std::vecto
   if (!options.terminal) f.out = streams.read("out");
   if (!options.error_terminal) f.err = streams.read("err");
   return f;
+}
+
+texts words_of(const std::string& line) {
+  texts all;
+  std::istringstream in(line);
+  for (std::string word; in >> std::quoted(word, '\'');) {
+    if (const std::size_t at = word.find('@'); at != std::string::npos)
+      word.replace(at, 1, CONTCT_ROOT "/reference/");
+    if (const std::size_t at = word.find('$'); at != std::string::npos)
+      word.replace(at, 1, CONTCT_PLUGINS "/libvariant_");
+    all.push_back(word);
+  }
+  return all;
+}
+
+nlohmann::json workplace::printed_json(const std::string& line) const {
+  const finished f = contct(line);
+  INFO(line << "\n" << f.err);
+  REQUIRE(f.exit == 0);
+  return nlohmann::json::parse(f.out);
+}
+
+void workplace::check(const std::string& line, int exit, const texts& out, const texts& err,
+                      const process_options& options) const {
+  const auto before = files();
+  const finished f = contct(line, options);
+  INFO("contct " << line << "\n" << f.out << f.err);
+  CHECK(f.exit == exit);
+  check_words(f.out, out.empty() && exit == 2 ? texts{""} : out);
+  check_words(f.err, err.empty() && exit == 0 ? texts{""} : err);
+  if (exit == 2) CHECK(files() == before);
+}
+
+void workplace::check_refusals(const std::string& command,
+                               const std::vector<std::pair<std::string, std::string>>& rows,
+                               const process_options& options) const {
+  for (const auto& [more, message] : rows) check(command + " " + more, 2, {}, {message}, options);
 }
 
 }  // namespace contct

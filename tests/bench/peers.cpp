@@ -1,6 +1,14 @@
 #include "bench/bench.hpp"
 
-#ifdef CONTCT_BENCH_CHOLMOD
+#ifndef CONTCT_BENCH_CHOLMOD
+
+std::vector<bench::json> bench::time_cholmod(const contct::problem& /*p*/,
+                                             const contct::linear_structure& /*s*/, int /*rounds*/,
+                                             const std::string& /*only*/) {
+  return {};
+}
+
+#else
 
 #include <cholmod.h>
 
@@ -10,8 +18,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "contct/certify/certificate.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/proof/certificate.hpp"
 
 namespace bench {
 namespace {
@@ -36,7 +44,6 @@ class newton {
     std::copy(k.starts.begin(), k.starts.end(), static_cast<int*>(matrix_->p));
     std::copy(k.rows.begin(), k.rows.end(), static_cast<int*>(matrix_->i));
     right_ = cholmod_zeros(load.size(), 1, CHOLMOD_REAL, &common_);
-    put_in_springs();
     factor_ = cholmod_analyze(matrix_, &common_);
     places_.resize(load.size());
     const auto* order = static_cast<const int*>(factor_->Perm);
@@ -81,9 +88,11 @@ class newton {
   /// Puts the springs of the pairs that are in contact at the start into the factor.
   void close_at_start() {
     std::vector<std::size_t> closed;
-    for (std::size_t i = 0; i < closed_.size(); ++i)
-      if (s_.pairs[i].closed) closed.push_back(i);
-    for (const std::size_t i : closed) closed_[i] = 1;
+    for (std::size_t i = 0; i < closed_.size(); ++i) {
+      if (!s_.pairs[i].closed) continue;
+      closed_[i] = 1;
+      closed.push_back(i);
+    }
     change(closed, 1);
   }
 
@@ -92,8 +101,7 @@ class newton {
   std::vector<double> u;  ///< [rows]
 
  private:
-  [[nodiscard]] int row_of(std::size_t pair) const { return s_.row_of(s_.dof_of_pair(pair)); }
-
+  [[nodiscard]] int row_of(std::size_t pair) const { return s_.row_of(s_.pairs[pair].dof); }
   void solve() {
     auto* b = static_cast<double*>(right_->x);
     std::copy(load_.begin(), load_.end(), b);
@@ -110,7 +118,7 @@ class newton {
   [[nodiscard]] std::pair<std::size_t, double> first_event(std::span<const double> from) const {
     std::pair<std::size_t, double> first{closed_.size(), 1.0};
     for (std::size_t i = 0; i < closed_.size(); ++i) {
-      const contact_pair& p = s_.pairs[i];
+      const pair_in<double>& p = s_.pairs[i];
       const double depth = p.surface * (from[row_of(i)] - p.face);
       const double change = p.surface * (u[row_of(i)] - from[row_of(i)]);
       if (closed_[i] != 0 ? !(change < 0.0) : !(change > 0.0)) continue;
@@ -124,7 +132,7 @@ class newton {
   bool take_pressed() {
     std::array<std::vector<std::size_t>, 2> changed;  // pairs no longer pressed, and newly pressed
     for (std::size_t i = 0; i < closed_.size(); ++i) {
-      const contact_pair& p = s_.pairs[i];
+      const pair_in<double>& p = s_.pairs[i];
       const char pressed = p.surface * (u[row_of(i)] - p.face) > 0.0 ? 1 : 0;
       if (pressed != closed_[i]) changed[pressed].push_back(i);
       closed_[i] = pressed;
@@ -133,7 +141,6 @@ class newton {
     if (updown_) {
       for (const int add : {1, 0}) change(changed[add], add);
     } else {
-      put_in_springs();
       factor();
     }
     return true;
@@ -155,14 +162,12 @@ class newton {
     if (good == 0 || common_.status != CHOLMOD_OK) throw std::runtime_error("cholmod_updown failed");
   }
 
-  void put_in_springs() {
+  /// Factors K with the springs of the pairs in contact.
+  void factor() {
     auto* x = static_cast<double*>(matrix_->x);
     std::copy(k_.values.begin(), k_.values.end(), x);
     for (std::size_t i = 0; i < closed_.size(); ++i)
       if (closed_[i] != 0) x[k_.starts[row_of(i)]] += s_.pairs[i].stiffness;
-  }
-
-  void factor() {
     if (cholmod_factorize(matrix_, factor_, &common_) == 0 || common_.status != CHOLMOD_OK)
       throw std::runtime_error("K with the springs that press has no factor");
   }
@@ -180,83 +185,75 @@ class newton {
 };
 
 /// Our own certified state at the end of the last step, and the proved bounds on its errors.
-class certified_end final : public observer {
- public:
+struct certified_end {
   certified_end(const problem& p, const linear_structure& s) {
-    certifier judge(p, s);
-    observer* const observers[] = {&judge, this};
-    (void)judge.find_final_states(observers);
-    if (!judge.all_certified() || !judge.steps().back() || !judge.steps().back()->proved)
+    const solved_path found = certifier(p, s).find_final_states();
+    if (found.steps.empty() || !found.all_certified())
       throw std::runtime_error("the end of " + p.title + " is not certified");
-    const certificate& c = *judge.steps().back();
+    const solved_step& last = found.steps.back();
+    u = last.displacement;
+    forces = last.numbers.pair_forces;
     for (const quantity q : {quantity::w, quantity::slope, quantity::force})
-      bounds.push_back(c.error[q].value_or(0.0));
-  }
-
-  void step_ended(const step_state& s) override {
-    u.assign(s.displacement.begin(), s.displacement.end());
-    if (s.numbers != nullptr) forces = s.numbers->pair_forces;
+      bounds.push_back(last.judged->error[q].value_or(0.0));
   }
 
   std::vector<double> u, forces, bounds;
 };
 
-/// Sets the digits of answer `a` from the distance of `u` to our state plus the bound on our state's error,
-/// so that no answer gets more digits than are proved.
-void judge(const certified_end& ours, const linear_structure& s, const std::vector<double>& u,
-           peer_answer& a) {
+/// Compares `u` with our state. The digits are from the distance to our state plus the bound on our state's
+/// error, so that no answer gets more digits than are proved; they are those of the worst number, at most 15.
+json compared(const certified_end& ours, const linear_structure& s, const std::vector<double>& u) {
   std::array<double, 3> size{}, off{};  // index: deflections, other displacements, forces
+  int values = 0, wrong_statuses = 0;
   const auto compare = [&](std::size_t kind, double right, double found) {
     size[kind] = std::max(size[kind], std::abs(right));
     off[kind] = std::max(off[kind], std::abs(right - found));
-    ++a.values;
+    ++values;
   };
   for (int dof = 0; dof < s.dofs(); ++dof) compare(s.deflects(dof) ? 0 : 1, ours.u[dof], u[s.row_of(dof)]);
   for (std::size_t i = 0; i < s.pairs.size(); ++i) {
-    const contact_pair& p = s.pairs[i];
-    const double force = std::max(0.0, p.stiffness * p.surface * (u[s.row_of(s.dof_of_pair(i))] - p.face));
+    const pair_in<double>& p = s.pairs[i];
+    const double force = std::max(0.0, p.stiffness * p.surface * (u[s.row_of(s.pairs[i].dof)] - p.face));
     compare(2, ours.forces[i], force);
-    a.wrong_statuses += (force > 0.0) != (ours.forces[i] > 0.0) ? 1 : 0;
+    wrong_statuses += (force > 0.0) != (ours.forces[i] > 0.0) ? 1 : 0;
   }
   double worst = 1e-15;
   for (std::size_t kind = 0; kind < size.size(); ++kind)
     if (size[kind] > 0.0) worst = std::max(worst, (off[kind] + ours.bounds[kind]) / size[kind]);
-  a.digits = worst < 1.0 ? -std::log10(worst) : 0.0;
+  const double digits = worst < 1.0 ? -std::log10(worst) : 0.0;
+  return {{"digits", digits}, {"wrong_statuses", wrong_statuses}, {"values", values}};
 }
 
 }  // namespace
 
-std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& s, int rounds,
-                                      const std::string& only) {
-  const sparse_columns k =
-      s.stiffness.is_band() ? contct::columns_of(s.stiffness.band()) : s.stiffness.columns();
-  std::vector<std::vector<double>> loads(p.steps.size(), std::vector<double>(s.dofs()));
+std::vector<json> time_cholmod(const problem& p, const linear_structure& s, int rounds,
+                               const std::string& only) {
+  const sparse_columns& k = s.stiffness;
+  std::vector<std::vector<double> > loads(p.steps.size(), std::vector<double>(s.dofs()));
   for (std::size_t step = 0; step < loads.size(); ++step) {
-    std::vector<double> at_dofs(s.dofs());
-    loads_of(p, s)(static_cast<int>(step) + 1, at_dofs);
+    const std::vector<double> at_dofs = load_history(p, s).total(static_cast<int>(step) + 1);
     for (std::size_t dof = 0; dof < at_dofs.size(); ++dof)
       loads[step][s.row_of(dof)] = s.in_row(dof, at_dofs[dof]);
   }
   const certified_end ours(p, s);
-  std::vector<peer_answer> answers;
+  std::vector<json> answers;
   const auto time = [&](const char* method, bool updown, const auto& run) {
     if (!only.empty() && only != method) return;
-    peer_answer a;
-    a.method = method;
     std::vector<double> seconds, u;
-    constexpr double long_enough = 20.0;  // seconds; a longer run is not repeated
+    int steps = 0;
+    double mib = 0.0;
     while (std::ssize(seconds) < rounds && (seconds.empty() || seconds.back() < long_enough)) {
-      const auto start = cpu_clock::now();
+      const double start = now();
       newton solver(s, k, loads.front(), updown);
-      a.steps = run(solver);
-      seconds.push_back(std::chrono::duration<double>(cpu_clock::now() - start).count());
-      a.mib = solver.mib();
+      steps = run(solver);
+      seconds.push_back(now() - start);
+      mib = solver.mib();
       u = solver.u;
     }
-    std::sort(seconds.begin(), seconds.end());
-    a.seconds = seconds[seconds.size() / 2];
-    judge(ours, s, u, a);
-    answers.push_back(a);
+    std::ranges::sort(seconds);
+    answers.push_back(
+        {{"method", method}, {"ms", 1e3 * seconds[seconds.size() / 2]}, {"mib", mib}, {"steps", steps}});
+    answers.back().update(compared(ours, s, u));
   };
   time("path, up/downdating", true, [&](newton& solver) {
     solver.close_at_start();
@@ -268,17 +265,6 @@ std::vector<peer_answer> time_cholmod(const problem& p, const linear_structure& 
   time("up/downdating", true, [](newton& solver) { return solver.run(); });
   time("a factor for each step", false, [](newton& solver) { return solver.run(); });
   return answers;
-}
-
-}  // namespace bench
-
-#else
-
-namespace bench {
-
-std::vector<peer_answer> time_cholmod(const contct::problem& /*p*/, const contct::linear_structure& /*s*/,
-                                      int /*rounds*/, const std::string& /*only*/) {
-  return {};
 }
 
 }  // namespace bench

@@ -1,31 +1,27 @@
 """judged.py ROOT: judge.py judges results of PB1 and PB2 by hand, right ones, each kind of wrong one, and invalid files."""
 import json
-import subprocess
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+from testing import Checks, run  # noqa: E402
 
 JUDGE = Path(sys.argv[1]) / "reference/benchmarks/judge.py"
 RIGHT = [{"step": 2, "quantity": "w", "node": 3, "value": -0.00483720930}, {"step": 2, "quantity": "force", "pair": 1, "value": 41.8604651},
          {"step": 2, "quantity": "event", "pair": 1, "change": "make", "value": 0.1}]
 ON_BED = {"name": "pb03a-point-load-on-bed-l4", "tolerance": 0.1}
 CONTACTS, STATE = {"step": 1, "quantity": "contacts"}, {"step": 1, "quantity": "state", "pair": 36}
-wrong = 0
+check = Checks()
 
 
 def judged(status, words, entries=(), least=1, tolerance=1e-6, name="pb01-cantilever-tip-stop", **top):
     """Asks for the exit status, and for `words` in what is printed."""
-    global wrong
     given = {"format": "contct-answers-1", "program": "By hand", "version": "1", "tolerance": tolerance, "problems": {name: list(entries)}} | top
-    done = subprocess.run([sys.executable, JUDGE, "-", "--least", str(least)], input=json.dumps(given), capture_output=True, text=True, check=False)
-    if done.returncode != status or words not in done.stdout + done.stderr:
-        wrong += 1
-        print(f"found {done.returncode}, {done.stdout}{done.stderr}; allowed: {status}, {words}")
+    done = run(sys.executable, JUDGE, "-", "--least", least, input=json.dumps(given))
+    check(done.returncode == status and words in done.stdout + done.stderr, f"found {done.returncode}, {done.stdout}{done.stderr}; allowed: {status}, {words}")
 
 
-def changed(number, value):
-    return [entry | ({"value": value} if i == number else {}) for i, entry in enumerate(RIGHT)]
-
-
+changed = lambda number, value: [entry | ({"value": value} if i == number else {}) for i, entry in enumerate(RIGHT)]
 judged(0, "3 numbers of 1 problems, 0 outside 1e-06", RIGHT, least=3)
 judged(0, "0 outside 0.001", changed(0, -0.0048372 * 1.0009), tolerance=1e-3)  # of the largest w, 0.0053
 judged(1, "force, pair 1: found 41.8614651; exact value 1800/43; error", changed(1, 41.8614651))
@@ -42,4 +38,4 @@ judged(2, "'node': 77", [RIGHT[0] | {"node": 77}])
 judged(2, "found nowhere; allowed: pb01", RIGHT, name="nowhere")
 judged(2, "tolerance: found 0.2; allowed: a number from 0 to 0.1", RIGHT, tolerance=0.2)
 judged(2, "format: found contct-answers-2", RIGHT, format="contct-answers-2")
-sys.exit(wrong)
+check.end()

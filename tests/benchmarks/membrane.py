@@ -1,15 +1,13 @@
 """membrane.py CONTCT REFERENCE: PB16's files are those that reference/benchmarks/membrane.py writes; on 10, 20 and 40 intervals the
 largest error against the exact solution falls to less than a third each time, and the contact forces add up to 2 pi A within 0.2 % at last."""
-import json
-import subprocess
 import sys
 import tempfile
 from math import pi
 from pathlib import Path
 
-contct, reference = sys.argv[1], Path(sys.argv[2])
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(reference / "benchmarks"))
+contct, reference = (Path(a).resolve() for a in sys.argv[1:])
+sys.path[:0] = [str(reference / "benchmarks"), str(Path(__file__).parents[1] / "support")]
+from testing import result_of  # noqa: E402
 from membrane import A, Membrane, exact  # noqa: E402
 
 NAME = "pb16-membrane-over-ball"
@@ -19,8 +17,7 @@ def solved(folder, intervals):
     """The largest error of w, and the sum of the contact forces."""
     membrane = Membrane(intervals)
     membrane.write(folder, NAME)
-    subprocess.run([contct, "run", folder / f"{NAME}.toml", "--quiet", "--strict", "--json", folder / "out.json"], check=True)
-    step = json.loads((folder / "out.json").read_text())["steps"][0]
+    step = result_of(contct, "run", f"{NAME}.toml", "--quiet", "--strict", cwd=folder)["steps"][0]
     error = max(abs(w - exact(*place)) for w, place in zip(step["displacement"], membrane.places.values(), strict=True))
     return error, sum(pair["force"] for pair in step["pairs"])
 

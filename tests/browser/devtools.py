@@ -6,19 +6,9 @@ import select
 import subprocess
 import tempfile
 import time
+from pathlib import Path
 
-
-class Checks:
-    """Counts the checks and the failed checks."""
-
-    def __init__(self):
-        self.made, self.failed = 0, 0
-
-    def __call__(self, holds, what):
-        self.made += 1
-        if not holds:
-            self.failed += 1
-            print(f"   FAILED: {what}")
+FITS = "document.documentElement.scrollWidth <= document.documentElement.clientWidth"  # the page does not scroll sideways
 
 
 class Browser:
@@ -112,6 +102,10 @@ class Browser:
             raise RuntimeError(f"{script}: {json.dumps(result['exceptionDetails'])[:400]}")
         return result["result"].get("value")
 
+    def every(self, selector, of="e.textContent"):
+        """A value of every element of a selector."""
+        return self.value(f"[...document.querySelectorAll({json.dumps(selector)})].map(e => {of})")
+
     def enter(self, field, value, event="input"):
         """Give a field of the page a value, as a person does who types, moves or chooses it."""
         self.value(f"(() => {{ const e = document.getElementById('{field}'); e.value = {json.dumps(value)};"
@@ -125,17 +119,14 @@ class Browser:
                 raise TimeoutError(f"{script} does not become true: {self.errors[:2]}")
             time.sleep(0.05)
 
-    def press(self, key, text=None):
-        for kind in ("keyDown", "keyUp"):
-            more = {"text": text} if text and kind == "keyDown" else {}
-            codes = {"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Tab": 9, "Enter": 13}
-            self.send("Input.dispatchKeyEvent", type=kind, key=key, code=key,
-                      windowsVirtualKeyCode=codes.get(key, 0), **more)
+    def press(self, key, text=None, control=False, shift=False):
+        """Press a key in the element that has the focus."""
+        code = {"ArrowLeft": 37, "ArrowRight": 39, "Home": 36, "End": 35, "Tab": 9, "Enter": 13}.get(key) or (ord(key.upper()) if len(key) == 1 else 0)
+        for kind, more in (("keyDown", {"text": text} if text else {}), ("keyUp", {})):
+            self.send("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, modifiers=2 * control + 8 * shift, **more)
 
     def picture(self, path, whole=True):
-        data = self.send("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"]
-        with open(path, "wb") as out:
-            out.write(base64.b64decode(data))
+        Path(path).write_bytes(base64.b64decode(self.send("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"]))
 
     def save_to(self, folder):
         """Save the page's downloads to this folder."""

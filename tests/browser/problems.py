@@ -1,16 +1,10 @@
 """Writes problems for the browser's test, which are too long or too odd for reference/problems, to a folder."""
-import os
 import shutil
 import sys
+from pathlib import Path
 
-folder = sys.argv[1]
-
-
-def write(name, text):
-    with open(os.path.join(folder, name + ".toml"), "w", encoding="utf-8") as out:
-        out.write(text)
-
-
+folder = Path(sys.argv[1])
+write = lambda name, text: (folder / f"{name}.toml").write_text(text, encoding="utf-8")
 cantilever = '[beam]\nlength = 2.0\nelements = 8\nEI = 1.0e4\n[[support]]\nnode = 1\nfix = ["w", "theta"]\n'
 stop = '[[contact]]\nnode = 9\nsurface = "below"\nface = -0.004\nstiffness = 5.0e4\n'
 above = '[[contact]]\nnode = 5\nsurface = "above"\nface = 0.001\nstiffness = 5.0e4\n'
@@ -77,11 +71,10 @@ for k in range(36):
 write("wide", wide + "[[step]]\nuniform = -0.05\n[[step]]\nuniform = 0.0\n")
 
 # The frame of reference/structures without coordinates. A problem's files are in its own folder.
-structures = "reference/structures"
-with open(os.path.join(structures, "frame.toml"), encoding="utf-8") as file:
-    write("bare", "".join(line for line in file if not line.startswith("coordinates")))
+structures = Path("reference/structures")
+write("bare", "".join(line for line in (structures / "frame.toml").read_text().splitlines(True) if not line.startswith("coordinates")))
 for name in ("frame.mtx", "frame.dof", "wind.mtx"):
-    shutil.copy(os.path.join(structures, name), folder)
+    shutil.copy(structures / name, folder)
 
 # A net of 110 x 110 nodes on springs with 23,980 edges, over a row of stops.
 side = 110
@@ -92,8 +85,7 @@ for at in range(count):
 for name, rows in (("mtx", ["%%MatrixMarket matrix coordinate real symmetric", f"{count} {count} {len(entries)}", *entries]),
                    ("dof", [f"{at}.z" for at in range(count)]),
                    ("xyz", [f"{at} {at % side} {at // side} 0" for at in range(count)])):
-    with open(os.path.join(folder, "grid." + name), "w", encoding="utf-8") as out:
-        out.write("\n".join(rows) + "\n")
+    (folder / f"grid.{name}").write_text("\n".join(rows) + "\n")
 net = '[matrix]\nstiffness = "grid.mtx"\ndofs = "grid.dof"\ncoordinates = "grid.xyz"\n'
 for k in range(18):
     net += f'[[contact]]\ndof = "{55 * side + 10 + 5 * k}.z"\nsurface = "below"\nface = {-(0.1 + 0.004 * k)!r}\nstiffness = 5.0\n'

@@ -4,46 +4,40 @@ A block fenced as `sh` is a command; the fenced block after it is the exact outp
 stands for characters of one line that differ between machines. Every command has exit status 0; a command with another
 status is followed by || echo "exit status $?".
 """
+import itertools
 import re
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
-FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.M | re.S)
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+from testing import blocks  # noqa: E402
+
 WILD = "<...>"
 
 
 def shown(text):
     """The commands of a page, each with the output lines that the page shows."""
-    blocks = [(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 1) for m in FENCE.finditer(text)]
-    found = []
-    for number, (kind, body, line) in enumerate(blocks):
-        if kind != "sh":
-            continue
-        following, lines, _ = blocks[number + 1] if number + 1 < len(blocks) else ("nothing", "", 0)
-        if following != "text" or not lines.strip():
-            raise ValueError(f"line {line}: a command without output: a text block must follow, found {following}")
-        found.append((body, lines.splitlines()))
+    all_of, found = blocks(text), []
+    for block, following in zip(all_of, [*all_of[1:], None]):
+        if block.language == "sh":
+            if not following or following.language != "text" or not following.text.strip():
+                raise ValueError(f"line {block.line}: a command without output: a text block must follow, found {following}")
+            found.append((block.text, following.text.splitlines()))
     return found
-
-
-def line_fits(pattern, line):
-    return re.fullmatch(".*".join(re.escape(part) for part in pattern.split(WILD)), line) is not None
 
 
 def difference(patterns, lines):
     """None if the lines fit the page; otherwise a description of the first difference."""
-    for number in range(max(len(patterns), len(lines))):
-        pattern = patterns[number] if number < len(patterns) else None
-        found = lines[number] if number < len(lines) else None
-        if pattern is None or found is None or not line_fits(pattern, found):
-            ends = "nothing more"
-            return f"output line {number + 1}:\n  shown {pattern or ends}\n  found {found if found is not None else ends}"
+    for number, (pattern, found) in enumerate(itertools.zip_longest(patterns, lines), 1):
+        if None in (pattern, found) or not re.fullmatch(".*".join(re.escape(part) for part in pattern.split(WILD)), found):
+            shown, found = ("nothing more" if line is None else line for line in (pattern, found))
+            return f"output line {number}:\n  shown {shown}\n  found {found}"
     return None
 
 
-def wildcards(patterns):
-    return sum(pattern.count(WILD) for pattern in patterns)
+wildcards = lambda patterns: sum(pattern.count(WILD) for pattern in patterns)
 
 
 class place:

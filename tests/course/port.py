@@ -1,32 +1,25 @@
 """port.py ROOT PROGRAMS: the kernels in the making of reference/course/port. The empty ones in C, Fortran and Python answer no golden call;
 each stage in each language answers as many calls, and `contct replay` passes as many traces, as stages.toml says, with the next stage as
 hint; the last one passes a fuzz run."""
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 root, programs = (Path(a).resolve() for a in sys.argv[1:])
 port = root / "reference/course/port"
-sys.path.insert(0, str(port))
+sys.path[:0] = [str(port), str(root / "tests/support")]
 import hint  # noqa: E402
 import stages  # noqa: E402
+from testing import Checks, run  # noqa: E402
 
 LANGUAGES = ("py", "c", "f90")
 TABLE = hint.read_table()
-CONTCT, CALLS = str(programs / "contct"), hint.golden_calls()
-wrong = []
-
-
-def check(holds, what):
-    print(("" if holds else "WRONG: ") + what, flush=True)
-    wrong.extend([what] * (not holds))
+CONTCT, CALLS, check = programs / "contct", hint.golden_calls(), Checks()
 
 
 def judged(kernel):
     """How many golden calls are right, how many traces contct replay finds equal, its exit status, and the hints."""
-    done = subprocess.run([CONTCT, "replay", "--kernel", kernel, *sorted(map(str, (root / "reference/traces").glob("*.trace")))],
-                          capture_output=True, text=True, check=False)
+    done = run(CONTCT, "replay", "--kernel", kernel, *sorted((root / "reference/traces").glob("*.trace")))
     found, first = hint.findings(CALLS, hint.answers_of(kernel, CALLS))
     return found["right"], done.stdout.count("equal to the bit"), done.returncode, hint.hints(found, first[1][0], TABLE)[1] if first else []
 
@@ -36,10 +29,8 @@ def built(file):
     library, strict = file.with_suffix(".so"), ["-O2", "-ffp-contract=off", "-Wall", "-Werror", "-shared", "-fPIC"]
     if file.suffix == ".py":
         return f"pipe:{sys.executable} {file} 2>/dev/null"
-    if file.suffix == ".c":
-        subprocess.run(["cc", "-std=c11", "-Wextra", *strict, "-I", root / "cpp", "-o", library, file], check=True)
-    else:
-        subprocess.run(["gfortran", "-std=f2018", *strict, "-Wno-unused-dummy-argument", "-J", file.parent, "-o", library, file], check=True)
+    compiler = ["cc", "-std=c11", "-Wextra", "-I", root / "cpp"] if file.suffix == ".c" else ["gfortran", "-std=f2018", "-Wno-unused-dummy-argument", "-J", file.parent]
+    run(*compiler, *strict, "-o", library, file, status=0)
     return f"plugin:{library}"
 
 
@@ -56,20 +47,15 @@ def check_stages(folder, language):
         check(hints == after, f"{language}, stage {number}: the hint is {hints}; allowed: {after}")
         last = calls
     check(last == len(CALLS), "the last stage answers every golden call")
-    fuzzed = subprocess.run([CONTCT, "fuzz", "--calls", "3000", "--kernels", f"fortran,{kernel}"], capture_output=True, text=True, check=False)
+    fuzzed = run(CONTCT, "fuzz", "--calls", 3000, "--kernels", f"fortran,{kernel}")
     check(fuzzed.returncode == 0, f"{language}, the last stage is equal in a fuzz run: exit {fuzzed.returncode}")
 
 
-def check_empty(folder):
+with tempfile.TemporaryDirectory() as name:
     for language in LANGUAGES:
-        file = folder / f"{language}-0.{language}"
+        file = Path(name, f"{language}-0.{language}")
         file.write_text(stages.kernel_after(0, language))
         found = judged(built(file))
         check(found[:3] == (0, 0, 1), f"the empty kernel {file.name} answers {found[0]} calls and passes {found[1]} traces; allowed: 0")
-
-
-with tempfile.TemporaryDirectory() as name:
-    check_empty(Path(name))
-    for language in LANGUAGES:
         check_stages(Path(name), language)
-sys.exit(1 if wrong else 0)
+check.end(60)

@@ -8,7 +8,8 @@ import re
 import sys
 from pathlib import Path
 
-from page import FENCE, WILD, difference, place, shown, wildcards
+from page import WILD, difference, place, shown, wildcards
+from testing import FENCE
 
 
 def main(root, programs, name, least, most):

@@ -43,13 +43,10 @@ pre { overflow-x: auto; margin: 0.2rem 0 0.6rem; padding: 0.5rem; border: 1px so
 TABLE = f"<table>\n<tr><th>FORTRAN, <code>{LISTING}</code></th><th>C++</th></tr>\n"
 
 
-def lines_of(file):
-    return (ROOT / file).read_text().splitlines()
-
-
-def quoted(block):
-    """The lines that a block of the map quotes, without indentation."""
-    return [line.strip() for line in block["text"].splitlines() if line.strip()]
+lines_of = lambda file: (ROOT / file).read_text().splitlines()
+quoted = lambda block: [line.strip() for line in block["text"].splitlines() if line.strip()]  # without indentation
+heading = lambda part: f"Step {part['step']}: {part['title']}" if part["step"] else part["title"]
+plain = lambda text: "".join("\\" + ch if ch in "*_<" else ch for ch in text)  # escapes what has a meaning in Markdown
 
 
 def places_of(block):
@@ -59,10 +56,9 @@ def places_of(block):
 
 
 def check(parts):
-    statements = {number for number, line in enumerate(lines_of(LISTING), 1) if line.strip() and line[0] not in "Cc*!"}
+    statements = Counter(number for number, line in enumerate(lines_of(LISTING), 1) if line.strip() and line[0] not in "Cc*!")
     mapped = Counter(number for part in parts for number in part["listing"])
-    assert mapped == Counter(statements), f"{LISTING}: lines left out, twice or comments: {mapped - Counter(statements)}, " \
-                                          f"{Counter(statements) - mapped}"
+    assert mapped == statements, f"{LISTING}: lines left out, twice or comments: {mapped - statements}, {statements - mapped}"
     assert len(statements) == STATEMENTS, f"found {len(statements)} statements, allowed: {STATEMENTS}"
     assert [part["step"] for part in parts if part["step"]] == STEPS, "the steps of the paper's algorithm are not in their order"
     for part in parts:
@@ -70,10 +66,6 @@ def check(parts):
         for block in part["cpp"]:
             count = len(places_of(block))
             assert count == 1, f"{block['file']}: {quoted(block)[0]} and what follows stands there {count} times; allowed: once"
-
-
-def heading(part):
-    return f"Step {part['step']}: {part['title']}" if part["step"] else part["title"]
 
 
 def listing_code(part):
@@ -88,11 +80,6 @@ def cpp_code(block, numbered=True):
     there = lines_of(block["file"])[first:first + count]
     indent = min(len(line) - len(line.lstrip(" ")) for line in there)
     return "".join((f"{first + i + 1:3}  " if numbered else "") + f"{line[indent:]}\n" for i, line in enumerate(there))
-
-
-def plain(text):
-    """Escape the characters of a text that have a meaning in Markdown."""
-    return "".join("\\" + ch if ch in "*_<" else ch for ch in text)
 
 
 def markdown_page(edition):
@@ -111,30 +98,21 @@ def markdown_page(edition):
 
 
 def html_page(edition):
-    def escaped(text):
-        return html.escape(text, quote=False)
-
+    escaped = lambda text: html.escape(text, quote=False)
     page = HEAD + "<section class=\"parallel-edition\">\n<h2>The parallel edition</h2>\n" \
                   f"<p>{escaped(edition['introduction'].strip(chr(10)))}</p>\n"
     for part in edition["part"]:
-        page += f"<h3>{escaped(heading(part))}</h3>\n<blockquote>{escaped(part['paper'])}"
-        page += f" <b>Eq. {escaped(part['equation'])}</b>" if part["equation"] else ""
-        page += f"</blockquote>\n{TABLE}<tr><td><pre>{escaped(listing_code(part))}</pre></td>\n<td>"
-        for block in part["cpp"]:
-            page += f"<p><code>{escaped(block['file'])}</code></p>\n<pre>{escaped(cpp_code(block))}</pre>\n"
-        page += f"</td></tr>\n</table>\n<p>{escaped(part['note'])}</p>\n"
+        equation = f" <b>Eq. {escaped(part['equation'])}</b>" if part["equation"] else ""
+        code = "".join(f"<p><code>{escaped(block['file'])}</code></p>\n<pre>{escaped(cpp_code(block))}</pre>\n" for block in part["cpp"])
+        page += f"<h3>{escaped(heading(part))}</h3>\n<blockquote>{escaped(part['paper'])}{equation}</blockquote>\n{TABLE}" \
+                f"<tr><td><pre>{escaped(listing_code(part))}</pre></td>\n<td>{code}</td></tr>\n</table>\n<p>{escaped(part['note'])}</p>\n"
     return page + "</section>\n</body>\n</html>\n"
 
 
-def main():
-    edition = tomllib.loads((ROOT / "reference/parallel-edition.toml").read_text())
-    check(edition["part"])
-    for ending, page in (("md", markdown_page(edition)), ("html", html_page(edition))):
-        file = ROOT / f"reference/parallel-edition.{ending}"
-        if "--write" in sys.argv:
-            file.write_text(page)
-        assert file.read_text() == page, f"{file.name} is not what the map and the sources make; {COMMAND} makes it"
-
-
-if __name__ == "__main__":
-    main()
+edition = tomllib.loads((ROOT / "reference/parallel-edition.toml").read_text())
+check(edition["part"])
+for ending, page in (("md", markdown_page(edition)), ("html", html_page(edition))):
+    file = ROOT / f"reference/parallel-edition.{ending}"
+    if "--write" in sys.argv:
+        file.write_text(page)
+    assert file.read_text() == page, f"{file.name} is not what the map and the sources make; {COMMAND} makes it"

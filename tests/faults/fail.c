@@ -26,15 +26,10 @@
 #include <unistd.h>
 
 static const unsigned long let_pass = 0x636f6e74; /* the sixth argument of calls that seccomp allows */
-
 static volatile int armed = 0;
-static long at = 0;
-static long error_number = 0;
-static int more = 0;
+static long at = 0, error_number = 0;
+static int more = 0, signal_instead = 0;
 static volatile long calls = 0;
-
-static int signal_instead = 0;
-
 static pid_t program = 0; /* child processes do not fail */
 
 static int must_fail(void) {
@@ -55,11 +50,6 @@ static const struct {
     {"fchmod", SYS_fchmod}, {"rename", SYS_rename}, {"mkdir", SYS_mkdir},
 };
 
-static long make(int number, const unsigned long a[5]) {
-  const long answer = syscall(number, a[0], a[1], a[2], a[3], a[4], let_pass);
-  return answer < 0 ? -errno : answer;
-}
-
 /* True for a file in memory, such as that of unit 26, and for a channel to a child process. A full disk
  * cannot make their calls fail. */
 static int is_on_no_disk(int number, const unsigned long a[5]) {
@@ -75,21 +65,20 @@ static int is_on_no_disk(int number, const unsigned long a[5]) {
 static void caught(int signal_number, siginfo_t* info, void* context) {
   (void)signal_number;
   const int before = errno;
-  ucontext_t* const u = context;
-  greg_t* const r = u->uc_mcontext.gregs;
+  greg_t* const r = ((ucontext_t*)context)->uc_mcontext.gregs;
   const unsigned long a[5] = {(unsigned long)r[REG_RDI], (unsigned long)r[REG_RSI], (unsigned long)r[REG_RDX],
                               (unsigned long)r[REG_R10], (unsigned long)r[REG_R8]};
-  r[REG_RAX] =
-      armed && !is_on_no_disk(info->si_syscall, a) && must_fail() ? -error_number : make(info->si_syscall, a);
+  if (armed && !is_on_no_disk(info->si_syscall, a) && must_fail()) {
+    r[REG_RAX] = -error_number;
+  } else {
+    const long answer = syscall(info->si_syscall, a[0], a[1], a[2], a[3], a[4], let_pass);
+    r[REG_RAX] = answer < 0 ? -errno : answer;
+  }
   errno = before;
 }
 
 static int catch_calls(int number) {
-  struct sigaction action;
-  memset(&action, 0, sizeof action);
-  action.sa_sigaction = caught;
-  action.sa_flags = SA_SIGINFO | SA_NODEFER;
-  if (sigaction(SIGSYS, &action, NULL) != 0) return -1;
+  const struct sigaction action = {.sa_sigaction = caught, .sa_flags = SA_SIGINFO | SA_NODEFER};
   struct sock_filter filter[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, arch)),
                                  BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, AUDIT_ARCH_X86_64, 0, 5),
                                  BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(struct seccomp_data, nr)),
@@ -98,10 +87,11 @@ static int catch_calls(int number) {
                                  BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (unsigned)let_pass, 1, 0),
                                  BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP),
                                  BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
-  struct sock_fprog program = {sizeof filter / sizeof filter[0], filter};
-  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return -1;
-  return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+  const struct sock_fprog filters = {sizeof filter / sizeof filter[0], filter};
+  if (sigaction(SIGSYS, &action, NULL) != 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return -1;
+  return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filters);
 }
+
 /* Never blocks SIGSYS, because a stopped call would then end the process. */
 int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) {
   sigset_t without;
@@ -114,12 +104,9 @@ int pthread_sigmask(int how, const sigset_t* set, sigset_t* before) {
 
 /* Keeps the handler of SIGSYS when a child process resets its signal handlers. */
 void (*signal(int number, void (*handler)(int)))(int) {
-  struct sigaction action;
+  const struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
   struct sigaction before;
   if (number == SIGSYS) return SIG_DFL;
-  memset(&action, 0, sizeof action);
-  action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;
   return sigaction(number, &action, &before) == 0 ? before.sa_handler : SIG_ERR;
 }
 
@@ -149,8 +136,7 @@ __attribute__((constructor)) static void arm(void) {
 __attribute__((destructor)) static void write_count(void) {
   const char* const count_file = getenv("FAULT_COUNT");
   armed = 0;
-  if (count_file == NULL || getpid() != program) return;
-  FILE* const file = fopen(count_file, "w");
+  FILE* const file = count_file != NULL && getpid() == program ? fopen(count_file, "w") : NULL;
   if (file == NULL) return;
   fprintf(file, "%ld\n", calls);
   fclose(file);

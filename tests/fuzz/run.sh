@@ -34,35 +34,25 @@ if ! { cmake --preset fuzz && cmake --build --preset fuzz; } >"$work/log" 2>&1; 
 fi
 corpora=${CONTCT_CORPUS:-build/fuzz-corpus}
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=malloc_context_size=6
-
-# fuzz NAME LONGEST LEAST SEED|OPTION..: runs a fuzzer. A seed longer than LONGEST is skipped, because libFuzzer would
-# cut it.
-fuzz() {
-  name=$1 longest=$2 least=$(($3 * seconds / 60))
-  shift 3
-  seeds=$work/$name
+wrong=0
+while read -r name longest least words; do
+  case $name in '#'* | '') continue ;; esac
+  case " ${*:-$name} " in *" $name "*) ;; *) continue ;; esac
+  seeds=$work/$name options=""
   mkdir -p "$corpora/$name" "$seeds"
-  options=""
-  for word in "$@" tests/fuzz/seeds/"$name"/*; do
+  for word in $words tests/fuzz/seeds/"$name"/*; do
     case $word in
       -*) options="$options $word" ;;
+      # A seed that is too long is skipped, because libFuzzer would cut it.
       *) [ ! -f "$word" ] || [ "$(wc -c <"$word")" -gt "$longest" ] || cp "$word" "$seeds" ;;
     esac
   done
   # shellcheck disable=SC2086 # options are words
-  "build/fuzz/tests/fuzz/${name}_fuzz" "-max_total_time=$seconds" "-max_len=$longest" -print_final_stats=1 "-artifact_prefix=$corpora/$name-" \
-    -dict=tests/fuzz/numbers.dict -timeout=10 -rss_limit_mb=2560 $options "$corpora/$name" "$seeds" >/dev/null 2>"$work/said" ||
-    { grep -v '^#' "$work/said" | tail -n 60; echo "$name: found an input that fails; it is saved as $corpora/$name-*"; return 1; }
+  CONTCT_FUZZER=$name build/fuzz/tests/fuzz/contct_fuzzers "-max_total_time=$seconds" "-max_len=$longest" -print_final_stats=1 "-artifact_prefix=$corpora/$name-" \
+    -dict=tests/fuzz/numbers.dict -timeout=10 -rss_limit_mb=2560 $options "$corpora/$name" "$seeds" >/dev/null 2>"$work/said" </dev/null ||
+    { grep -v '^#' "$work/said" | tail -n 60; echo "$name: found an input that fails; it is saved as $corpora/$name-*"; wrong=1; continue; }
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/said")
-  echo "$name: $runs runs in $seconds s without a failure; allowed: $least runs or more"
-  [ "${runs:-0}" -ge "$least" ]
-}
-
-wrong=0
-while read -r name limits; do
-  case $name in '#'* | '') continue ;; esac
-  case " ${*:-$name} " in *" $name "*) ;; *) continue ;; esac
-  # shellcheck disable=SC2086 # words
-  fuzz "$name" $limits || wrong=1
+  echo "$name: $runs runs in $seconds s without a failure; allowed: $((least * seconds / 60)) runs or more"
+  [ "${runs:-0}" -ge $((least * seconds / 60)) ] || wrong=1
 done <tests/fuzz/targets.txt
 exit $wrong

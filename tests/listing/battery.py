@@ -14,22 +14,11 @@ EDGE = 0.00390625  # EPSMUL: multiples of it are exact, so a tie can be exactly 
 TIE = 0.5 * (1.0 + EDGE)
 
 # A pair is (node, D, D*, face, ISEP on entry, ISURF). Two pairs at one node must have the same D and D*.
-
-
-def makes_at(node, s):
-    """Returns a separated pair above a face, which it reaches at the share `s` of its response -1."""
-    return node, 0.0, -1.0, -s, APART, BELOW
-
-
-def breaks_at(node, s):
-    """Returns a pair in contact 1 below its face, which the response lifts off at the share `s`."""
-    return node, -1.0, 1.0 / s, 0.0, TOUCHING, BELOW
-
-
-def at_face(node, d_star, isep, isurf):
-    """Returns a pair at its face at 0."""
-    return node, 0.0, d_star, 0.0, isep, isurf
-
+# A separated pair above a face, which it reaches at the share `s` of its response -1; a pair in contact 1 below its face, which
+# the response lifts off at the share `s`; and a pair at its face at 0.
+makes_at = lambda node, s: (node, 0.0, -1.0, -s, APART, BELOW)
+breaks_at = lambda node, s: (node, -1.0, 1.0 / s, 0.0, TOUCHING, BELOW)
+at_face = lambda node, d_star, isep, isurf: (node, 0.0, d_star, 0.0, isep, isurf)
 
 SINGLE_PAIRS = {  # the first call alone is possible with `DIMENSION X(1)`
     "one pair at node 1 makes": [makes_at(1, 0.5)],

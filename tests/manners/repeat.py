@@ -16,32 +16,25 @@ program, replay, root = (Path(p).resolve() for p in sys.argv[1:4])
 DURATIONS = [r'"seconds": [\d.e+-]+', r'(?<= )time="[\d.]+"', r"\b[\d.]+ s\b", r'timestamp="[^"]*"']
 OUTPUTS = ("json", "html", "csv", "vtu", "trace", "junit", "markdown", "log", "proof")
 PROBLEMS = ("problems/pb07-three-gap-supports.toml", "problems/pb11a-strip-footing-n20.toml", "problems/pp02a-settled-column-n4.toml",
-            "problems/divergences/%s", "structures/frame.toml")
+            "problems/divergences/event-at-full-load.toml", "structures/frame.toml")
 
 
-def run(problem, name, *options):
+def run(problem, name, options=""):
     """Returns the command `contct run` with every output file."""
-    files = [word for output in OUTPUTS for word in (f"--{output}", f"{name}.{output}")]
-    files = files if "frame" not in problem else [w for w in files if w != "--vtu" and not w.endswith(".vtu")]
-    return [program, "run", f"reference/{problem}", *options, *files]
+    outputs = [o for o in OUTPUTS if o != "vtu" or "frame" not in problem]
+    return f"run reference/{problem} {options} " + " ".join(f"--{o} {name}.{o}" for o in outputs)
 
 
 def commands():
-    divergence = sorted((root / "reference/problems/divergences").glob("*.toml"))[0].name
-    problems = [p % divergence if "%" in p else p for p in PROBLEMS]
-    of_problem = [run(p, f"run{i}") for i, p in enumerate(problems)]
-    of_problem += [run(p, f"corrected{i}", "--kernels", "corrected", "--detail", "--envelope") for i, p in enumerate(problems)]
-    for p in problems:
-        of_problem += [[program, "check", f"reference/{p}"], [program, "exact", f"reference/{p}", "--json", "exact.json"],
-                       [program, "explain", f"reference/{p}"], [program, "run", f"reference/{p}", "--final-only", "--json", "final.json"],
-                       [program, "run", f"reference/{p}", "--free-run", "--kernels", "fortran,corrected"]]
-    engines = [[program, "run", f"reference/{PROBLEMS[1]}", "--engine", e, "--json", f"{e}.json"] for e in ("refactor", "updated", "condensed", "auto")]
-    others = [[program, "verify", "--json", "verify.json", "--junit", "verify.xml", "--reference", "reference"],
-              [program, "fuzz", "--calls", "3000", "--json", "fuzz.json", "--junit", "fuzz.xml", "--markdown", "fuzz.md"],
-              [program, "kernels"],
-              [program, "new", "beam", "-"], [program, "new", "plate", "-"], [program, "--version"], [program, "--help"],
-              [replay, "--kernel", "fortran,cpp", "reference/traces/full-load.trace"]]
-    return of_problem + engines + others
+    lines = []
+    for i, p in enumerate(PROBLEMS):
+        lines += [run(p, f"run{i}"), run(p, f"corrected{i}", "--kernels corrected --detail --envelope"),
+                  f"check reference/{p}", f"exact reference/{p} --json exact.json", f"explain reference/{p}",
+                  f"run reference/{p} --final-only --json final.json", f"run reference/{p} --free-run --kernels fortran,corrected"]
+    lines += [f"run reference/{PROBLEMS[1]} --engine {e} --json {e}.json" for e in ("refactor", "updated", "condensed", "auto")]
+    lines += ["verify --json verify.json --junit verify.xml --reference reference",
+              "fuzz --calls 3000 --json fuzz.json --junit fuzz.xml --markdown fuzz.md", "kernels", "new beam -", "new plate -", "--version", "--help"]
+    return [[program, *line.split()] for line in lines] + [[replay, "--kernel", "fortran,cpp", "reference/traces/full-load.trace"]]
 
 
 def settings(folder):

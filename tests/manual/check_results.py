@@ -12,83 +12,52 @@ import sys
 import tempfile
 from pathlib import Path
 
-from documented import first_difference, objects, result_of, same, seen_keys, validator
-from manual import blocks
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+from testing import blocks, result_of  # noqa: E402
+from documented import documented, same  # noqa: E402
 
-JSON = ["--quiet", "--json", "result.json"]
 LEAST_KEYS, LEAST_PLAIN = 78, 120
-BEAM = """
-[beam]
-length = %s
-elements = %s
-EI = 1.0
-[[contact]]
-x = [0.0, %s]
-surface = "below"
-face = -0.001
-stiffness = 1.0e4
-[[step]]
-uniform = -1.0
-"""
 # A beam without supports, whose exact path begins with a rigid-body motion and ends in a mechanism.
-FREE = BEAM % (2.0, 2, 2.0) + "[[step]]\nuniform = 1.0\n"
-
+BEAM = ('[beam]\nlength = 2.0\nelements = 2\nEI = 1.0\n[[contact]]\nx = [0.0, 2.0]\nsurface = "below"\nface = -0.001\nstiffness = 1.0e4\n'
+        "[[step]]\nuniform = -1.0\n")
+FREE = BEAM + "[[step]]\nuniform = 1.0\n"
+COMBINED = BEAM.replace("[[step]]", '[[case]]\nname = "G"') + '[[combination]]\nname = "a"\nterms = { G = 1.0 }\n'
 # The keys that contct_bench writes for CHOLMOD; a build without CHOLMOD writes none of them.
 OF_PEERS = {"method", "steps", "digits", "wrong_statuses", "values"}
 
 
-def doctored_reference(root, folder):
-    """Makes a reference folder in which one exact number is wrong, and returns its path."""
-    (folder / "wrong").mkdir()
-    (folder / "wrong/problems").symlink_to(root / "reference/problems")
-    table = (root / "reference/verification.toml").read_text()
-    (folder / "wrong/verification.toml").write_text(table.replace('exact     = "-1/375"', 'exact     = "-1/374"', 1))
-    return folder / "wrong"
-
-
-def of_schema(program, root, plugin, folder):
-    """Yields (name in the schema, arguments, exit status) for each result."""
-    yield "fuzz", ["fuzz", "--calls", 1000, "--problems", 0], 0
-    yield "fuzz", ["fuzz", "--calls", 2000, "--shard", "2/3", "--kernels", f"fortran,cpp,plugin:{plugin}"], 1
-    yield "verify", ["verify", "--reference", root / "reference"], 0
-    yield "verify", ["verify", "--reference", doctored_reference(root, folder)], 1
-
-
 def with_schema(program, root, plugin, folder):
     """Tests the results that have a schema. Returns a summary; raises ValueError for an error."""
-    text = (root / "reference/check-results.md").read_text()
-    schema, results = (json.loads((root / f"reference/{name}.schema.json").read_text()) for name in ("check-results", "result"))
-    if difference := first_difference(text, schema):
-        raise ValueError(f"check-results.md and check-results.schema.json: {difference}")
-    check, seen, written = validator(schema, {"result.schema.json": results}), set(), []
-    for name, arguments, status in of_schema(program, root, plugin, folder):
-        result = result_of([program, *arguments, *JSON], folder, status)
-        of = schema["$defs"][name]
-        if fault := check.fault(result) or check.fault(result, of):
-            raise ValueError(f"{arguments}: {fault}: {check.fault(result, of)}")
-        seen_keys(schema, result, of, seen)
-        written.append(result)
-    keys = {(title, key) for title, of in objects(schema).items() for key in of["properties"]}
-    if missing := keys - seen:
-        raise ValueError(f"no result has this key: {min(missing)}")
-    examples = [json.loads(b.text) for b in blocks(text) if b.language == "json"]
+    page, wrong = documented(root, "check-results.md", "check-results", "result"), folder / "wrong"
+    wrong.mkdir()  # a reference folder in which one exact number is wrong
+    (wrong / "problems").symlink_to(root / "reference/problems")
+    table = (root / "reference/verification.toml").read_text()
+    (wrong / "verification.toml").write_text(table.replace('exact     = "-1/375"', 'exact     = "-1/374"', 1))
+    written = []
+    for name, status, *options in (("fuzz", 0, "--calls", 1000, "--problems", 0),
+                                   ("fuzz", 1, "--calls", 2000, "--shard", "2/3", "--kernels", f"fortran,cpp,plugin:{plugin}"),
+                                   ("verify", 0, "--reference", root / "reference"), ("verify", 1, "--reference", wrong)):
+        written.append(result_of(program, name, *options, "--quiet", status=status, cwd=folder))
+        page.add(options, written[-1], page.schema["$defs"][name])
+    page.need_every_key()
+    examples = [json.loads(b.text) for b in blocks(page.text) if b.language == "json"]
     fuzzed = {**written[0], "seconds": examples[0]["seconds"]}
     if not same(examples[0], fuzzed) or not any(same(examples[1], check) for check in written[2]["cases"][0]["checks"]):
         raise ValueError("an example of check-results.md is not what the program writes")
-    if len(keys) < LEAST_KEYS:
-        raise ValueError(f"found {len(keys)} keys; allowed: {LEAST_KEYS} or more")
-    return f"{len(keys)} keys compared"
+    if len(page.keys) < LEAST_KEYS:
+        raise ValueError(f"found {len(page.keys)} keys; allowed: {LEAST_KEYS} or more")
+    return f"{len(page.keys)} keys compared"
 
 
-def keys_in(value, found):
-    """Adds every key of a result to `found`, except the keys of loads, which contct run --json has too, and names."""
+def keys_in(value):
+    """Yields every key of a result, except the keys of loads, which contct run --json has too, and names."""
     for key, inner in value.items() if isinstance(value, dict) else ():
         if re.fullmatch(r"\w+", key):
-            found.add(key)
+            yield key
         if key != "load":
-            keys_in(inner, found)
+            yield from keys_in(inner)
     for entry in value if isinstance(value, list) else ():
-        keys_in(entry, found)
+        yield from keys_in(entry)
 
 
 def documented_keys(text):
@@ -100,59 +69,33 @@ def documented_keys(text):
     return shown | first | set(re.findall(r'"(\w+)"', braces))
 
 
-def plain_difference(documented, named, found):
-    """Returns the first difference in words, or None. `named`: names in backticks, which may document a key."""
-    if missing := found - documented - named:
-        return f"written, not documented: {min(missing)}"
-    if missing := documented - found:
-        return f"documented, not written: {min(missing)}"
-    return None
-
-
 def plainly(program, root, plugin, bench, folder):
     """Tests the results of exact, explain and contct_bench. Returns a summary; raises ValueError for an error."""
-    pb07 = root / "reference/problems/pb07-three-gap-supports.toml"
+    pb07, frame = root / "reference/problems/pb07-three-gap-supports.toml", root / "reference/structures/frame.toml"
     (folder / "free.toml").write_text(FREE)
-    of_case = (BEAM % (2.0, 2, 2.0)).replace("[[step]]", '[[case]]\nname = "G"')
-    (folder / "combined.toml").write_text(of_case + '[[combination]]\nname = "a"\nterms = { G = 1.0 }\n')
-    near_tie = root / "reference/problems/divergences/near-tie.toml"
+    (folder / "combined.toml").write_text(COMBINED)
+    contct = lambda command, *words, status=0: result_of(program, command, *words, "--quiet", status=status, cwd=folder)
     results = {
-        "exact.md": [["exact", pb07, "--kernels", "fortran,corrected"], ["exact", "free.toml", "--kernels", "fortran"],
-                     ["exact", root / "reference/structures/frame.toml"], ["exact", "combined.toml"]],
-        "explain-format.md": [["explain", pb07], ["explain", near_tie],
-                              ["explain", root / "reference/structures/frame.toml"],
-                              ["explain", pb07, "--kernels", f"fortran,plugin:{plugin}"]],
-        "speed.md": [["--problem", "rail-3", "--engine", "refactor,updated", "--rounds", "1"]]}
+        "exact.md": [contct("exact", pb07, "--kernels", "fortran,corrected"), contct("exact", "free.toml", "--kernels", "fortran", status=4),
+                     contct("exact", frame), contct("exact", "combined.toml")],
+        "explain-format.md": [contct("explain", pb07), contct("explain", root / "reference/problems/divergences/near-tie.toml"), contct("explain", frame),
+                              contct("explain", pb07, "--kernels", f"fortran,plugin:{plugin}", status=1)],
+        "speed.md": [result_of(bench, "--problem", "rail-3", "--engine", "refactor,updated", "--rounds", 1, cwd=folder)]}
     count = 0
-    for page, lines in results.items():
-        text, found = (root / "reference" / page).read_text(), set()
-        for arguments in lines:
-            status = 4 if "free.toml" in arguments else 1 if str(arguments[-1]).startswith("fortran,plugin") else 0
-            line = [bench, *arguments, *JSON[1:]] if page == "speed.md" else [program, *arguments, *JSON]
-            result = result_of(line, folder, status)
-            keys_in(result, found)
-        documented = documented_keys(text)
-        if page == "speed.md" and not result["peers"]:
-            documented -= OF_PEERS
-        named = set(re.findall(r"`(\w+)`", text))
-        if difference := plain_difference(documented, named, found):
-            raise ValueError(f"{page}: {difference}")
+    for page, written in results.items():
+        text, found = (root / "reference" / page).read_text(), {key for result in written for key in keys_in(result)}
+        keys = documented_keys(text) - (OF_PEERS if page == "speed.md" and not written[0]["peers"] else set())
+        if missing := found - keys - set(re.findall(r"`(\w+)`", text)):  # a name in backticks may document a key
+            raise ValueError(f"{page}: written, not documented: {min(missing)}")
+        if missing := keys - found:
+            raise ValueError(f"{page}: documented, not written: {min(missing)}")
         count += len(found)
     if count < LEAST_PLAIN:
         raise ValueError(f"found {count} keys of exact, explain and contct_bench; allowed: {LEAST_PLAIN} or more")
     return f"{count} keys of exact, explain and contct_bench"
 
 
-def main(program, root, plugin, bench):
-    program, root, plugin = str(Path(program).resolve()), Path(root).resolve(), Path(plugin).resolve()
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            print(with_schema(program, root, plugin, Path(folder)))
-            print(plainly(program, root, plugin, str(Path(bench).resolve()), Path(folder)))
-        except ValueError as wrong:
-            return str(wrong)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+program, root, plugin, bench = (Path(a).resolve() for a in sys.argv[1:])
+with tempfile.TemporaryDirectory() as scratch:
+    print(with_schema(program, root, plugin, Path(scratch)))
+    print(plainly(program, root, plugin, bench, Path(scratch)))

@@ -6,45 +6,10 @@ the schema have no row. A row states the condition under which a key is present,
 import json
 import math
 import re
-import subprocess
 
 import jsonschema
 
 from manual import key_tables
-
-
-class validator:
-    """Validates values by a schema. `others`: {file name: schema} of the files to which the schema refers."""
-    def __init__(self, schema, others=None):
-        store = {f"file:///{file}": other for file, other in (others or {}).items()}
-        resolver = jsonschema.RefResolver("file:///", schema, store=store)
-        self.known = jsonschema.Draft202012Validator(schema, resolver=resolver)
-
-    def fault(self, value, schema=None):
-        """Returns the first fault of a value with its place, or None. `schema`: the part of the schema that applies."""
-        wrong = next((self.known if schema is None else self.known.evolve(schema=schema)).iter_errors(value), None)
-        return wrong and f"{wrong.json_path}: {wrong.message[:300]}"
-
-
-def written_by(line, folder, status, file):
-    """Runs a command and returns the text of the file that it writes. Raises ValueError for another exit status."""
-    finished = subprocess.run([str(word) for word in line], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    if finished.returncode != status:
-        raise ValueError(f"{line}: found exit status {finished.returncode}, allowed: {status}\n{finished.stderr}")
-    return (folder / file).read_text()
-
-
-def result_of(line, folder, status):
-    return parsed(written_by(line, folder, status, "result.json"))
-
-
-def parsed(text):
-    return json.loads(text, parse_constant=lambda name: f"no JSON: {name}")
-
-
-def objects(schema):
-    """Returns {title: object} of the schema, which may include the schema itself."""
-    return {o["title"]: o for o in [schema, *schema["$defs"].values()] if "title" in o}
 
 
 def target(schema, wanted):
@@ -60,47 +25,58 @@ def is_null(wanted):
     return any(map(is_null, inner)) or "null" in wanted.get("type", "")
 
 
-def row_fault(of, key, row):
-    """Returns the difference between a row of the manual and the schema in words, or None."""
-    absent, meaning = row["key"].endswith("?"), row["meaning"]
-    if absent != (key not in of["required"]):
-        return "whether it may be absent"
-    if absent and ": " not in meaning:
-        return "no condition, with a colon, on which it is there"
-    if bool(re.search(r"\bnull\b", meaning)) != is_null(of["properties"][key]):
-        return "whether it may be null"
-    return None
+undescribed = lambda of: {key for key, wanted in of["properties"].items() if "description" not in wanted}
 
 
-def undescribed(of):
-    return {key for key, wanted in of["properties"].items() if "description" not in wanted}
+class documented:
+    """A page of reference/ with its schema, which must have the same keys. `others`: schemas to which the schema refers.
+    Raises ValueError for a difference."""
 
+    def __init__(self, root, page, schema, *others):
+        read = lambda name: json.loads((root / f"reference/{name}.schema.json").read_text())
+        self.text, self.schema, self.seen = (root / "reference" / page).read_text(), read(schema), set()
+        self.objects = {o["title"]: o for o in [self.schema, *self.schema["$defs"].values()] if "title" in o}
+        self.keys = {(title, key) for title, of in self.objects.items() for key in of["properties"]}
+        store = {f"file:///{name}.schema.json": read(name) for name in others}
+        self.known = jsonschema.Draft202012Validator(self.schema, resolver=jsonschema.RefResolver("file:///", self.schema, store=store))
+        tables = key_tables(self.text)
+        if different := (set(tables.rows) ^ {title for title, of in self.objects.items() if undescribed(of)}) - tables.shared():
+            raise ValueError(f"{page}: an object that only one of page and schema has: {min(different)}")
+        for title, of in self.objects.items():
+            rows = tables.keys(title) if title in tables.rows else {}
+            if different := set(rows) ^ undescribed(of):
+                raise ValueError(f"{page}: {title}: a key that only one of page and schema has: {min(different)}")
+            for wrong, what in ((of.get("additionalProperties") is not False, "the schema allows other keys"),
+                                *(fault for key, row in rows.items() for fault in self.faults_of_row(of, key, row))):
+                if wrong:
+                    raise ValueError(f"{page}: {title}: {what}")
 
-def first_difference(text, schema):
-    """Returns the first difference between the manual and the schema in words, or None."""
-    tables, known = key_tables(text), objects(schema)
-    if different := (set(tables.rows) ^ {title for title, of in known.items() if undescribed(of)}) - tables.shared():
-        return f"an object that only one of the two has: {min(different)}"
-    for title, of in known.items():
-        if of.get("additionalProperties") is not False:
-            return f"{title}: the schema allows other keys"
-        rows = tables.keys(title) if title in tables.rows else {}
-        if different := set(rows) ^ undescribed(of):
-            return f"{title}: a key that only one of the two has: {min(different)}"
-        for key, row in rows.items():
-            if wrong := row_fault(of, key, row):
-                return f"{title}: {key}: {wrong}"
-    return None
+    @staticmethod
+    def faults_of_row(of, key, row):
+        absent, meaning = row["key"].endswith("?"), row["meaning"]
+        return ((absent != (key not in of["required"]), f"{key}: whether it may be absent"),
+                (absent and ": " not in meaning, f"{key}: no condition, with a colon, on which it is there"),
+                (bool(re.search(r"\bnull\b", meaning)) != is_null(of["properties"][key]), f"{key}: whether it may be null"))
 
+    def add(self, where, result, of=None):
+        """Adds the keys of a result of the schema, and of the object `of` in the schema. Raises ValueError for an invalid one."""
+        of = of or self.schema
+        for known in [self.known] + ([self.known.evolve(schema=of)] if of is not self.schema else []):
+            for wrong in known.iter_errors(result):
+                raise ValueError(f"{where}: {wrong.json_path}: {wrong.message[:300]}")
+        self.see(result, of)
 
-def seen_keys(schema, value, of, seen):
-    """Adds (title of the object, key) to `seen` for every key in a valid value."""
-    for key, inner in value.items():
-        seen.add((of["title"], key))
-        to = target(schema, of["properties"][key])
-        for entry in inner if isinstance(inner, list) else [inner]:
-            if to is not None and entry is not None:
-                seen_keys(schema, entry, to, seen)
+    def see(self, value, of):
+        for key, inner in value.items():
+            self.seen.add((of["title"], key))
+            to = target(self.schema, of["properties"][key])
+            for entry in inner if isinstance(inner, list) else [inner]:
+                if to is not None and entry is not None:
+                    self.see(entry, to)
+
+    def need_every_key(self):
+        if missing := self.keys - self.seen:
+            raise ValueError(f"no result has this key: {min(missing)}")
 
 
 def same(shown, found):

@@ -1,5 +1,4 @@
 """Small problems of each kind, and lines of options that together have every option of contct run."""
-import re
 
 ENDS = '[[support]]\nx = [0, 4]\nfix = "w"\n'
 CLAMP = '[[support]]\nnode = 1\nfix = ["w", "theta"]\n'
@@ -51,6 +50,7 @@ KINDS = {
     "units": UNITS + PLAIN + ENDS + STOP + BED + EVEN,
     "mechanism": PLAIN + STOP + EVEN,
     "mechanisms of combinations": PLAIN + BED + SUMS,
+    "mechanism of the only combination": PLAIN + ENDS.replace("[0, 4]", "0") + BED + '[[case]]\nname = "Q"\nuniform = 2\n[[combination]]\nname = "1"\nterms = { Q = 1 }\n',
     "lifted off": PLAIN + ENDS.replace("[0, 4]", "0") + STOP.replace("-1e-4", "0") + EVEN + EVEN.replace("-", ""),
     "unloaded": PLAIN + ENDS + STOP + EVEN.replace("-2", "0"),
     "curvatures": PLAIN + ENDS + "[[step]]\ncurvature = [ { value = 1e-3, to = 3 }, { value = 2e-3 } ]\n",
@@ -78,9 +78,3 @@ def runs_of_kinds():
         for line in LINES:
             if not (of_dofs and "--refine" in line):  # a matrix has no elements to halve
                 yield text, ["1.2" if of_dofs and word == "1" else word for word in line]
-
-
-def missing_options(help_text):
-    """Returns the options in the help of contct run that no line has; --quiet and --json are in every run."""
-    named = set(re.findall(r"^ +(--[\w-]+)", help_text, re.M))
-    return named - {word for line in LINES for word in line} - {"--quiet", "--json", "--help"}

@@ -1,13 +1,12 @@
-"""Reads a manual page in Markdown: its sections, its tables of keys and its code blocks.
+"""Reads a manual page in Markdown: its sections and its tables of keys.
 
 In a table of keys the first column has the title "key". Its cells have keys in backticks, or a link such as
 [place](#places) to the section whose keys are allowed. A key followed by `?` may be absent. If there is a column
 "structure", it names the structures that have the key.
 """
 import re
-from dataclasses import dataclass
 
-FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.M | re.S)
+from testing import FENCE
 
 
 def sections(text):
@@ -18,9 +17,8 @@ def sections(text):
     return [(m.group(1), text[m.end():end]) for m, end in zip(starts, ends)]
 
 
-def anchor(heading):
-    """Returns the anchor of a heading: the part of a link after #."""
-    return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+# The part of a link after #.
+anchor = lambda heading: re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
 def rows(heading, body):
@@ -28,18 +26,14 @@ def rows(heading, body):
     heading of the section, and each row that begins with bold text is the next title."""
     header, title, found = None, heading, {}
     for line in FENCE.sub("", body).splitlines():
-        if not line.startswith("|"):
-            header = None
-            continue
-        cells = [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        if header is None:
+        cells = [cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line)[1:-1]] if line.startswith("|") else None
+        if cells is None or header is None:
             header = cells
+        elif header[0] == "key" and cells[0].startswith("**"):
+            title = cells[0].strip("*")
         elif header[0] == "key" and set(cells[0]) != {"-"}:
             if len(cells) != len(header):
                 raise ValueError(f"found {len(cells)} cells, allowed: {len(header)}: {line}")
-            if cells[0].startswith("**"):
-                title = cells[0].strip("*")
-                continue
             keys = re.findall(r"`[^`]+`\??", cells[0]) or cells[:1]
             found.setdefault(title, []).extend(dict(zip(header, [key, *cells[1:]])) for key in keys)
     return found
@@ -74,15 +68,3 @@ class key_tables:
             other = self.linked(row)
             found |= self.keys(other, structure) if other else {row["key"].strip("`?"): row}
         return found
-
-
-@dataclass
-class block:
-    """A code block: its language, its text, and the line of the page on which the block begins."""
-    language: str
-    text: str
-    line: int
-
-
-def blocks(text):
-    return [block(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 1) for m in FENCE.finditer(text)]

@@ -3,43 +3,28 @@ that its examples run.
 
 - Every table of a problem file gets an unknown key. The program's message lists the keys that are allowed in the table;
   the manual must document the same keys for the table and the structure.
-- Every example is read and solved. Every example of a refusal, also in refusals.md, is refused with the shown message.
+- Every key of every example gets a date, which no key allows. The program's message says what is allowed; the manual must
+  say the same. Without a key that the manual calls required, an example is refused.
+- Every example is read and solved. Every example of a refusal is refused with the shown message.
 """
+import json
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
-from manual import blocks, key_tables
-
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+import testing  # noqa: E402
+from manual import key_tables  # noqa: E402
 
 UNKNOWN = "zzzzzzzz"
-SECTIONS = 'section = [ { to = 2, E = 1, I = 1, %s } ]'
-PIECES = 'EI = [ { to = 1, value = 1 }, { to = 2, value = 1, %s } ]'
 BEAM = "[beam]\nlength = 2\nelements = 2\n%s\n"
 PLATE = "[plate]\nsize = [1, 1]\nelements = [1, 1]\nD = 1\nnu = 0\n"
 MATRIX = '[matrix]\nstiffness = "frame.mtx"\n'
 STRUCTURES = {"beam": BEAM % "EI = 1", "plate": PLATE, "matrix": MATRIX}
-# Sections of the page that have a table of keys: {section: (the structure that has these keys or None, problem file)}.
-# The test replaces %s by an unknown key.
-OWN_TABLES = {
-    "Top level": (None, "%s\n[beam]\n"),
-    "`[units]`": (None, "[units]\n%s\n[beam]\n"),
-    "`[beam]`": ("beam", "[beam]\n%s\n"),
-    "A piece of `EI`": ("beam", BEAM % PIECES),
-    "A piece of `section`": ("beam", BEAM % SECTIONS),
-    "`[[hinge]]`": ("beam", BEAM % "EI = 1" + "[[hinge]]\n%s\n"),
-    "`[plate]`": ("plate", "[plate]\n%s\n"),
-    "`[matrix]`": ("matrix", "[matrix]\n%s\n"),
-    "`[calculix]`": ("matrix", "[calculix]\n%s\n"),
-    "A `curvature`": ("beam", BEAM % "EI = 1" + "[[step]]\ncurvature = [ { %s } ]\n"),
-    "`[[combination]]`": ("beam", BEAM % "EI = 1" + "[[combination]]\n%s\n"),
-    "`[[train]]`": ("beam", BEAM % "EI = 1" + "[[train]]\n%s\n"),
-    "An axle": ("beam", BEAM % "EI = 1" + "[[train]]\nname = \"T\"\naxles = [ { %s } ]\n"),
-    "`face` of a `[[bed]]`": ("beam", BEAM % "EI = 1" + "[[bed]]\nmodulus = 1\nface = { %s }\n"),
-}
+# Tables of a problem file of any structure, with %s for a key, and their sections of the page. Examples have the others.
 STRUCTURES_TABLES = {
     "`[[support]]`": "[[support]]\n%s\n",
     "`spring` of a `[[support]]`": "[[support]]\nnode = 1\nspring = { %s }\n",
@@ -54,42 +39,48 @@ STRUCTURES_TABLES = {
 }
 NOT_WITH_A_MATRIX = {"`spring` of a `[[support]]`", "`[[bed]]`", "A part of `uniform`"}
 SHARED = {"Places", "Degrees of freedom"}  # the keys of these tables are keys of other tables
-LEAST_KEYS, LEAST_EXAMPLES, LEAST_REFUSALS = 150, 20, 12
+PARTS = {"EI": "A piece of `EI`", "section": "A piece of `section`", "spring": "`spring` of a `[[support]]`", "face": "`face` of a `[[bed]]`",
+         "uniform": "A part of `uniform`", "point": "A `point` load", "axles": "An axle"}
+# How a value begins in the manual: what a message says that is allowed.
+ALLOWED = {"number": " number", "> 0": " number", "at most": " number", "integer": "whole number", "list of integers": "list of whole numbers",
+           "list of tables": "array of at least one table", "tables": "array of at least one table", "list": "array of at least",
+           "2 numbers": "array of at least 2", "2 integers": "two whole numbers", "table": "a table", "text or": "a label", "label": "a label",
+           "text": "text", "dof or": "one of "}
+LEAST = 150, 130, 20, 1  # keys, values, examples, refusals
 
 
-def probes():
-    """Yields (section, structure, problem file) for every table of every structure."""
-    for heading, (structure, text) in OWN_TABLES.items():
-        yield heading, structure, text
-    for heading, text in STRUCTURES_TABLES.items():
+def probes(text):
+    """Yields (section, structure, problem file with an unknown key) for every table of every structure."""
+    for heading, table in STRUCTURES_TABLES.items():
         for structure, before in STRUCTURES.items():
             if structure != "matrix" or heading not in NOT_WITH_A_MATRIX:
-                yield heading, structure, before + text
+                yield heading, structure, (before + table) % f"{UNKNOWN} = 1"
+    for _, heading, structure, table, problem in example_tables(text):
+        table[UNKNOWN] = 1
+        if "section" not in heading:
+            yield heading, structure, problem()
+        del table[UNKNOWN]
+    yield "A piece of `section`", "beam", BEAM % f"section = [ {{ to = 2, E = 1, I = 1, {UNKNOWN} = 1 }} ]"
 
 
-class contct:
-    """Runs the program in a folder with the files that the examples name."""
+def contct(program, root):
+    """Returns a function that runs a command of the program on a text, in a folder with the files that the examples
+    name, and returns the exit status and the text of standard error."""
+    scratch = tempfile.TemporaryDirectory()
+    for file in [*(root / "reference/structures").iterdir(), *(root / "reference/structures/calculix").iterdir()]:
+        if file.is_file():
+            shutil.copy(file, scratch.name)
 
-    def __init__(self, program, root):
-        self.program = Path(program).resolve()
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = Path(self.scratch.name)
-        structures = root / "reference/structures"
-        for file in [*structures.iterdir(), *(structures / "calculix").iterdir()]:
-            if file.is_file():
-                shutil.copy(file, self.folder)
-
-    def __call__(self, command, text):
-        """Returns the exit status for a problem file with this text, and the text of standard error."""
-        (self.folder / "beam.toml").write_text(text)
-        finished = subprocess.run([self.program, command, "beam.toml", "--quiet"], cwd=self.folder, text=True,
-                                  stdin=subprocess.DEVNULL, capture_output=True)
-        return finished.returncode, finished.stderr
+    def ask(command, text):
+        Path(scratch.name, "beam.toml").write_text(text)
+        done = testing.run(Path(program).resolve(), command, "beam.toml", "--quiet", cwd=scratch.name)
+        return done.returncode, done.stderr
+    return ask
 
 
 def accepted_keys(run, text):
     """Returns the keys that the program allows at the place of the unknown key in `text`."""
-    status, said = run("check", text % f"{UNKNOWN} = 1")
+    status, said = run("check", text)
     listed = re.search(rf"{UNKNOWN}: found an unknown key; allowed: (.*)$", said, re.M)
     if status != 2 or not listed:
         raise ValueError(f"exit status {status}, found {said.strip()}; allowed: the refusal of {UNKNOWN} in\n{text}")
@@ -99,45 +90,30 @@ def accepted_keys(run, text):
 def first_difference(text, accepted):
     """Returns in words the first table whose documented keys are not the accepted keys, or None."""
     tables = key_tables(text)
-    unprobed = set(tables.rows) - {heading for heading, _ in accepted} - SHARED
-    if unprobed:
+    if unprobed := set(tables.rows) - {heading for heading, _ in accepted} - SHARED:
         return f"no table of a problem file is known for the section {min(unprobed)}"
     for (heading, structure), keys in accepted.items():
-        if heading not in tables.rows:
-            return f"{heading}: found no table of keys"
-        documented = set(tables.keys(heading, structure))
-        where = f"{heading}{f' of a {structure}' if structure else ''}"
-        if keys - documented:
-            return f"{where}: accepted, not documented: {min(keys - documented)}"
-        if documented - keys:
-            return f"{where}: documented, not accepted: {min(documented - keys)}"
+        documented = set(tables.keys(heading, structure)) if heading in tables.rows else set()
+        if keys != documented:
+            return f"{heading} of {structure}: accepted, not documented: {sorted(keys - documented)}; documented, not accepted: {sorted(documented - keys)}"
     return None
 
 
 def chunks(text):
     """Returns (name, text) of the tables of a TOML text; the text before the first table has an empty name."""
-    found = [("", [])]
-    for line in text.splitlines(keepends=True):
-        header = re.match(r"\[+([\w.]+)\]+", line)
-        if header:
-            found.append((header.group(1), []))
-        found[-1][1].append(line)
-    return [(name, "".join(lines)) for name, lines in found]
+    header = re.compile(r"\[+([\w.]+)\]+")
+    return [((header.match(part) or [0, ""])[1], part) for part in re.split(r"(?m)^(?=\[+[\w.]+\])", text)]
 
 
 def merged(whole, part):
     """Returns `whole` with the tables of `part`, which replace tables of the same names or are added at the end."""
-    new = {name for name, _ in chunks(part)} - {""}
-    out, placed = [], set()
-    own = {name: "".join(text if text.endswith("\n\n") else text + "\n" for other, text in chunks(part) if other == name)
-           for name in new}
-    for name, text in chunks(whole):
-        if name not in new:
-            out.append(text)
-        elif name not in placed:
-            out.append(own[name])
-            placed.add(name)
-    return "".join(out) + "\n" + "\n".join(own[name] for name in sorted(new - placed))
+    own = {}
+    for name, text in chunks(part):
+        if name:
+            own[name] = own.get(name, "") + (text if text.endswith("\n\n") else text + "\n")
+    new = set(own)
+    kept = "".join(own.pop(name, "") if name in new else text for name, text in chunks(whole))
+    return kept + "\n" + "\n".join(own[name] for name in sorted(own))
 
 
 def structure_of(text):
@@ -146,32 +122,24 @@ def structure_of(text):
 
 def examples(text):
     """Yields (line, problem file, message or None) for every example of the page."""
-    shown = blocks(text)
-    whole = {}
+    shown, whole = testing.blocks(text), {}
     for b in shown:
         if b.language == "toml" and structure_of(b.text) and "[[step]]" in b.text:
             whole.setdefault(structure_of(b.text), b.text)
     for b, behind in zip(shown, [*shown[1:], None]):
-        if b.language != "toml":
-            continue
-        is_whole = b.text in whole.values()
-        base = whole[structure_of(b.text) or "beam"]
-        if "[[case]]" in b.text:  # combinations replace the steps
-            base = "".join(text for name, text in chunks(base) if name != "step")
-        problem = b.text if is_whole else merged(base, b.text)
-        yield b.line, problem, behind.text if behind and behind.language == "text" else None
-
-
-def on_one_line(text):
-    """Returns the text in one line, since the page breaks long messages into lines."""
-    return " ".join(text.split())
+        if b.language == "toml":
+            base = whole[structure_of(b.text) or "beam"]
+            if "[[case]]" in b.text:  # combinations replace the steps
+                base = "".join(text for name, text in chunks(base) if name != "step")
+            problem = b.text if b.text in whole.values() else merged(base, b.text)
+            yield b.line, problem, behind.text if behind and behind.language == "text" else None
 
 
 def wrong_example(run, line, problem, message):
-    """Returns what is wrong with an example in words, or None."""
+    """Returns what is wrong with an example in words, or None. The page breaks long messages into lines."""
     status, said = run("check", problem)
     if message is not None:
-        if status != 2 or on_one_line(said) != on_one_line(message):
+        if status != 2 or said.split() != message.split():
             return f"line {line}: found exit status {status} and\n{said}allowed: exit status 2 and\n{message}"
         return None
     if status == 0 and not said:
@@ -183,27 +151,71 @@ def wrong_example(run, line, problem, message):
     return None
 
 
+def tables_in(value, name=""):
+    """Yields (name, table) for every table whose keys the manual documents."""
+    if isinstance(value, dict) and name != "terms":
+        yield name, value
+        for key, inner in value.items():
+            yield from tables_in(inner, key)
+    for inner in value if isinstance(value, list) else []:
+        yield from tables_in(inner, name)
+
+
+def is_allowed(value, allowed):
+    """Returns True if the program's message allows what the manual describes as the value of a key."""
+    said = re.findall("`([^`]+)`", value.partition(";")[0])
+    if not value.startswith("`"):
+        said = [ALLOWED[max(filter(value.startswith, ALLOWED), key=len, default="table")]]
+    return value.startswith("as in") or all(word in allowed for word in said) and ("> 0" in value) == ("greater than 0" in allowed)
+
+
+def example_tables(text):
+    """Yields (line, section, structure, table, problem) for every table of every example that is accepted; problem() returns
+    the example with the present contents of the table."""
+    documented = key_tables(text).rows
+    for line, whole, kind in ((line, tomllib.loads(problem), structure_of(problem)) for line, problem, message in examples(text) if not message):
+        def problem():
+            rows = (f"{name} = " + re.sub('("[^"]*"): ', r"\1 = ", json.dumps(value)) for name, value in whole.items())
+            return "\n".join(rows).replace('"DATE"', "1989-08-28")
+        for name, table in tables_in(whole):
+            forms = PARTS.get(name), f"`[{name}]`", f"`[[{name}]]`", f"A `{name}`"
+            yield line, next((form for form in forms if form in documented), "Top level"), kind.replace("calculix", "matrix"), table, problem
+
+
+def compared_values(run, text):
+    """Returns the number of values of examples that the manual describes as the program does. Raises ValueError for others."""
+    documented, seen = key_tables(text), set()
+    for line, heading, kind, table, problem in example_tables(text):
+        rows = documented.keys(heading, kind)
+        for key in [key for key in table if (heading, kind, key) not in seen]:
+            seen.add((heading, kind, key))
+            dof = "number > 0" if "spring" in heading else "number"
+            value = next((rows[key][column] for column in rows[key] if column.startswith("value")), dof)
+            right, table[key] = table[key], "DATE"
+            said = run("check", problem())[1].partition(f"{key}: found a date or time; allowed: ")[2].strip()
+            if not is_allowed(value, said):
+                raise ValueError(f"line {line}: {heading}: {key}: documented: {value}; the program allows: {said}")
+            del table[key]
+            if re.search(r"\brequired\b", value) and run("check", problem())[0] != 2:
+                raise ValueError(f"line {line}: {heading}: {key}: documented as required, but accepted without it")
+            table[key] = right
+    return len(seen)
+
+
 def main(program, root):
-    root = Path(root)
-    page = root / "reference/problem-file.md"
-    text = page.read_text()
-    run = contct(program, root)
-    accepted = {(heading, structure): accepted_keys(run, problem) for heading, structure, problem in probes()}
+    text = (Path(root) / "reference/problem-file.md").read_text()
+    run = contct(program, Path(root))
+    accepted = {(heading, structure): accepted_keys(run, problem) for heading, structure, problem in probes(text)}
     if difference := first_difference(text, accepted):
         return difference
-    compared = sum(map(len, accepted.values()))
-    if compared < LEAST_KEYS:
-        return f"found {compared} keys to compare, allowed: {LEAST_KEYS} or more"
-    shown = list(examples(text + (Path(__file__).parent / "refusals.md").read_text()))
-    for example in shown:
-        if wrong := wrong_example(run, *example):
-            return wrong
-    good = [problem for _, problem, message in shown if message is None]
-    if len(good) < LEAST_EXAMPLES or len(shown) - len(good) < LEAST_REFUSALS:
-        return (f"found {len(good)} examples and {len(shown) - len(good)} refusals, "
-                f"allowed: {LEAST_EXAMPLES} and {LEAST_REFUSALS} or more")
-    print(f"{len(accepted)} tables, {compared} keys compared; {len(good)} examples run, "
-          f"{len(shown) - len(good)} refusals compared")
+    shown = list(examples(text))
+    if wrong := next(filter(None, (wrong_example(run, *example) for example in shown)), None):
+        return wrong
+    good = sum(message is None for *_, message in shown)
+    found = sum(map(len, accepted.values())), compared_values(run, text), good, len(shown) - good
+    if any(number < least for number, least in zip(found, LEAST)):
+        return f"found {found} keys, values, examples and refusals; allowed: {LEAST} or more"
+    print(f"{len(accepted)} tables, {found[0]} keys and {found[1]} values compared; {found[2]} examples run, {found[3]} refusals compared")
     return 0
 
 

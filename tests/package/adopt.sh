@@ -16,19 +16,6 @@ log=$work/log
 root=$work/bare
 trap 'remove_root; rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
-quietly() { "$@" >"$log" 2>&1 || { tail -n 30 "$log"; fail "$*: failed"; }; }
-
-# ends STATUS WORDS COMMAND..: checks that the command has this exit status, and WORDS in its output.
-ends() {
-  status=$1
-  words=$2
-  shift 2
-  "$@" >"$log" 2>&1
-  found=$?
-  [ $found = "$status" ] || { tail -n 20 "$log"; fail "$*: found exit status $found, allowed: $status"; }
-  grep -qF -e "$words" "$log" || { tail -n 20 "$log"; fail "$*: the output has no \"$words\""; }
-}
-
 echo "-- the static program"
 program=build/static/contct-replay
 quietly cmake --workflow --preset static
@@ -43,12 +30,11 @@ readelf -lW $program >"$log" || exit 1
 ends 0 "50 passed, 0 failed" $program --kernel fortran,cpp,fortran-r4,cpp-r4 reference/traces/*.trace
 echo "the static program has $size bytes, the same bytes if it is built in another folder"
 
-began=$(date +%s)
 for language in c fortran python; do
   quietly python3 tests/vectors/consumers.py . $language "" $program
-  [ "$(grep -c "{'vectors': '1, [0-9.]* s', 'static replay': '1, [0-9.]* s'}" "$log")" = 12 ] || { cat "$log"; fail "$language: not all of the twelve faults are found"; }
+  [ "$(grep -c "{'vectors': 1, 'static replay': 1}" "$log")" = 12 ] || { cat "$log"; fail "$language: not all of the twelve faults are found"; }
 done
-echo "the static program and the vectors find twelve faults each in C, Fortran and Python, in $(($(date +%s) - began)) s"
+echo "the static program and the vectors find twelve faults each in C, Fortran and Python"
 
 echo "-- in an empty root folder"
 empty=$work/empty
@@ -63,24 +49,20 @@ traces=$(cd reference/traces && ls ./*.trace)
 # shellcheck disable=SC2086 # traces are words
 {
   ends 0 "15 passed, 0 failed, 10 skipped" chroot "$empty" ./contct-replay --kernel pipe:./good $traces
-  began=$(date +%s%N)
   ends 1 "IF (ABS(GAP).LT.EPSGAP)" chroot "$empty" ./contct-replay --kernel pipe:./bad $traces
-  seconds=$(($(date +%s%N) - began))
   ends 2 "a static program cannot load a shared library" chroot "$empty" ./contct-replay --kernel plugin:./good ./ties.trace
 }
-echo "a kernel that is CONTCT passes; a fault is found, and its IF named, in $((seconds / 1000000)) ms"
+echo "a kernel that is CONTCT passes; a fault is found, and its IF named"
 
 echo "-- in a bare Debian"
 make_bare "build/bare-$(value VERSION_CODENAME).tar"
 mkdir "$root/project" "$root/job" && cp -r reference cpp "$root/project" && cp $program "$root/usr/bin/" || exit 1
-began=$(date +%s)
 quietly in_bare sh -c "$(sed -n 's/^RUN //p' reference/adopt/Dockerfile)"
-installed=$(date +%s)
 cp "$work/bad.c" "$root/job/mine.c" || exit 1
 ends 1 "223 calls, 10 differ" in_bare sh /project/reference/adopt/judge.sh /job/mine.c
 quietly in_bare cc -O2 -ffp-contract=off -I /project/cpp -o /job/mine /project/reference/adopt/pipe_main.c /job/mine.c -lm
 ends 1 "IF (ABS(GAP).LT.EPSGAP)" in_bare sh -c "contct-replay --kernel pipe:/job/mine /project/reference/traces/*.trace"
-echo "a fault is found twice, and its IF named, in $(($(date +%s) - installed)) s, after $((installed - began)) s to install a compiler"
+echo "a fault is found twice, and its IF named"
 
 echo "-- the jobs of reference/adopt, line by line in the bare Debian"
 quietly in_bare sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends git'

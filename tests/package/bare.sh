@@ -11,8 +11,8 @@ if [ "${CONTCT_NAMESPACE:-}" != own ] && [ "$(id -u)" = 0 ]; then
 fi
 sources=/etc/apt/sources.list.d/debian.sources
 
+. "$(dirname "$0")/said.sh"
 skip() { echo "$title: SKIPPED: $1"; exit 77; }
-fail() { echo "$title: $1" >&2; exit 1; }
 # value NAME: prints a value of /etc/os-release.
 value() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}$/\1/p" /etc/os-release; }
 can_be_bare() {

@@ -21,18 +21,19 @@ trap 'exit 1' HUP INT TERM
 if [ $# = 0 ]; then
   given=$PWD/build/package
   rm -rf "$given"
-  cmake --workflow --preset package >"$log" 2>&1
+  quietly cmake --workflow --preset package
 else
   rm -f "$given"/*.deb
-  { cmake --build "$given" && (cd "$given" && cpack -G DEB); } >"$log" 2>&1
-fi || { tail -n 40 "$log"; fail "the packages cannot be made"; }
+  quietly cmake --build "$given"
+  quietly env -C "$given" cpack -G DEB
+fi
 set -- "$given"/*.deb
 [ $# = 3 ] || fail "found $# packages in $given, allowed: 3"
 work=$given/bare
 mkdir -p "$work/again" || exit 1
 
 echo "-- packed again, the packages are the same to the byte"
-(cd "$given" && cpack -G DEB -B "$work/again" >"$log" 2>&1) || { cat "$log"; fail "the packages cannot be packed again"; }
+quietly env -C "$given" cpack -G DEB -B "$work/again"
 for package in "$@"; do cmp "$package" "$work/again/$(basename "$package")" || fail "$package differs when it is packed again"; done
 installed=$work/installed
 rm -rf "$installed"

@@ -3,13 +3,13 @@
 set -eu
 cd /given
 export CMAKE=cmake GENERATOR=Ninja
-fail() { echo "$1" >&2; exit 1; }
+log=/tmp/said
+. tests/said.sh
 # files FILE: writes the names of all files except those of apt and of the dynamic loader.
 files() {
   find / -xdev \( -path /proc -o -path /dev -o -path /sys -o -path /tmp -o -path /given -o -path /var/cache -o \
     -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort >"$1"
 }
-quietly() { "$@" >/tmp/said 2>&1 || { cat /tmp/said; fail "$*: failed"; }; }
 install() { quietly apt-get install -y --no-install-recommends "$@"; }
 # remove PACKAGE..: removes packages and their dependencies. No new file may remain.
 remove() {
@@ -19,13 +19,7 @@ remove() {
   diff /tmp/before /tmp/after || fail "$*: files are left behind (>) or missing (<), above"
   echo "-- $*: removed; the $(wc -l </tmp/after) names of files are the same as before"
 }
-# says WORDS COMMAND..: checks that a line of the command's output contains WORDS.
-says() {
-  words=$1
-  shift
-  said=$("$@" 2>&1) || { echo "$said"; fail "$*: failed"; }
-  echo "$said" | grep -qF -e "$words" || { echo "$said"; fail "$*: the output has no \"$words\""; }
-}
+says() { ends 0 "$@"; }
 quietly apt-get update
 quietly apt-get install -y ca-certificates
 problems=/usr/share/contct/reference/problems
@@ -64,21 +58,21 @@ files /tmp/before
 install ./libcontct-dev_*.deb
 count=0
 for program in c cxx problem; do
-  quietly sh tests/consume.sh /given/tests/$program /tmp/$program /usr
+  quietly sh tests/package.sh consume $program /tmp/$program /usr
   rm -r /tmp/$program
   count=$((count + 1))
 done
 cd /tmp
-quietly sh -c 'cc /given/tests/c/mine.c $(pkg-config --cflags --libs contct)'
+quietly sh -c 'cc /given/tests/mine.c $(pkg-config --cflags --libs contct)'
 says "facts, 0 wrong" ./a.out
-quietly sh -c 'g++ -std=c++20 /given/tests/cxx/mine.cpp $(pkg-config --cflags --libs contct-cxx)'
+quietly sh -c 'g++ -std=c++20 /given/tests/mine.cpp $(pkg-config --cflags --libs contct-cxx)'
 says "facts, 0 wrong" ./a.out
 rm a.out
 cd /given
 echo "-- libcontct-dev: $count programs find it by CMake, 2 by pkg-config"
 
 install gfortran
-quietly sh tests/consume.sh /given/tests/fortran /tmp/fortran /usr
+quietly sh tests/package.sh consume fortran /tmp/fortran /usr
 rm -r /tmp/fortran
 echo "-- libcontct-dev: a program in Fortran finds its module"
 remove libcontct-dev gfortran

@@ -9,17 +9,18 @@ given=$(cd "${1:-build/release}" && pwd) || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
-fail() { echo "same binaries: $1" >&2; exit 1; }
+title="same binaries"
+log=$work/log
+. tests/package/said.sh
 
 copy=$work/a/deeper/copy
 mkdir -p "$copy" && cp -r CMakeLists.txt CMakePresets.json cpp fortran reference "$copy/" || exit 1
 made=$work/b
 targets="contct contct-replay contct_shared"
 [ ! -f "$given/contct_petsc.so" ] || targets="$targets contct_petsc"
-(cd "$copy" && cmake --preset release -B "$made" -DCONTCT_BUILD_TESTS=OFF) >"$work/log" 2>&1 ||
-  { tail -n 30 "$work/log"; fail "the copy cannot be configured"; }
+quietly env -C "$copy" cmake --preset release -B "$made" -DCONTCT_BUILD_TESTS=OFF
 # shellcheck disable=SC2086 # targets are words
-cmake --build "$made" --target $targets >"$work/log" 2>&1 || { tail -n 30 "$work/log"; fail "the copy does not build"; }
+quietly cmake --build "$made" --target $targets
 
 count=0
 for file in "$given/contct" "$given/contct-replay" "$given"/libcontct.so.*.*.* "$given/contct_petsc.so"; do

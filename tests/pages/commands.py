@@ -15,13 +15,13 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "course"))
-from page import FENCE, difference, place  # noqa: E402
+from page import difference, place  # noqa: E402
+from testing import FENCE, PB07, blocks  # noqa: E402
 
 PROGRAM = r"(?:[\w./]*/)?contct(?:[_-]\w+)?"
 BEGINS = re.compile(rf"(?:{PROGRAM}|sh|python3|cmake|cc|g\+\+|gfortran|ccx|export|mkdir|git)\s")
 INSTALLS = re.compile(r"sh contct/cpp/run\.sh|apt-get |git clone ")
 READS_A_FILE = ("run", "check", "explain", "exact", "replay")
-PB07 = "reference/problems/pb07-three-gap-supports.toml"
 NAMES = {"FILE": PB07, "F": "f.out", "K.mtx": "frame.mtx", "RESULT.json": "result.json", "COMMAND": "run", "fortran,NAME": "fortran,cpp"}
 
 
@@ -46,39 +46,20 @@ def job_commands(text):
 
 def commands_of(text):
     """Returns (line, command, lines shown as its output or None) in the order of the page."""
-    found, blocks = [], list(FENCE.finditer(text))
-    for number, block in enumerate(blocks):
-        if block.group(1) == "yaml":
-            found += [(text.count("\n", 0, block.start()) + 1, command, None) for command in job_commands(block.group(2))]
-        if block.group(1) != "sh":
-            continue
-        following = blocks[number + 1] if number + 1 < len(blocks) else None
-        line = text.count("\n", 0, block.start()) + 2
-        if following and following.group(1) == "text" and not text[block.end():following.start()].strip():
-            found.append((line, block.group(2).strip(), following.group(2).splitlines()))
-            continue
-        found += [(line, re.sub(r"\s+#.*", "", part), None) for part in block.group(2).replace("\\\n", " ").splitlines()]
+    found, all_of = [], blocks(text)
+    for block, following in zip(all_of, [*all_of[1:], None]):
+        if block.language == "yaml":
+            found += [(block.line, command, None) for command in job_commands(block.text)]
+        elif block.language == "sh" and block.is_followed and following.language == "text":
+            found.append((block.line + 1, block.text.strip(), tuple(following.text.splitlines())))
+        elif block.language == "sh":
+            found += [(block.line + 1, re.sub(r"\s+#.*", "", part), None) for part in block.text.replace("\\\n", " ").splitlines()]
     prose = FENCE.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)
     for m in re.finditer(r"^    (\S.*)$|`([^`]+)`", prose, re.M):
         command = re.sub(r"\s{4,}.*", "", m[1]) if m[1] else " ".join(m[2].split())
         if BEGINS.match(command) and (m[1] or not is_mention(command)):
             found.append((text.count("\n", 0, m.start()) + 1, command, None))
-    return sorted(dict.fromkeys((line, command, tuple(shown) if shown else None) for line, command, shown in found),
-                  key=lambda entry: entry[0])
-
-
-def reasons(path):
-    """Returns {(page, command): reason} of the file NOT_RUN."""
-    rows = [re.fullmatch(r"(\S+): (.*) -> (.*)", line) for line in path.read_text().splitlines() if line and line[0] != "#"]
-    return {(row[1], row[2]): row[3] for row in rows}
-
-
-def as_run(command):
-    """Returns the command with names such as FILE replaced by files."""
-    words = [NAMES.get(word, word) for word in command.split(" ")]
-    if words[:2] == ["contct", "new"]:
-        words = [word.replace(PB07, "new.toml") for word in words]
-    return " ".join(words)
+    return sorted(dict.fromkeys(found), key=lambda entry: entry[0])
 
 
 class work_place(place):
@@ -102,38 +83,29 @@ class work_place(place):
 
 def wrong_in(here, command, shown, allowed):
     """Returns what is wrong with a command in words, or None."""
-    lines, status = here.run(as_run(command))
+    words = [NAMES.get(word, word) for word in command.split(" ")]
+    lines, status = here.run(" ".join(word.replace(PB07, "new.toml") if words[:2] == ["contct", "new"] else word for word in words))
     if status != allowed:
         return f"found exit status {status}, allowed: {allowed}\n" + "\n".join(lines[-5:])
     return difference(shown, lines) if shown else None
 
 
-def main(root, programs, not_run, least):
-    root, programs = Path(root).resolve(), Path(programs).resolve()
-    excused, used, ran = reasons(Path(not_run)), set(), 0
-    pages = [root / "README.md", *sorted((root / "reference").rglob("*.md"))]
-    jobs = [*(root / "reference/adopt").glob("*.git???.yml")]
-    for page in (page for page in pages + jobs if page.parent.name != "course"):
-        here, name = work_place(root, programs), str(page.resolve().relative_to(root))
-        text = page.read_text()
-        for line, command, shown in commands_of(text if page.suffix == ".md" else f"```yaml\n{text}```\n"):
-            reason = excused.get((name, command), "")
-            again = (name, command) in used
-            used.add((name, command))
-            ends = re.match(r"exit (\d): ", reason)
-            if again or (reason and not ends):
-                continue
+root, programs, not_run, least = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), Path(sys.argv[3]), int(sys.argv[4])
+rows = [re.fullmatch(r"(\S+): (.*) -> (.*)", line) for line in not_run.read_text().splitlines() if line and line[0] != "#"]
+excused, used, ran = {(row[1], row[2]): row[3] for row in rows}, set(), 0
+pages = [root / "README.md", *sorted((root / "reference").rglob("*.md")), *(root / "reference/adopt").glob("*.git???.yml")]
+for page in (page for page in pages if page.parent.name != "course"):
+    here, name, text = work_place(root, programs), str(page.resolve().relative_to(root)), page.read_text()
+    for line, command, shown in commands_of(text if page.suffix == ".md" else f"```yaml\n{text}```\n"):
+        reason = excused.get((name, command), "")
+        ends = re.match(r"exit (\d): ", reason)
+        if (name, command) not in used and (ends or not reason):
             print(f"{name}:{line}: {command}", flush=True)
             if wrong := wrong_in(here, command, shown, int(ends[1]) if ends else 0):
-                return f"{name}:{line}: {command}: {wrong}"
+                sys.exit(f"{name}:{line}: {command}: {wrong}")
             ran += 1
-    if unused := sorted(excused.keys() - used):
-        return f"{not_run}: found {': '.join(unused[0])}; allowed: a command that this page shows"
-    if ran < int(least):
-        return f"found {ran} commands, allowed: {least} or more"
-    print(f"{ran} commands ran; {len(excused)} are not run, or end with another exit status than 0, for a reason")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+        used.add((name, command))
+if unused := sorted(excused.keys() - used):
+    sys.exit(f"{not_run}: found {': '.join(unused[0])}; allowed: a command that this page shows")
+print(f"{ran} commands ran; {len(excused)} are not run, or end with another exit status than 0, for a reason")
+sys.exit(0 if ran >= least else f"found {ran} commands, allowed: {least} or more")

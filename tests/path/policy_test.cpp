@@ -1,194 +1,101 @@
-// Tests the driver's policy for rules other than the 1989 rule.
+// Tests the driver's policy for rules other than the 1989 rule. paths_test.cpp has more paths of free beams.
 #include "contct/path/policy.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <utility>
 
 #include "catch.hpp"
 #include "contct/kernel/contct.hpp"
-#include "support/beams.hpp"
+#include "support/judged_run.hpp"
 #include "support/made_kernel.hpp"
 
 using namespace contct;
 
 namespace {
 
-/// Returns a free beam above stops at its ends, at distances of 0.1 and 0.3.
-beam_problem beam_above_stops() {
-  return {even_beam(4.0, 4, 1e3),
-          {},
-          {{0, face_below, -0.1, 50.0, false}, {4, face_below, -0.3, 50.0, false}},
-          {tip_load(3, -8.0)}};
+beam_problem beam_on_stops() {
+  return beam_above_stops({tip_load(3, -8.0)});
 }
 
-std::vector<bool> snaps_of(const recorder& r) {
-  std::vector<bool> snaps;
-  for (const auto& i : r.increments) snaps.push_back(i.snaps);
-  return snaps;
+/// Returns a cantilever with a stop at its tip, and a pair in its middle that every load presses.
+beam_problem cantilever_on_two() {
+  return cantilever({{1, face_below, 0.0, 5e4, true}, {2, face_below, -1e-4, 5e4, false}},
+                    {tip_load(2, -10), tip_load(2, -60)});
 }
 
-/// Returns a made-up final state of beam_above_stops, so wrong that no solve can give it.
-full_load_state made_up_rest() {
-  return {std::vector<double>(10, -7.0), {in_contact, in_contact}, {}, true};
+/// Returns a kernel that toggles both pairs in turn without progress and without end.
+made_kernel endless(contact_rule rule = contact_rule::corrected) {
+  return made_kernel(
+      [calls = 0](call<double>& c) mutable {
+        c.smin = 0.0;
+        c.isep[calls++ % 2] *= -1;
+      },
+      rule);
+}
+
+void check_equal_end(const recorder::seen_step& a, const recorder::seen_step& b) {
+  CHECK(a.isep == b.isep);
+  for (std::size_t dof = 0; dof < b.u.size(); ++dof)
+    CHECK(a.u[dof] == Approx(b.u[dof]).epsilon(1e-12).margin(1e-18));
 }
 
 }  // namespace
 
-TEST_CASE("a free beam above its stops moves as a rigid body at constant load until it lies on the stops") {
-  const beam_problem p = beam_above_stops();
-  recorder r;
-  const path_end end = p.run("corrected", {&r});
-  CHECK(end.status == path_status::solved);
-  REQUIRE(r.increments.size() == 3);
-  CHECK(snaps_of(r) == std::vector<bool>{true, true, false});
-  CHECK(r.increments[0].fraction == 0.0);
-  CHECK(r.increments[1].fraction == 0.0);
-  CHECK(r.increments[2].fraction == 1.0);
-  // The load of 8 at x = 3 acts on the right half, so the right end falls faster: the ends move by 1/2 and
-  // 3/2 of the middle.
-  CHECK(r.events() == std::vector<event>{{1, change::make}, {0, change::make}});
-  REQUIRE(r.steps.size() == 1);
-  CHECK(r.steps[0].u[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-12));
-  CHECK(r.steps[0].u[8] == Approx(-0.3 - 6.0 / 50).epsilon(1e-12));
-  CHECK_FALSE(r.steps[0].from_fallback);
-}
-
-TEST_CASE("if the load reverses, a free beam moves from the stops below to the stops above, and back") {
-  beam_problem p = beam_above_stops();
+TEST_CASE("a free beam moves as a rigid body at constant load between stops below and above") {
+  beam_problem p = beam_on_stops();
   p.pairs.push_back({0, face_above, 0.2, 50.0, false});
   p.pairs.push_back({4, face_above, 0.2, 50.0, false});
   p.steps = {tip_load(3, -8.0), tip_load(1, 8.0), tip_load(3, -8.0)};
-  recorder r;
-  CHECK(p.run("corrected", {&r}).status == path_status::solved);
+  const auto [end, r] = path_of(p, "corrected");
+  CHECK(end.status == path_status::solved);
   REQUIRE(r.steps.size() == 3);
-  CHECK(r.steps[1].u[0] == Approx(0.2 + 6.0 / 50).epsilon(1e-12));
-  CHECK(r.steps[1].u[8] == Approx(0.2 + 2.0 / 50).epsilon(1e-12));
   CHECK(r.steps[1].isep == std::vector<int>{separated, separated, in_contact, in_contact});
-  CHECK(r.steps[2].u[0] == Approx(-0.1 - 2.0 / 50).epsilon(1e-12));
-  CHECK(r.steps[2].u[8] == Approx(-0.3 - 6.0 / 50).epsilon(1e-12));
-  // In each step, the load does not increase between the separation from one side and the contact with the
-  // other.
-  for (std::size_t i = 1; i < r.increments.size(); ++i) {
-    if (r.increments[i].snaps && r.increments[i].number > 1)
+  for (const auto& [step, left, right] : {std::tuple(0, -0.1 - 2.0 / 50, -0.3 - 6.0 / 50),
+                                          {1, 0.2 + 6.0 / 50, 0.2 + 2.0 / 50},
+                                          {2, -0.1 - 2.0 / 50, -0.3 - 6.0 / 50}}) {
+    CHECK(r.steps[step].u[0] == Approx(left).epsilon(1e-12));
+    CHECK(r.steps[step].u[8] == Approx(right).epsilon(1e-12));
+    CHECK(r.steps[step].from == origin::path);
+  }
+  std::vector<bool> snaps;
+  for (std::size_t i = 0; i < r.increments.size(); ++i) {
+    snaps.push_back(r.increments[i].snaps);
+    // The load does not increase between the separation from one side and the contact with the other.
+    if (snaps[i] && r.increments[i].number > 1)
       CHECK(r.increments[i].fraction == r.increments[i - 1].fraction);
   }
-  const std::vector<bool> snaps = snaps_of(r);
-  CHECK(std::count(snaps.begin(), snaps.end(), true) >= 4);
+  CHECK(std::vector(snaps.begin(), snaps.begin() + 3) == std::vector{true, true, false});
+  CHECK(std::count(snaps.begin(), snaps.end(), true) >= 6);
 }
 
-TEST_CASE("a beam that balances on one pair is in equilibrium, and bends over the pair") {
+TEST_CASE("a beam balances on a pair and bends over it, and K with this spring has a condition number") {
   // Both halves are cantilevers under q = 2, whose tips deflect by q l^4 / 8 EI.
-  beam_problem p{
-      even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
-  p.steps = {{{}, {{{-2.0}, {}}}}};
-  recorder r;
-  CHECK(p.run("corrected", {&r}).status == path_status::solved);
-  REQUIRE(r.steps.size() == 1);
-  const double middle = -0.1 - 8.0 / 50;
-  const double droop = 2.0 * 16 / 8 / 1e3;
-  CHECK(r.steps[0].u[4] == Approx(middle).epsilon(1e-12));
-  CHECK((r.steps[0].u[0] + r.steps[0].u[8]) / 2 == Approx(middle - droop).epsilon(1e-12));
-  CHECK(r.steps[0].isep == std::vector<int>{in_contact, separated});
-  CHECK(r.steps[0].rcond > 0.0);  // K with the pair's spring
+  const auto r = path_of(balanced_beam({uniform(-2)}), "corrected");
+  REQUIRE(r.seen.steps.size() == 1);
+  CHECK(r.seen.steps[0].rcond > 0.0);
+  const std::vector<double>& u = r.seen.steps[0].u;
+  CHECK((u[0] + u[8]) / 2 == Approx(u[4] - 2.0 * 16 / 8 / 1e3).epsilon(1e-12));
 }
 
-TEST_CASE("the path of a beam that balances on its only pair ends early, although an equilibrium exists") {
-  beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, 0.0, 50.0, true}}, {}};
-  p.steps = {{{}, {{{-2.0}, {}}}}};
-  const path_end end = p.run("corrected", {});
-  CHECK(end.status == path_status::path_ended);
-  CHECK(end.has_equilibrium == true);
-}
-
-TEST_CASE(
-    "a beam that falls on its only pair and then rotates without limit ends in a mechanism at this contact") {
-  beam_problem p{even_beam(2.0, 2, 1e3), {}, {{1, face_below, -0.5, 1e4, false}}, {}};
-  p.steps = {tip_load(2, -1.0)};
-  recorder r;
-  const path_end end = p.run("corrected", {&r});
-  CHECK(end.status == path_status::mechanism);
-  CHECK(end.has_equilibrium == false);
-  REQUIRE(r.steps.size() == 1);
-  CHECK(r.steps[0].isep == std::vector<int>{in_contact});
-  CHECK(r.steps[0].u[2] == -0.5);
-  CHECK(r.steps[0].u[0] == Approx(0.0).margin(1e-15));
-  CHECK(r.steps[0].u[4] == Approx(-1.0).epsilon(1e-15));
-}
-
-TEST_CASE("if a beam is lifted off its stops, the last state is reported with the share of the separation") {
-  beam_problem p = beam_above_stops();
-  p.steps = {tip_load(2, -8.0), tip_load(2, 8.0)};
-  recorder r;
-  const path_end end = p.run("corrected", {&r});
-  CHECK(end.status == path_status::mechanism);
-  CHECK(end.step == 2);
-  CHECK(end.fraction == Approx(0.5).epsilon(1e-12));
-  CHECK_FALSE(end.pairs.empty());
-  REQUIRE(r.steps.size() == 2);
-  CHECK(r.steps[1].fraction == end.fraction);
-  CHECK(r.steps[1].u[0] == Approx(-0.1).epsilon(1e-12));
-  CHECK(r.steps[1].u[8] == Approx(-0.3).epsilon(1e-12));
-}
-
-TEST_CASE("if a balanced beam is lifted off its pair, the path ends in the state at the separation") {
-  beam_problem p{
-      even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}, {0, face_below, -9, 1e3, false}}, {}};
-  p.steps = {{{}, {{{-2.0}, {}}}}, {{}, {{{2.0}, {}}}}};
-  recorder r;
-  const path_end end = p.run("corrected", {&r});
-  CHECK(end.status == path_status::mechanism);
-  CHECK(end.step == 2);
-  CHECK(end.fraction == Approx(0.5).epsilon(1e-10));
-  REQUIRE(r.steps.size() == 2);
-  CHECK(r.steps[1].fraction == end.fraction);
-  CHECK(r.steps[1].u[4] == Approx(-0.1).epsilon(1e-10));
-}
-
-TEST_CASE("a free beam is a mechanism at share 0 if the load drives it away from its stops") {
-  beam_problem p = beam_above_stops();
-  p.steps = {tip_load(2, 8.0)};
-  recorder r;
-  const path_end end = p.run("corrected", {&r});
-  CHECK(end.status == path_status::mechanism);
-  CHECK(end.fraction == 0.0);
-  REQUIRE(r.steps.size() == 1);
-  CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
-}
-
-TEST_CASE("by the 1989 rule, the path of a free beam above its stops ends at the start") {
+TEST_CASE("by the 1989 rule, the path of a free beam above its stops ends at the start, without a fallback") {
   for (const char* name : {"fortran", "cpp"}) {
-    bool asked = false;
-    const path_limits limits{0, [&](int, const full_load_state*) {
-                               asked = true;
-                               return found_end{made_up_rest(), true};
-                             }};
-    recorder r;
-    const path_end end = beam_above_stops().run(name, {&r}, limits);
-    CHECK(end.status == path_status::path_ended);
-    CHECK(end.has_equilibrium == true);
-    CHECK(end.fraction == 0.0);
-    CHECK(end.pairs.empty());
-    CHECK(r.increments.empty());
-    CHECK_FALSE(asked);
+    const judged_run r(beam_on_stops().as_problem(), name);
+    CHECK(r.end.status == path_status::path_ended);
+    CHECK(r.end.has_equilibrium == true);
+    CHECK(r.end.fraction == 0.0);
+    CHECK(r.end.pairs.empty());
+    CHECK(r.seen.increments.empty());
     REQUIRE(r.steps.size() == 1);
-    CHECK_FALSE(r.steps[0].from_fallback);
-    CHECK(r.steps[0].u == std::vector<double>(10, 0.0));
+    CHECK(r.steps[0].from == origin::path);
+    CHECK_FALSE(r.steps[0].judged);
+    CHECK(r.u(1) == std::vector<double>(10, 0.0));
   }
 }
 
-namespace {
-
-/// Toggles pair 0 without progress of the load in each call in which the response of pair 0 is not 0, and
-/// otherwise follows the corrected rule. Counts both kinds of calls.
-struct restless_first_pair {
-  int toggles = 0;
-  int quiet = 0;
-  void operator()(call<double>& c) {
-    const auto dof = static_cast<std::size_t>(c.dof.dof_of(c.id[0]) - 1);
-    if (c.dtest[dof] == 0.0) {
+TEST_CASE("a pair that toggles twice without progress stays in contact until the load increases") {
+  // Toggles pair 0 without progress whenever its response is not 0, and otherwise follows the corrected rule.
+  int toggles = 0, quiet = 0;
+  made_kernel k([&](call<double>& c) {
+    if (c.dtest[static_cast<std::size_t>(c.dof.dof_of(c.id[0]) - 1)] == 0.0) {
       ++quiet;
       contct_corrected(c);
       return;
@@ -196,236 +103,157 @@ struct restless_first_pair {
     ++toggles;
     c.smin = 0.0;
     c.isep[0] = -c.isep[0];
-  }
-};
-
-/// Returns a cantilever with a stop at its tip, and a pair in its middle that every load presses.
-beam_problem cantilever_on_two() {
-  return {even_beam(2.0, 2, 1e4),
-          {{0, 0, true}, {0, 1, true}},
-          {{1, face_below, 0.0, 5e4, true}, {2, face_below, -1e-4, 5e4, false}},
-          {tip_load(2, -10), tip_load(2, -60)}};
-}
-
-}  // namespace
-
-TEST_CASE(
-    "a pair that toggles twice without progress of the load stays in contact until the load increases") {
-  restless_first_pair restless;
-  made_kernel k([&restless](call<double>& c) { restless(c); });
-  const beam_problem p = cantilever_on_two();
-  recorder r;
-  const path_end end = p.run(k, {&r});
-  CHECK(end.status == path_status::solved);
-  recorder sound;
-  REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
-  // In each step pair 0 toggles twice, and then has no response until the tip reaches its stop.
-  CHECK(restless.toggles >= 4);
-  CHECK(restless.quiet >= 3);
-  REQUIRE(r.steps.size() == 2);
-  for (std::size_t step = 0; step < 2; ++step) {
-    CHECK(r.steps[step].isep == sound.steps[step].isep);
-    for (std::size_t dof = 0; dof < 6; ++dof)
-      CHECK(r.steps[step].u[dof] == Approx(sound.steps[step].u[dof]).epsilon(1e-12).margin(1e-18));
-  }
-}
-
-namespace {
-
-/// Answers by the corrected rule, but with every event at 0.999 of its s.
-void hasty(call<double>& c) {
-  contct_corrected(c);
-  if (c.smin > 0.0 && c.smin < 1.0) c.smin *= 0.999;
-}
-
-}  // namespace
-
-TEST_CASE("by the corrected rule, early toggles leave no error in D at the ends of steps") {
-  const beam_problem p = cantilever_over_a_stop();
-  made_kernel k(hasty);
-  recorder r;
-  CHECK(p.run(k, {&r}).status == path_status::solved);
-  REQUIRE(r.steps.size() == 4);
-  const double f = 8.0 / 3 / 1e4;
-  CHECK(r.steps[1].u[4] == Approx(-0.004 - (60 * f - 0.004) / (f + 1 / 5e4) / 5e4).epsilon(1e-12));
-  CHECK(r.steps[2].u[4] == Approx(-0.004 - (30 * f - 0.004) / (f + 1 / 5e4) / 5e4).epsilon(1e-12));
-  CHECK(r.steps[3].u[4] == Approx(20 * f).epsilon(1e-12));
-}
-
-TEST_CASE("by the 1989 rule, an early toggle leaves an error in the displacements") {
-  const beam_problem p = cantilever_over_a_stop();
-  made_kernel k(hasty, contact_rule::listing);
-  recorder r;
-  CHECK(p.run(k, {&r}).status == path_status::solved);
-  REQUIRE(r.steps.size() == 4);
-  const double f = 8.0 / 3 / 1e4;
-  const double right = -0.004 - (60 * f - 0.004) / (f + 1 / 5e4) / 5e4;
-  CHECK(r.steps[1].u[4] != Approx(right).epsilon(1e-6));
-  CHECK(r.steps[1].u[4] == Approx(right).epsilon(1e-3));
-}
-
-namespace {
-
-/// Returns a kernel that toggles both pairs in turn without progress and without end.
-made_kernel endless(contact_rule rule = contact_rule::corrected) {
-  return made_kernel(
-      [calls = 0](call<double>& c) mutable {
-        c.smin = 0.0;
-        const std::size_t i = calls++ % 2 == 0 ? 0 : 1;
-        c.isep[i] = -c.isep[i];
-      },
-      rule);
-}
-
-}  // namespace
-
-TEST_CASE("if a path cannot continue, it ends in the reference solution, and the state is marked as such") {
-  made_kernel k = endless();
-  const beam_problem p = cantilever_on_two();
-  full_load_state rest{{0, 0, -1, -2, -3, -4}, {in_contact, separated}};
-  rest.from_reference = true;
-  int lost = 0;
-  const path_limits limits{0, [&](int, const full_load_state* reached) {
-                             lost += reached == nullptr ? 1 : 0;
-                             return found_end{rest, true};
-                           }};
-  recorder r;
-  const path_end end = p.run(k, {&r}, limits);
-  CHECK(end.status == path_status::solved);
-  CHECK(lost == 2);
-  REQUIRE(r.steps.size() == 2);
-  for (const auto& step : r.steps) {
-    CHECK(step.from_fallback);
-    CHECK(step.fraction == 1.0);
-    CHECK(step.u == rest.displacement);
-    CHECK(step.isep == std::vector<int>{in_contact, separated});
-  }
-}
-
-TEST_CASE(
-    "each state that a path reaches is passed to the prover, and the path continues with the proved "
-    "statuses") {
-  beam_problem p = cantilever_on_two();
-  std::vector<std::vector<int>> reached;
-  full_load_state answer{std::vector<double>(6), {separated, separated}};
-  const path_limits limits{0, [&](int, const full_load_state* state) {
-                             REQUIRE(state != nullptr);
-                             reached.push_back(state->isep);
-                             return found_end{answer, true};
-                           }};
-  recorder r;
-  CHECK(p.run("corrected", {&r}, limits).status == path_status::solved);
-  REQUIRE(reached.size() == 2);
-  for (const auto& step : r.steps) {
-    CHECK_FALSE(step.from_fallback);
-    CHECK(step.u == answer.displacement);
-    CHECK(step.isep == answer.isep);
-  }
-  const bool makes_again = std::any_of(r.increments.begin(), r.increments.end(), [](const auto& i) {
-    return i.step == 2 &&
-           std::find(i.events.begin(), i.events.end(), event{0, change::make}) != i.events.end();
   });
-  CHECK(makes_again);  // pair 0 was separated in the proved state
+  const auto [end, r] = path_of(cantilever_on_two(), k);
+  CHECK(end.status == path_status::solved);
+  const auto [sound_end, sound] = path_of(cantilever_on_two(), "corrected");
+  REQUIRE(sound_end.status == path_status::solved);
+  // In each step pair 0 toggles twice, and then has no response until the tip reaches its stop.
+  CHECK(toggles >= 4);
+  CHECK(quiet >= 3);
+  REQUIRE(r.steps.size() == 2);
+  for (std::size_t step = 0; step < 2; ++step) check_equal_end(r.steps[step], sound.steps[step]);
 }
 
-TEST_CASE("if a path cannot continue and no equilibrium exists, the path ends in a mechanism") {
-  made_kernel k = endless();
-  const path_limits limits{0, [](int, const full_load_state*) { return found_end{std::nullopt, false}; }};
-  recorder r;
-  const beam_problem p = cantilever_on_two();
-  const path_end end = p.run(k, {&r}, limits);
-  CHECK(end.status == path_status::mechanism);
-  CHECK(end.has_equilibrium == false);
-  REQUIRE(r.steps.size() == 1);
-  CHECK(r.steps[0].fraction == 0.0);
-  made_kernel listing = endless(contact_rule::listing);
-  CHECK(p.run(listing, {}, limits).status == path_status::cycle);  // the 1989 rule has no fallback
+TEST_CASE("early toggles leave an error in D by the 1989 rule, and none by the corrected rule") {
+  for (const contact_rule rule : {contact_rule::corrected, contact_rule::listing}) {
+    // Every event comes at 0.999 of its s.
+    made_kernel k(
+        [](call<double>& c) {
+          contct_corrected(c);
+          if (c.smin > 0.0 && c.smin < 1.0) c.smin *= 0.999;
+        },
+        rule);
+    const auto [end, r] = path_of(cantilever_over_a_stop(), k);
+    const auto [sound_end, sound] = path_of(cantilever_over_a_stop(), "corrected");
+    CHECK(end.status == path_status::solved);
+    REQUIRE(r.steps.size() == 4);
+    if (rule == contact_rule::corrected) {
+      for (const std::size_t step : {1, 2, 3})
+        CHECK(r.steps[step].u[4] == Approx(sound.steps[step].u[4]).epsilon(1e-12));
+    } else {
+      CHECK(r.steps[1].u[4] != Approx(sound.steps[1].u[4]).epsilon(1e-6));
+      CHECK(r.steps[1].u[4] == Approx(sound.steps[1].u[4]).epsilon(1e-3));
+    }
+  }
 }
 
-TEST_CASE("by the 1989 rule, or without a reference solution, a path that cannot continue has no fallback") {
-  const beam_problem p = cantilever_on_two();
-  int asked = 0;
-  const path_limits none{0, [&](int, const full_load_state*) {
-                           ++asked;
-                           return found_end();
-                         }};
-  made_kernel k = endless();
-  recorder r;
-  CHECK(p.run(k, {&r}, none).status == path_status::cycle);
-  CHECK(asked == 1);
-  REQUIRE(r.steps.size() == 1);
-  CHECK_FALSE(r.steps[0].from_fallback);
-  made_kernel listing = endless(contact_rule::listing);
-  CHECK(p.run(listing, {}, none).status == path_status::cycle);
-  CHECK(asked == 1);
+TEST_CASE("if a path cannot continue, it ends in the reference solution, except by the 1989 rule") {
+  const problem p = cantilever_on_two().as_problem();
+  const linear_structure s = structure_of(p);
+  const judged_run sound(p, "corrected");
+  for (const contact_rule rule : {contact_rule::corrected, contact_rule::listing}) {
+    made_kernel k = endless(rule);
+    certifier proof(p, s);
+    const solved_path lost = follow(p, s, "refactor", k, {}, &proof);
+    const bool is_1989 = rule == contact_rule::listing;
+    CHECK(lost.end.status == (is_1989 ? path_status::cycle : path_status::solved));
+    REQUIRE(lost.steps.size() == (is_1989 ? 1U : 2U));
+    if (is_1989) CHECK((lost.steps[0].from == origin::path && lost.steps[0].fraction == 0.0));
+    for (std::size_t step = 0; step < 2 && !is_1989; ++step) {
+      CHECK(lost.steps[step].from == origin::reference);
+      CHECK(lost.steps[step].fraction == 1.0);
+      CHECK(lost.steps[step].judged->certified);
+      CHECK(lost.steps[step].isep == sound.steps[step].isep);
+      CHECK(lost.steps[step].displacement[4] == Approx(sound.u(step + 1)[4]).epsilon(1e-14));
+    }
+  }
+}
+
+TEST_CASE("a path goes on from the state it is given, which may have other statuses") {
+  const problem p = cantilever_on_two().as_problem();
+  const linear_structure s = structure_of(p);
+  for (const origin from : {origin::path, origin::reference}) {
+    const auto engine = make_engine("refactor", s);
+    const auto leader = make_kernel("corrected");
+    const load_history loads(p, s);
+    recorder seen;
+    observer* const watching[] = {&seen};
+    path way(s, loads, *engine, *leader, watching);
+    REQUIRE(way.follow(1).status == path_status::solved);
+    structure_state other = way.now().value();
+    other.isep = {separated, separated};
+    other.from = from;
+    CHECK(way.go_on_from(other) > 0.0);
+    CHECK(way.follow(2).status == path_status::solved);
+    CHECK(way.now()->isep == std::vector<int>{in_contact, in_contact});
+    CHECK(std::ranges::any_of(seen.increments, [](const auto& i) {
+      return i.step == 2 && std::ranges::count(i.events, event{0, change::make}) > 0;
+    }));
+  }
+}
+
+TEST_CASE("only if certainly no equilibrium exists, a path that failed ends in a mechanism") {
+  using enum path_status;
+  struct row {
+    path_status failed = cycle;
+    std::optional<bool> exists;
+    bool by_1989_rule = false;
+    path_status ends = cycle;
+  };
+  for (const row& r :
+       {row{mechanism, false, false, mechanism}, row{mechanism, {}, false, path_ended},
+        row{mechanism, true, true, path_ended}, row{cycle, false, false, mechanism},
+        row{cycle, false, true, cycle}, row{cycle, {}, false, cycle}, row{path_ended, false, true, mechanism},
+        row{iteration_limit, true, false, iteration_limit}}) {
+    path_end end{
+        .status = r.failed, .opened = {3}, .has_equilibrium = r.exists, .by_1989_rule = r.by_1989_rule};
+    end.conclude();
+    CHECK(end.status == r.ends);
+    CHECK((end.pairs == std::vector<int>{3}) == (r.failed == cycle && r.ends == mechanism));
+  }
 }
 
 TEST_CASE("after a step that ends in the reference solution, the next step continues from this state") {
   // The kernel toggles without end in the first step, and then follows the corrected rule. Both pairs are in
   // contact after the first step, and separate in the second step.
-  bool is_found = false;
+  int calls = 0;
   made_kernel never = endless();
-  made_kernel k([&](call<double>& c) { is_found ? contct_corrected(c) : never.answer(c); });
+  made_kernel k([&](call<double>& c) { ++calls > 3 ? contct_corrected(c) : never.answer(c); });
   beam_problem p = cantilever_on_two();
   p.steps = {tip_load(2, -60), tip_load(2, 20)};
-  recorder sound;
-  REQUIRE(p.run("corrected", {&sound}).status == path_status::solved);
+  const auto [sound_end, sound] = path_of(p, "corrected");
+  REQUIRE(sound_end.status == path_status::solved);
   REQUIRE(sound.steps[0].isep == std::vector<int>{in_contact, in_contact});
-  const path_limits limits{0, [&](int, const full_load_state* reached) {
-                             if (reached != nullptr) return found_end{*reached, true};
-                             is_found = true;
-                             full_load_state found{sound.steps[0].u, {in_contact, in_contact}};
-                             found.from_reference = true;
-                             return found_end{std::move(found), true};
-                           }};
+  const problem what = p.as_problem();
+  const linear_structure s = p.structure();
+  certifier proof(what, s);
   recorder r;
-  CHECK(p.run(k, {&r}, limits).status == path_status::solved);
+  const solved_path path = follow(what, s, "refactor", k, {&r}, &proof, 3);
+  r.take(path);
+  CHECK(path.end.status == path_status::solved);
   REQUIRE(r.steps.size() == 2);
-  CHECK(r.steps[0].from_fallback);
-  CHECK(r.steps[0].isep == sound.steps[0].isep);
-  CHECK_FALSE(r.steps[1].from_fallback);
-  CHECK(r.steps[1].isep == sound.steps[1].isep);
-  for (std::size_t dof = 0; dof < 6; ++dof)
-    CHECK(r.steps[1].u[dof] == Approx(sound.steps[1].u[dof]).epsilon(1e-12).margin(1e-18));
+  CHECK((r.steps[0].from == origin::reference && r.steps[1].from == origin::path));
+  for (std::size_t step = 0; step < 2; ++step) check_equal_end(r.steps[step], sound.steps[step]);
   CHECK(r.increments.back().number == 3);  // two increments with events, and one to full load
 }
 
-TEST_CASE(
-    "the reference solution replaces the end of a path if a factorisation failed or the limit of increments "
-    "was reached, but not a proved mechanism") {
-  const path_limits any{0, [](int, const full_load_state* reached) {
-                          return found_end{reached != nullptr ? *reached : made_up_rest(), true};
-                        }};
-  beam_problem p = beam_above_stops();
-  p.steps = {tip_load(2, 8.0)};
-  recorder never_held;
-  CHECK(p.run("corrected", {&never_held}, any).status == path_status::mechanism);
-  p.steps = {tip_load(3, -8.0)};
-  recorder limited;
-  CHECK(p.run("corrected", {&limited}, {1, any.ends}).status == path_status::solved);
-  p.geometry.EI.assign(4, 1e30);  // so stiff that the springs are lost to rounding
-  recorder lost;
-  CHECK(p.run("corrected", {&lost}, any).status == path_status::solved);
-  for (const recorder* r : {&limited, &lost}) {
-    REQUIRE_FALSE(r->steps.empty());
-    CHECK(r->steps.back().from_fallback);
-    CHECK(r->steps.back().u == made_up_rest().displacement);
-  }
+TEST_CASE("the reference solution replaces the end of a lost path, but not a proved mechanism") {
+  problem driven_away = beam_on_stops().as_problem();
+  driven_away.steps = {tip_load(2, 8.0)};
+  CHECK(judged_run(driven_away, "corrected").end.status == path_status::mechanism);
+  const problem p = beam_on_stops().as_problem();
+  const linear_structure s = structure_of(p);
+  certifier proof(p, s);
+  const solved_path cut = follow(p, s, "refactor", *make_kernel("corrected"), {}, &proof, 1);
+  CHECK(cut.end.status == path_status::solved);
+  REQUIRE(cut.steps.size() == 1);
+  CHECK(cut.steps[0].from == origin::reference);
 }
 
-TEST_CASE(
-    "after 20 + 4 n toggles of n pairs at constant load, the driver toggles the first pair at its face") {
+TEST_CASE("after 20 + 4 n toggles at constant load, the driver toggles the first pair at its face") {
   // The kernel toggles pairs 2 and 3 in turn, although pair 1 is at its face too.
   made_kernel k([calls = 0](call<double>& c) mutable {
     c.smin = 0.0;
     std::fill(c.ss.begin(), c.ss.end(), 0.0);
     c.isep[calls++ % 2 == 0 ? 1 : 2] *= -1;
   });
-  beam_problem p = cantilever_on_two();
+  problem p = cantilever_on_two().as_problem();
   p.pairs.push_back({2, face_below, -1e-4, 5e4, false});
-  const linear_structure s = p.structure();
+  const linear_structure s = structure_of(p);
+  const load_history loads(p, s);
   const auto engine = make_engine("refactor", s);
-  path_state now(s, *engine, {}, false);
+  path_state now(s, loads, *engine, {}, false);
   const auto policy = make_policy(now, k);
   CHECK(quick_answers_at_rest(3) == 32);
   for (int i = 0; i < 32; ++i) {

@@ -6,9 +6,7 @@
 FAR_AWAY, NEAR = 1e6, 4
 
 
-def field(x):
-    """Returns x in at most 19 characters, since CalculiX cuts a field after 20 characters."""
-    return f"{float(x):.12e}"
+field = lambda x: f"{float(x):.12e}"  # CalculiX cuts a field after 20 characters
 
 
 class Block:

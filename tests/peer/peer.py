@@ -6,37 +6,22 @@ Siconos solves all benchmark problems as linear complementarity problems.
 """
 import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 
-CONTCT, CCX, REFERENCE, FOLDER = sys.argv[1], sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4])
-LEAST_CHECKS = 22
-sys.dont_write_bytecode = True
-sys.path[:0] = [str(REFERENCE / "benchmarks"), str(Path(__file__).parent)]
+CONTCT, CCX, REFERENCE, FOLDER = (Path(a).resolve() for a in sys.argv[1:])
+sys.path[:0] = [str(REFERENCE / "benchmarks"), str(Path(__file__).parents[1] / "support")]
+from testing import Checks, result_of, run  # noqa: E402
 import calculix  # noqa: E402
 from block import Block  # noqa: E402
 from make import problem_of  # noqa: E402
 
-checks = failures = 0
+check = Checks()
 
 
-def check(good, words):
-    global checks, failures
-    checks, failures = checks + 1, failures + (not good)
-    print(f"{'  ok    ' if good else '  FAILED'} {words}", flush=True)
-
-
-def run_contct(problem, *options):
-    """Returns the result of contct; fails unless every final state is certified."""
-    file = FOLDER / "contct.json"
-    subprocess.run([CONTCT, "run", problem, "--quiet", "--strict", "--json", file, *options], check=True)
-    return json.loads(file.read_text())
-
-
-def run_both(problem):
-    """Returns the result of FORTRAN and C++ in lockstep; raises ValueError unless they were compared and are equal."""
-    result = run_contct(problem, "--kernels", "fortran,cpp")
+def run_contct(problem):
+    """Returns the result of contct; fails unless every final state is certified, and FORTRAN and C++ are equal in lockstep."""
+    result = result_of(CONTCT, "run", problem, "--quiet", "--strict", "--kernels", "fortran,cpp", cwd=FOLDER)
     if result["lockstep"]["calls"] == 0 or result["lockstep"]["mismatches"] != 0:
         raise ValueError(f"{problem}: the kernels were not compared, or differ")
     return result
@@ -46,9 +31,7 @@ def run_ccx(job, deck):
     for old in (".dat", ".sti", ".dof"):  # files of an earlier run
         Path(FOLDER, job + old).unlink(missing_ok=True)
     Path(FOLDER, f"{job}.inp").write_text(deck)
-    done = subprocess.run([CCX, job], cwd=FOLDER, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise ValueError(f"CalculiX on {job}: exit {done.returncode}\n{done.stdout[-1000:]}")
+    run(CCX, job, cwd=FOLDER, status=0)
 
 
 def values_at_end(job, quantity, name, first, count):
@@ -67,7 +50,7 @@ def check_example():
     off = max(abs(float(a[2]) - float(b[2])) for a, b in zip(ours, theirs)) / largest
     same_places = [row[:2] for row in ours] == [row[:2] for row in theirs]
     check(same_places and len(ours) > 5000 and off <= 1e-12, f"console: the kept matrix is CalculiX's, {len(ours)} entries within {off:.1e}")
-    increments = sum(len(step["increments"]) for step in run_both(kept.with_suffix(".toml"))["steps"])
+    increments = sum(len(step["increments"]) for step in run_contct(kept.with_suffix(".toml"))["steps"])
     check(increments == 10, f"console: both kernels equal and certified in {increments} increments")
 
 
@@ -76,7 +59,7 @@ def check_block(block, events):
     path, nodes = FOLDER / f"{block.name}.toml", len(block.places)
     path.write_text(block.problem())
     run_ccx(block.name, block.matrix_deck())
-    result = run_both(path)
+    result = run_contct(path)
     found = sum(len(i["events"]) for step in result["steps"] for i in step["increments"])
     check(found >= events, f"{block.name}: both kernels equal and certified on {found} events, {result['lockstep']['calls']} calls")
     labels = [tuple(map(int, label.split("."))) for label in (FOLDER / f"{block.name}.dof").read_text().split()]
@@ -100,8 +83,7 @@ def check_block(block, events):
 
 def check_benchmarks(results, kept, least):
     """Checks another program's numbers for benchmark problems against the exact ones and against the kept file."""
-    done = subprocess.run([sys.executable, REFERENCE / "benchmarks/judge.py", "-", "--least", str(least)], input=results, check=False,
-                          capture_output=True, text=True)
+    done = run(sys.executable, REFERENCE / "benchmarks/judge.py", "-", "--least", least, input=results)
     check(done.returncode == 0, f"{kept}: {done.stdout.strip()}{done.stderr}")
     kept = json.loads((REFERENCE / "benchmarks" / kept).read_text())["problems"]
     asked = [{name: [{**entry, "value": 0} for entry in entries] for name, entries in of.items()}
@@ -143,14 +125,11 @@ check_benchmarks(calculix.words(calculix.results(calculix.CONVERGE, FOLDER, CCX)
 unpacked = FOLDER / "siconos/usr/lib"
 libraries = unpacked / "x86_64-linux-gnu"
 paths = {"PYTHONPATH": f"{unpacked}/python3/dist-packages", "LD_LIBRARY_PATH": f"{libraries}:{libraries}/openblas-pthread"}
-siconos = subprocess.run(["/usr/bin/python3", REFERENCE / "benchmarks/siconos_lcp.py"], env=os.environ | paths, capture_output=True, text=True, check=True)
+siconos = run("/usr/bin/python3", REFERENCE / "benchmarks/siconos_lcp.py", env=os.environ | paths, status=0)
 check_benchmarks(siconos.stdout, "siconos.json", 340)
 check_combinations()
 check_block(Block("cantilever", (10, 2, 2), (10, 1, 1), [((4, 1, 0), -0.02, 100), ((7, 1, 0), -0.1, 100), ((10, 1, 0), -0.2, 50)], (10, 1, 2),
                   [-2, -10, -1, 3]), 4)
 check_block(Block("slab", (8, 6, 1), (8, 6, 0.5), [((8, 0, 0), -0.2, 40), ((8, 6, 0), -0.3, 40), ((4, 3, 0), -0.15, 40),
                                                    ((8, 3, 0), -0.4, 40)], (8, 2, 1), [-5, -20, -4]), 4)
-if checks < LEAST_CHECKS:
-    check(False, f"found {checks} checks; allowed: {LEAST_CHECKS} or more")
-print(f"CalculiX as a peer: {checks} checks, {failures} failed")
-sys.exit(1 if failures else 0)
+check.end(22)

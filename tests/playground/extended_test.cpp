@@ -8,13 +8,8 @@
 __extension__ using quad = __float128;
 
 // Functions of cpp/playground/extended.c, renamed by CMakeLists.txt.
-extern "C" {
-quad page_sum(quad a, quad b);
-quad page_difference(quad a, quad b);
-quad page_product(quad a, quad b);
-quad page_quotient(quad a, quad b);
-quad page_root(quad a);
-}
+extern "C" quad page_sum(quad, quad), page_difference(quad, quad), page_product(quad, quad),
+    page_quotient(quad, quad), page_root(quad);
 
 namespace {
 
@@ -53,21 +48,18 @@ bool same(long double expected, quad found) {
 TEST_CASE("the playground rounds sums, products, quotients and roots of long double as x86-64 does") {
   static_assert(std::numeric_limits<long double>::digits == 64);
   random_numbers random(1989);
-  int compared = 0, different = 0;
-  for (int i = 0; i < 200'000; ++i) {
+  int different = 0;
+  for (int i = 0; i < 20'000; ++i) {
     const long double a = any_number(random);
     const long double b = beside(a, random);
-    for (const bool equal :
-         {same(a + b, page_sum(a, b)), same(a - b, page_difference(a, b)), same(a * b, page_product(a, b)),
-          same(a / b, page_quotient(a, b)), same(std::sqrt(a), page_root(a))}) {
-      ++compared;
-      if (!equal && different++ == 0) {
-        CAPTURE(i, a, b);
-        CHECK(equal);
-      }
+    const bool equal = same(a + b, page_sum(a, b)) && same(a - b, page_difference(a, b)) &&
+                       same(a * b, page_product(a, b)) && same(a / b, page_quotient(a, b)) &&
+                       same(std::sqrt(a), page_root(a));
+    if (!equal && different++ == 0) {
+      CAPTURE(i, a, b);
+      CHECK(equal);
     }
   }
-  CHECK(compared == 1'000'000);
   CHECK(different == 0);
 }
 

@@ -2,15 +2,15 @@
 reports.
 usage: python3 pictures.py COURSE [--check]      (COURSE: the folder build/course; exit status 1 if one differs)"""
 import json
-import pathlib
 import sys
+from pathlib import Path
 
-root = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(root / "tests" / "browser"))
+sys.path[:0] = [str(Path(__file__).parents[1] / folder) for folder in ("support", "browser")]
+from testing import ROOT, TESTS  # noqa: E402
 from devtools import Browser  # noqa: E402
 
-course, check = pathlib.Path(sys.argv[1]).resolve(), "--check" in sys.argv
-without_quotient = (root / "tests/playground/kernel.js").read_text(encoding="utf-8").replace(" - smin) / smin", " - smin)")
+course, check = Path(sys.argv[1]).resolve(), "--check" in sys.argv
+without_quotient = (TESTS / "playground/kernel.js").read_text(encoding="utf-8").replace(" - smin) / smin", " - smin)")
 # Each picture has a page with its scene, and the actions before the picture is taken.
 PICTURES = {
     "tip-stop": ("01-picture", "scenes[0].push(2, -60, false)"),
@@ -23,11 +23,11 @@ PICTURES = {
     "single-precision": ("11-rounding", "scenes[0].show(2)"),
     "port": ("12-port-it", f"scenes[0].judge({json.dumps(without_quotient)})"),
 }
-folder = root / "reference/course/pictures"
+folder = ROOT / "reference/course/pictures"
 browser, different = Browser(), []
 try:
     for name, (page, script) in PICTURES.items():
-        browser.open(str(course / f"{page}.html"), width=760, height=900)
+        browser.open(course / f"{page}.html", width=760, height=900)
         browser.value("document.querySelector('[data-scene], [data-port]').scrollIntoView()")
         browser.wait_for("document.querySelector('[data-lives]') !== null")
         browser.value(f"Promise.resolve({script}).then(() => 0)")

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Compares the playground in headless chromium with the program: every reference problem with three sets of kernels,
 # results to the bit, unit 26, every call, the replayed golden set, and errors with their places. Also tests the page's
-# controls. Builds the playground by cpp/playground.sh if needed. Times are printed, but not judged.
+# controls. Builds the playground by cpp/playground.sh if needed.
 # usage: sh tests/playground/run.sh [BUILD]      (default: build/release)
 # Exit 0: all are equal; 77: skipped, Emscripten or chromium is missing; 1 otherwise.
 set -u

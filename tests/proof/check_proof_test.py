@@ -10,7 +10,6 @@ import json
 import random
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import tomllib
@@ -21,35 +20,41 @@ from pathlib import Path
 
 program, reference = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 few = "few" in sys.argv
-sys.dont_write_bytecode = True
-sys.path[:0] = [str(reference), str(Path(__file__).resolve().parents[1] / "manual")]
+sys.path[:0] = [str(reference), *(str(Path(__file__).resolve().parents[1] / folder) for folder in ("manual", "support"))]
+from testing import Checks, run  # noqa: E402
 import check_proof  # noqa: E402
 from problem_file import examples  # noqa: E402
 
-failed = 0
+check = Checks()
 
 
-def fail(words):
-    global failed
-    failed += 1
-    print(f"FAILED: {words}")
-
-
-def proof_of(problem, folder, *options):
+def proof_of(problem, kernel="corrected"):
     """Returns the parsed proof file of a run, or None if its exit status is not 0 or 3."""
-    proof = Path(folder) / "proof.json"
-    ended = subprocess.run([program, "run", problem, "--quiet", "--proof", proof, *options], capture_output=True, text=True)
-    return json.loads(proof.read_text()) if ended.returncode in (0, 3) else None
+    ended = run(program, "run", problem, "--quiet", "--proof", folder / "proof.json", "--kernels", kernel)
+    return json.loads((folder / "proof.json").read_text()) if ended.returncode in (0, 3) else None
 
 
-def verdict(problem, proof, folder):
+def verdict(problem, proof):
     """Returns the exit status and the output of check_proof.py."""
-    file = Path(folder) / "checked.json"
-    file.write_text(json.dumps(proof))
+    (folder / "checked.json").write_text(json.dumps(proof))
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        code = check_proof.main(str(problem), str(file))
+        code = check_proof.main(str(problem), str(folder / "checked.json"))
     return code, said.getvalue()
+
+
+def expect(wanted, what, problem, proof, words=""):
+    """Checks the exit status of check_proof.py, and words in its output."""
+    code, said = verdict(problem, proof)
+    return check(code == wanted and re.search(words, said), f"{what}: found {code}: {said}; allowed: {wanted}")
+
+
+def file_of(name, text):
+    (folder / name).write_text(text)
+    return folder / name
+
+
+read = lambda text: check_proof.Problem(tomllib.loads(text, parse_float=Decimal), folder)
 
 
 def scaled(path, factor):
@@ -62,15 +67,7 @@ def scaled(path, factor):
 
 
 def put(key, value):
-    def fault(step):
-        step[key] = value(step[key]) if callable(value) else value
-    return fault
-
-
-def swapped(key, i, j):
-    def fault(step):
-        step[key][i], step[key][j] = step[key][j], step[key][i]
-    return fault
+    return lambda step: step.update({key: value(step[key]) if callable(value) else value})
 
 
 def wider(step, share):
@@ -90,18 +87,10 @@ FAULTS = {
     "the state is moved": scaled(["u", 16, 0], 1 + 1e-6),
     "the state has lost what doubles leave over": put("u", lambda u: [[hi * (1 + 2e-16), 0.0] for hi, _ in u]),
     "a displacement is off by 1e-9": scaled(["displacement", 8], 1 + 1e-9),
-    "the bound on deflections is smaller": scaled(["error", "w"], 1e-3),
-    "the bound on slopes is smaller": scaled(["error", "slope"], 1e-3),
-    "the bound on contact forces is smaller": scaled(["error", "force"], 1e-3),
-    "the bound on reactions is smaller": scaled(["error", "reaction"], 1e-3),
-    "the bound on moments is smaller": scaled(["error", "moment"], 1e-3),
-    "the bound on shears is smaller": scaled(["error", "shear"], 1e-3),
+    **{f"the bound on {kind} is smaller": scaled(["error", kind], 1e-3) for kind in ("w", "slope", "force", "reaction", "moment", "shear")},
     "a bound is negative": scaled(["error", "moment"], -1.0),
     "a bound is missing": lambda step: step["error"].pop("shear"),
-    "a closed pair is forgotten": put("closed", [1, 3]),
-    "all closed pairs are forgotten": put("closed", []),
-    "a pair is taken as closed twice": put("closed", [1, 2, 3, 3]),
-    "a pair that there is not is taken as closed": put("closed", [1, 2, 4]),
+    **{f"{closed} are taken as closed": put("closed", closed) for closed in ([1, 3], [], [1, 2, 3, 3], [1, 2, 4], [0, 1, 2, 3], [-1, 1, 2, 3], [2, 1, 3])},
     "a contact force is off by one part in 1e9": scaled(["force", 1], 1 + 1e-9),
     "a contact force pulls": scaled(["force", 1], -1.0),
     "a pressed pair has no force": scaled(["force", 2], 0.0),
@@ -110,7 +99,7 @@ FAULTS = {
     "the shift has the other sign": scaled(["shift"], -1.0),
     "the scaling is another one": put("scale", lambda s: [k + 1 for k in s]),
     "the scaling is no power of two": put("scale", lambda s: [k + 0.5 for k in s]),
-    "rows of L are exchanged": swapped("row_of", 3, 4),
+    "rows of L are exchanged": put("row_of", lambda rows: [*rows[:3], rows[4], rows[3], *rows[5:]]),
     "two dofs have one row": put("row_of", lambda rows: [rows[1], *rows[1:]]),
     "an entry of L is off": scaled(["L", 9, -1], 1 + 1e-3),
     "L is the unit matrix": put("L", lambda rows: [[0.0] * (len(row) - 1) + [1.0] for row in rows]),
@@ -122,18 +111,12 @@ FAULTS = {
     "displacements stand among the forces": lambda step: step["force"].extend(step["displacement"][-5:]) or step["displacement"].__delitem__(slice(-5, None)),
     "a displacement is text": put("displacement", lambda d: ["lorem", *d[1:]]),
     "a displacement is true": put("displacement", lambda d: [False, *d[1:]]),
-    "a bound is not a number": put("error", lambda e: e | {"w": float("nan")}),
-    "a bound is infinite": put("error", lambda e: e | {"w": float("inf")}),
-    "a bound is none": put("error", lambda e: e | {"w": None}),
-    "a bound is of an unknown kind": put("error", lambda e: e | {"lorem": 1.0}),
+    **{f"the bounds are {bound}": put("error", lambda e, bound=bound: e | bound) for bound in ({"w": float("nan")}, {"w": float("inf")}, {"w": None}, {"lorem": 1.0})},
     "certified with bounds of 1e300": put("error", lambda e: dict.fromkeys(e, 1e300)),
     "certified with a bound of 1.001 millionths of the largest deflection": lambda step: wider(step, 1.001e-6),
     "certified is a word": put("certified", "true"),
     "a pressed pair is separated": put("state", ["contact", "separated", "contact"]),
     "a state is another word": put("state", ["contact", "evaporates", "contact"]),
-    "a pair is numbered 0": put("closed", [0, 1, 2, 3]),
-    "a pair is numbered -1": put("closed", [-1, 1, 2, 3]),
-    "pairs are out of order": put("closed", [2, 1, 3]),
     "the step is numbered 7": put("step", 7),
     "an unknown key": put("lorem", 1),
     "the state is missing": lambda step: step.pop("state"),
@@ -155,91 +138,81 @@ MATRICES = {
 }
 
 
-def check_semidefinite(folder):
+def write_matrix(lower):
+    entries = lower.split("|")
+    n = entries[-1].split()[0]
+    file_of("K.mtx", "\n".join(["%%MatrixMarket matrix coordinate real symmetric", f"{n} {n} {len(entries)}", *entries, ""]))
+
+
+OF_MATRIX = "[matrix]\nstiffness = \"K.mtx\"\n"
+BETWEEN = OF_MATRIX + "[[contact]]\ndofs = [\"1\", \"2\"]\nsurface = \"below\"\nface = 0\nstiffness = 1\n[[step]]\npoint = [ { dofs = [\"1\", \"2\"], value = -1 } ]\n"
+
+
+def check_semidefinite():
     """Tests which matrices check_proof.py accepts as semidefinite, and that it refuses others."""
-    problem = Path(folder) / "matrix.toml"
-    problem.write_text("[matrix]\nstiffness = \"K.mtx\"\n[[contact]]\ndofs = [\"1\", \"2\"]\nsurface = \"below\"\nface = 0\nstiffness = 1\n[[step]]\npoint = [ { dofs = [\"1\", \"2\"], value = -1 } ]\n")
     for name, (lower, wanted) in MATRICES.items():
-        entries = lower.split("|")
-        n = entries[-1].split()[0]
-        (Path(folder) / "K.mtx").write_text("\n".join(["%%MatrixMarket matrix coordinate real symmetric", f"{n} {n} {len(entries)}", *entries, ""]))
-        if check_proof.semidefinite(check_proof.Problem(tomllib.loads(problem.read_text(), parse_float=Decimal), folder)) is not wanted:
-            fail(f"{name}: positive semidefinite is not {wanted}")
-        if name == "a free chain":
-            chain = Path(folder) / "chain.toml"
-            chain.write_text(problem.read_text().replace('"2"', '"3"'))
-            proof = proof_of(chain, folder, "--kernels", "corrected")
-            with unittest.mock.patch.object(check_proof, "semidefinite", lambda p: False):
-                codes = verdict(chain, proof, folder)[0], proof["steps"][0]["closed"]
-            if verdict(chain, proof, folder)[0] != 0 or codes != (1, [1, 2]):
-                fail("a free chain on two pairs: it is not asked whether the matrix is semidefinite")
-    (Path(folder) / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 1\n2 1 1.00000000001\n2 2 1\n3 2 -0.5\n3 3 5\n")
-    rounded, declared = problem.read_text() + "[[support]]\ndof = \"3\"\nfix = true\n", Path(folder) / "declared.toml"
-    problem.write_text(rounded)
-    declared.write_text(rounded.replace("\n[[", "\nfree_motions = 1\n[[", 1))
-    proof = proof_of(declared, folder, "--kernels", "corrected")
-    false = copy.deepcopy(proof)
-    scaled(["error", "reaction"], 1e-3)(false["steps"][0])
-    codes = [verdict(declared, proof, folder)[0], verdict(problem, proof, folder)[0], verdict(declared, false, folder)[0]]
-    if not proof["steps"][0]["certified"] or codes != [0, 1, 1]:
-        fail(f"an indefinite matrix is not certified just where free_motions is given: {codes}")
-    (Path(folder) / "K.mtx").write_text("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1e-9\n2 1 10\n2 2 0.7\n")
-    problem.write_text("[matrix]\nstiffness = \"K.mtx\"\n[[support]]\ndof = \"1\"\nfix = true\n[[step]]\npoint = [ { dof = \"2\", value = -0.3 } ]\n")
-    proof = proof_of(problem, folder, "--kernels", "corrected")
-    p, step = check_proof.Problem(tomllib.loads(problem.read_text(), parse_float=Decimal), folder), proof["steps"][0]
-    c = check_proof.bounded(p, *p.loads(p.steps[0])[:2], step)[-1]
-    if verdict(problem, proof, folder)[0] != 0 or check_proof.spread_of(p, step, c, 0) < 99 * c[1] or not c[1] > 0:
-        fail("the reaction of a fixed dof is bounded by the diagonal of a matrix that is indefinite at this dof")
-    print(f"{len(MATRICES)} matrices are semidefinite or not")
+        write_matrix(lower)
+        check(check_proof.semidefinite(read(BETWEEN)) is wanted, f"{name}: positive semidefinite is not {wanted}")
+    write_matrix(MATRICES["a free chain"][0])
+    chain = file_of("chain.toml", BETWEEN.replace('"2"', '"3"'))
+    proof = proof_of(chain)
+    expect(0, "a free chain on two pairs", chain, proof)
+    with unittest.mock.patch.object(check_proof, "semidefinite", lambda p: False):
+        expect(1, "a free chain on two pairs: it is not asked whether the matrix is semidefinite", chain, proof)
+    check(proof["steps"][0]["closed"] == [1, 2], "both pairs of a free chain are closed")
+
+    write_matrix("1 1 1|2 1 1.00000000001|2 2 1|3 2 -0.5|3 3 5")
+    text = BETWEEN + "[[support]]\ndof = \"3\"\nfix = true\n"
+    plain, declared = file_of("plain.toml", text), file_of("declared.toml", text.replace("\n[[", "\nfree_motions = 1\n[[", 1))
+    proof = proof_of(declared)
+    check(proof["steps"][0]["certified"], "an indefinite matrix is certified where free_motions is given")
+    expect(0, "an indefinite matrix with free_motions", declared, proof)
+    expect(1, "an indefinite matrix without free_motions", plain, proof)
+    scaled(["error", "reaction"], 1e-3)(proof["steps"][0])
+    expect(1, "a smaller bound on reactions", declared, proof)
+
+    write_matrix("1 1 1e-9|2 1 10|2 2 0.7")
+    text = OF_MATRIX + "[[support]]\ndof = \"1\"\nfix = true\n[[step]]\npoint = [ { dof = \"2\", value = -0.3 } ]\n"
+    proof, p = proof_of(file_of("fixed.toml", text)), read(text)
+    c = check_proof.bounded(p, *p.loads(p.steps[0])[:2], proof["steps"][0])[-1]
+    expect(0, "a fixed dof of an indefinite matrix", folder / "fixed.toml", proof)
+    check(check_proof.spread_of(p, proof["steps"][0], c, 0) >= 99 * c[1] > 0, "the reaction of a fixed dof is bounded by the diagonal of a matrix that is indefinite at this dof")
 
 
-def check_reference(folder):
-    accepted = proved = certified = contradicted = 0
-    files = [file for folder in ("problems", "problems/divergences", "structures", "cookbook") for file in sorted(reference.glob(f"{folder}/*.toml"))]
+def check_reference():
+    counted, files = check.counted, [file for part in ("problems", "problems/divergences", "structures", "cookbook") for file in sorted(reference.glob(f"{part}/*.toml"))]
     if "all" not in sys.argv:
         files = [file for file in files if not re.search("n16|n24", file.name)]
     if few:
         files = files[::5]
     for problem in files:
         for kernel in ("corrected", "fortran"):
-            proof = proof_of(problem, folder, "--kernels", kernel)
+            proof = proof_of(problem, kernel)
             if proof is None:  # a mechanism by the 1989 rule
-                if kernel == "corrected":
-                    fail(f"{problem.name}: no end with {kernel}")
+                check(kernel != "corrected", f"{problem.name}: no end with {kernel}")
                 continue
-            proved += sum(step["error"] is not None for step in proof["steps"])
-            certified += sum(step["certified"] for step in proof["steps"])
-            code, said = verdict(problem, proof, folder)
-            if code != 0 and (kernel == "corrected" or code == 1):
-                fail(f"{problem.name}, {kernel}: {code}: {said}")
-            accepted += code == 0
-            contradicted += code == 2
-    least = (12, 30, 25, 0) if few else (44, 150, 140, 1)
-    if accepted < 2 * len(files) - 5 or any(found < most for found, most in zip((len(files), proved, certified, contradicted), least)):
-        fail(f"only {accepted} proofs with {proved} steps, {certified} certified, were accepted, {contradicted} not in all")
-    print(f"{accepted} proofs of {len(files)} problems, with {proved} steps, {certified} certified, are accepted")
+            code, said = verdict(problem, proof)
+            check(code == 0 or (kernel != "corrected" and code != 1), f"{problem.name}, {kernel}: {code}: {said}")
+            counted.update({"accepted": code == 0, "contradicted": code == 2, "proved steps": sum(step["error"] is not None for step in proof["steps"]),
+                            "certified steps": sum(step["certified"] for step in proof["steps"])})
+    check(len(files) >= (12 if few else 44) and counted["accepted"] >= 2 * len(files) - 5, f"{len(files)} problems, {counted['accepted']} accepted proofs")
 
 
-def check_forms(folder):
+def check_forms():
     """Tests that check_proof.py reads the examples of problem-file.md, which have every key of its tables."""
     page, texts = (reference / "problem-file.md").read_text(), []
     for file in [*(reference / "structures").iterdir(), *(reference / "structures/calculix").iterdir()]:
         if file.is_file():
             shutil.copy(file, folder)
-    problem = Path(folder) / "example.toml"
     for line, text, message in examples(page):
         if message is None and "[calculix]" not in text:
-            problem.write_text(text)
-            code, said = verdict(problem, proof_of(problem, folder, "--kernels", "corrected"), folder)
+            problem = file_of("example.toml", text)
+            expect(0, f"problem-file.md, line {line}", problem, proof_of(problem))
             texts.append(text)
-            if code != 0:
-                fail(f"problem-file.md, line {line}: {code}: {said}")
     page = page[:page.index("## `[calculix]`")] + page[page.index("## `[[support]]`"):]
     keys = set(re.findall(r"`(\w+)`", "".join(re.findall(r"(?m)^\|( `\w+`(?:, `\w+`)*) \|", page)))) - {"calculix"}
     missing = [key for key in sorted(keys) if not re.search(rf"\b{key}\b", "".join(texts))]
-    if missing or len(keys) < 40 or len(texts) < 17:
-        fail(f"of {len(keys)} keys of the manual {missing} are in none of its {len(texts)} examples")
-    print(f"{len(texts)} examples with {len(keys)} keys are read as the program reads them")
+    check(not missing and len(keys) >= 40 and len(texts) >= 17, f"of {len(keys)} keys of the manual {missing} are in none of its {len(texts)} examples")
     return texts
 
 
@@ -272,24 +245,22 @@ PLACES = [
 ]
 
 
-def check_places(folder):
+def check_places():
     """Tests that the program and check_proof.py refuse the same places and trains, and put the others where their decimals are."""
-    problem = Path(folder) / "place.toml"
     for beam, rest, moments in PLACES:
-        problem.write_text(CANTILEVER.format(beam) + rest)
-        proof = proof_of(problem, folder, "--kernels", "corrected")
+        text = CANTILEVER.format(beam) + rest
+        problem = file_of("place.toml", text)
+        proof = proof_of(problem)
         try:
-            read = check_proof.Problem(tomllib.loads(problem.read_text(), parse_float=Decimal), folder)
-            refusal = [read.loads(step) for step in read.steps] and None
+            p = read(text)
+            refusal = [p.loads(step) for step in p.steps] and None
         except Exception as why:
             refusal = check_proof.words_of(why)
-        if (proof is None) != (moments is None) or (refusal is None) != (moments is not None):
-            fail(f"{problem.read_text()}\nthe program {'refuses' if proof is None else 'accepts'} it; the checker: {refusal}")
-        elif proof and (verdict(problem, proof, folder)[0] != 0 or len(proof["steps"]) != len(moments) or any(
-                abs(F(step["reactions"][1]) - moment) > min(step["error"]["moment"], 1e-14 * max(abs(moment), 1e-10))
-                for step, moment in zip(proof["steps"], moments))):
-            fail(f"{problem.read_text()}\n{verdict(problem, proof, folder)}; moments {[step['reactions'][1] for step in proof['steps']]} for {list(map(float, moments))}")
-    print(f"{len(PLACES)} places and trains are refused by both, or where their decimals are")
+        if check((proof is None) == (moments is None) == (refusal is not None), f"{text}\nthe program {'refuses' if proof is None else 'accepts'} it; the checker: {refusal}") and proof:
+            expect(0, text, problem, proof)
+            found = [F(step["reactions"][1]) for step in proof["steps"]]
+            check(len(found) == len(moments) and all(abs(a - b) <= min(step["error"]["moment"], 1e-14 * max(abs(b), 1e-10)) for a, b, step in zip(found, moments, proof["steps"])),
+                  f"{text}\nmoments {list(map(float, found))} for {list(map(float, moments))}")
 
 
 def doctored(text, chance):
@@ -304,8 +275,8 @@ def doctored(text, chance):
     return text[:at.start()] + chance.choice(new) + text[at.end():]
 
 
-def meaning_of(text, folder):
-    p = check_proof.Problem(tomllib.loads(text, parse_float=Decimal), folder)
+def meaning_of(text):
+    p = read(text)
     return p.K, p.supports, p.others, [(p.loads(step), p.pairs) for step in p.steps]
 
 
@@ -317,28 +288,23 @@ def agree(proof, other):
         for s, t in zip(proof["steps"], other["steps"]) for key in kinds if key in s and t["error"] for a, b in zip(s[key], t[key], strict=True))
 
 
-def check_doctored(folder, texts, count=2000):
+def check_doctored(texts, count):
     """Tests that check_proof.py refuses a right proof of a doctored problem, unless its numbers are right for this problem too."""
-    problem, chance, refused, same, solved = Path(folder) / "doctored.toml", random.Random(2026), 0, 0, 0
-    originals = []
-    for text in texts:
-        problem.write_text(text := re.sub(r"#.*", "", text))
-        originals.append((text, proof_of(problem, folder, "--kernels", "corrected"), meaning_of(text, folder)))
+    chance, originals, ends = random.Random(2026), [], dict.fromkeys(("refused", "mean the same", "have the same numbers"), 0)
+    for text in (re.sub(r"#.*", "", text) for text in texts):
+        originals.append((text, proof_of(file_of("doctored.toml", text)), meaning_of(text)))
     for i in range(count):
         text, proof, meant = originals[i % len(originals)]
-        problem.write_text(now := doctored(text, chance))
-        code, said = verdict(problem, proof, folder)
+        problem = file_of("doctored.toml", now := doctored(text, chance))
+        code, said = verdict(problem, proof)
         if code == 1 and "REFUSED: " in said:
-            refused += 1
-        elif meaning_of(now, folder) == meant:
-            same += 1
-        elif (other := proof_of(problem, folder, "--kernels", "corrected")) and agree(proof, other):
-            solved += 1
-        else:
-            fail(f"accepted with the proof of another problem: {now}\n{said}")
-    if refused < count / 2 or same < count / 50 or solved < (not few):
-        fail(f"of {count} doctored problems only {refused} are refused, {same} mean the same, {solved} have the same numbers")
-    print(f"{count} problems are doctored: {refused} are refused, {same} mean the same, {solved} have the same numbers")
+            ends["refused"] += 1
+        elif meaning_of(now) == meant:
+            ends["mean the same"] += 1
+        elif check((other := proof_of(problem)) and agree(proof, other), f"accepted with the proof of another problem: {now}\n{said}"):
+            ends["have the same numbers"] += 1
+    check(ends["refused"] >= count / 2 and ends["mean the same"] >= count / 50 and (few or ends["have the same numbers"] > 0), f"of {count} doctored problems: {ends}")
+    print(f"{count} problems are doctored: {ends}")
 
 
 # Loads inside the elements of a cantilever that load no node.
@@ -348,101 +314,74 @@ CANCELLED = ["[[step]]\npoint = [ { x = 0.1, w = 1 }, { x = 0.3, w = -4 }, { x =
              "[[combination]]\nname = \"c\"\nterms = { a = 1 }\n[[combination]]\nname = \"0\"\nterms = { a = 1, b = -0.5 }\n"]
 
 
-def check_cancelled(folder):
-    problem = Path(folder) / "cancelled.toml"
+def check_cancelled_and_balanced():
+    """Tests that loads which cancel hide no wrong bound, and that a certified step is not refused if the largest loads so far
+    acted in a step without bounds."""
     for text in CANCELLED:
-        problem.write_text('[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = ["w", "theta"]\n' + text)
-        proof = proof_of(problem, folder, "--kernels", "corrected")
-        code, said = verdict(problem, proof, folder)
+        problem = file_of("cancelled.toml", CANTILEVER.format("x = [0, 1]") + text)
+        proof = proof_of(problem)
+        expect(0, text, problem, proof, "(?s)" + ".*; certified" * len(proof["steps"]))
         proof["steps"][0]["error"]["w"] = 1.0
-        if code != 0 or said.count("; certified") != len(proof["steps"]) or verdict(problem, proof, folder)[0] != 1:
-            fail(f"{text}: {code}: {said}")
+        expect(1, text, problem, proof)
+    problem = file_of("balanced.toml", '[beam]\nx = [0, 6, 12]\nEI = 1e4\n[[contact]]\nnode = 2\nsurface = "below"\nface = 0\nstiffness = 1e5\n'
+                      '[[step]]\nuniform = -15\n[[step]]\nmove = [ { node = 2, w = -0.001 } ]\n')
+    expect(2, "an unloaded step after a balanced one", problem, proof_of(problem),
+           "step 2 of 2: 9 numbers are within their bounds; certified; measured by a step without bounds")
 
 
-def check_balanced(folder):
-    """Tests that a certified step is not refused if the largest loads so far acted in a step without bounds."""
-    problem = Path(folder) / "balanced.toml"
-    problem.write_text('[beam]\nx = [0, 6, 12]\nEI = 1e4\n[[contact]]\nnode = 2\nsurface = "below"\nface = 0\nstiffness = 1e5\n'
-                       '[[step]]\nuniform = -15\n[[step]]\nmove = [ { node = 2, w = -0.001 } ]\n')
-    code, said = verdict(problem, proof_of(problem, folder, "--kernels", "corrected"), folder)
-    if code != 2 or "step 2 of 2: 9 numbers are within their bounds; certified; measured by a step without bounds" not in said:
-        fail(f"an unloaded step after a balanced one: {code}: {said}")
+def altered(proof, number, *faults):
+    """Returns a copy of a proof with faults in a step."""
+    copied = copy.deepcopy(proof)
+    for fault in faults:
+        fault(copied["steps"][number])
+    return copied
 
 
-def check_faults(folder):
+def check_faults():
     problem = reference / "problems/pb07-three-gap-supports.toml"
-    proof = proof_of(problem, folder, "--kernels", "corrected")
-    if verdict(problem, proof, folder)[0] != 0 or proof["steps"][2]["closed"] != [1, 2, 3]:
-        fail("the proof that is to be doctored is not as expected")
+    proof = proof_of(problem)
+    steps = proof["steps"]
+    expect(0, "the proof that is to be doctored", problem, proof)
+    check(steps[2]["closed"] == [1, 2, 3], "all pairs are closed in step 3")
     for name, fault in FAULTS.items():
-        doctored = copy.deepcopy(proof)
-        fault(doctored["steps"][2])
-        code, said = verdict(problem, doctored, folder)
-        if code != 1 or not re.search("step 3( of 4: REFUSED|: )|is no number", said):
-            fail(f"{name}: {code}: {said}")
-    doctored = copy.deepcopy(proof)
-    wider(doctored["steps"][2], 0.999e-6)
-    if verdict(problem, doctored, folder)[0] != 0:
-        fail("a bound of 0.999 millionths of the largest deflection is refused")
-    doctored = copy.deepcopy(proof)
-    doctored["steps"][2]["L"] = doctored["steps"][0]["L"]
-    if verdict(problem, doctored, folder)[0] != 1:
-        fail("the factor is that of another state")
-    doctored = copy.deepcopy(proof)
-    doctored["steps"][1], doctored["steps"][2] = doctored["steps"][2], doctored["steps"][1]
-    if verdict(problem, doctored, folder)[0] != 1:
-        fail("steps are exchanged")
-    for name, steps in (("only the first step", proof["steps"][:1]), ("no step", []), ("a step twice", [*proof["steps"], proof["steps"][3]])):
-        if verdict(problem, proof | {"steps": steps}, folder)[0] != 1:
-            fail(name)
-    without = proof["steps"][:3] + [{"step": 4, "certified": False, "error": None, "because": "lorem"}]
-    if verdict(problem, proof | {"steps": without}, folder)[0] != 2:
-        fail("a step without bounds counts as proved")
-    doctored = copy.deepcopy(proof)  # pair 3 is listed twice, and the factor has its spring twice
-    twice = Path(folder) / "twice.toml"
+        expect(1, name, problem, altered(proof, 2, fault), "step 3( of 4: REFUSED|: )|is no number")
+    expect(0, "a bound of 0.999 millionths of the largest deflection", problem, altered(proof, 2, lambda step: wider(step, 0.999e-6)))
+    expect(1, "the factor is that of another state", problem, altered(proof, 2, put("L", steps[0]["L"])))
+    bound_less = {"step": 4, "certified": False, "error": None, "because": "lorem"}
+    for wanted, name, other in ((1, "steps are exchanged", [steps[0], steps[2], steps[1], steps[3]]), (1, "only the first step", steps[:1]), (1, "no step", []),
+                                (1, "a step twice", [*steps, steps[3]]), (2, "a step without bounds", [*steps[:3], bound_less])):
+        expect(wanted, name, problem, proof | {"steps": other})
+    # Pair 3 is listed twice, and the factor has its spring twice.
     contact = "\n[[contact]]\nnode = 13\nsurface = \"below\"\nface = -0.006\nstiffness = 1.0e5\n"
-    twice.write_text(problem.read_text().replace("\n[[step]]", contact + "\n[[step]]", 1))
-    doctored["steps"][2].update({key: proof_of(twice, folder, "--kernels", "corrected")["steps"][2][key] for key in ("L", "shift", "scale")})
-    doctored["steps"][2].update(closed=[1, 2, 3, 0], error={kind: 1e6 * bound for kind, bound in proof["steps"][2]["error"].items()})
-    if verdict(problem, doctored, folder)[0] != 1:
-        fail("a pair is taken as closed under two numbers")
-    problem_that_opens = reference / "problems/pb01-cantilever-tip-stop.toml"
-    opened = proof_of(problem_that_opens, folder, "--kernels", "corrected")
-    unloaded = Path(folder) / "unloaded.toml"  # an unproved earlier step must not increase the allowed error
-    unloaded.write_text("[beam]\nx = [0, 1]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n")
-    inflated = proof_of(unloaded, folder, "--kernels", "corrected")
-    inflated["steps"][0].update(certified=False, displacement=[1e200] * 4, error=dict.fromkeys(inflated["steps"][0]["error"], 1e300))
-    codes = [verdict(unloaded, inflated, folder)[0]]
+    twice = proof_of(file_of("twice.toml", problem.read_text().replace("\n[[step]]", contact + "\n[[step]]", 1)))["steps"][2]
+    expect(1, "a pair is taken as closed under two numbers", problem, altered(proof, 2, lambda step: step.update(
+        {key: twice[key] for key in ("L", "shift", "scale")}, closed=[1, 2, 3, 0], error={kind: 1e6 * bound for kind, bound in step["error"].items()})))
+    # An unproved earlier step must not increase the allowed error.
+    unloaded = file_of("unloaded.toml", CANTILEVER.format("x = [0, 1]") + "[[step]]\nuniform = -1\n[[step]]\nuniform = 0\n")
+    inflated = altered(proof_of(unloaded), 0, lambda step: step.update(certified=False, displacement=[1e200] * 4, error=dict.fromkeys(step["error"], 1e300)))
+    expect(0, "an inflated step before an unloaded one", unloaded, inflated)
     inflated["steps"][1]["error"]["w"] = 1e100
-    if [*codes, verdict(unloaded, inflated, folder)[0]] != [0, 1]:
-        fail("an unloaded state is measured by a deflection that is not certified")
-    opened["steps"][3]["closed"] = [1]
-    if verdict(problem_that_opens, opened, folder)[0] != 1:
-        fail("an open pair is taken as closed")
-    opened["steps"][3].update(closed=[], state=["contact"])
-    if verdict(problem_that_opens, opened, folder)[0] != 1:
-        fail("an open pair is said to be in contact")
-    opened["steps"][3]["certified"], opened["steps"][3]["error"]["gap"] = False, 1.0
-    if verdict(problem_that_opens, opened, folder)[0] != 2:
-        fail("a state that the bounds contradict counts as shown")
+    expect(1, "an unloaded state is measured by a deflection that is not certified", unloaded, inflated)
+    opens = reference / "problems/pb01-cantilever-tip-stop.toml"
+    opened = proof_of(opens)
+    in_contact = put("state", ["contact"])
+    expect(1, "an open pair is taken as closed", opens, altered(opened, 3, put("closed", [1])))
+    expect(1, "an open pair is said to be in contact", opens, altered(opened, 3, in_contact))
+    expect(2, "a state that the bounds contradict", opens, altered(opened, 3, in_contact, put("certified", False), put("error", lambda e: e | {"gap": 1.0})))
     for name, (pattern, digit) in OTHERS.items():
-        other = Path(folder) / "other.toml"
         text = problem.read_text()
         changed = re.sub(pattern + r"(-?[0-9.]*[0-9])", lambda m: m.group(0) + ("" if "." in m.group(2) else ".") + "000001" + digit, text, count=1)
-        other.write_text(changed)
-        code, said = verdict(other, proof, folder)
-        if changed == text or code != 1:
-            fail(f"the proof of a problem in which {name} is another: {code}: {said}")
-    print(f"{len(FAULTS) + 11 + len(OTHERS)} doctored proofs were tried")
+        check(changed != text, f"{name} is changed")
+        expect(1, f"the proof of a problem in which {name} is another", file_of("other.toml", changed), proof)
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    check_reference(scratch)
-    check_faults(scratch)
-    check_semidefinite(scratch)
-    check_places(scratch)
-    check_doctored(scratch, check_forms(scratch), 200 if few else 2000)
-    check_cancelled(scratch)
-    check_balanced(scratch)
-print("FAILED" if failed else "passed")
-sys.exit(1 if failed else 0)
+    folder = Path(scratch)
+    check_reference()
+    check_faults()
+    check_semidefinite()
+    check_places()
+    check_doctored(check_forms(), 200 if few else 2000)
+    check_cancelled_and_balanced()
+least = (30, 25, 0) if few else (150, 140, 1)
+check.end(150, **dict(zip(("proved steps", "certified steps", "contradicted"), least)))

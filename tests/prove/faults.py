@@ -5,7 +5,6 @@ The faults are those of tests/mutants/mutants.toml in the listing and in contct.
 a time."""
 
 import os
-import subprocess
 import sys
 import tempfile
 import tomllib
@@ -13,51 +12,40 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 build, root = Path(sys.argv[1]), Path(sys.argv[2])
+sys.path.insert(0, str(root / "tests/support"))
+from edits import edited
+from testing import run
+
 COMMANDS = {
-    "fortran/contct.f": "gfortran -O2 -std=legacy -cpp -DCONTCT=CONTC8 -fdefault-real-8 -ffp-contract=off -fPIC -shared {} -o {}",
-    "cpp/contct/kernel/contct.hpp": f"g++ -O2 -std=c++20 -ffp-contract=off -fPIC -shared -I {{}} -I {root}/cpp "
-    f"{root}/cpp/contct/kernel/contct.cpp -o {{}}",
-    "reference/kernels/contct_kernel.c": f"cc -O2 -ffp-contract=off -shared -fPIC -I {root}/cpp {{}} -o {{}}",
+    "fortran/contct.f": "gfortran -O2 -std=legacy -cpp -DCONTCT=CONTC8 -fdefault-real-8 -ffp-contract=off -fPIC -shared fortran/contct.f",
+    "cpp/contct/kernel/contct.hpp": f"g++ -O2 -std=c++20 -ffp-contract=off -fPIC -shared -I cpp -I {root}/cpp {root}/cpp/contct/kernel/contct.cpp",
+    "reference/kernels/contct_kernel.c": f"cc -O2 -ffp-contract=off -shared -fPIC -I {root}/cpp reference/kernels/contct_kernel.c",
 }
 VERDICTS = {0: "proved", 1: "differs", 2: "undecided"}
 
 
-def verdict_on(fault: dict, folder: Path) -> subprocess.CompletedProcess:
-    """Builds a kernel with the fault, and runs the prover."""
-    text = (root / fault["file"]).read_text()
-    assert text.count(fault["find"]) == 1, f"{fault['id']}: found {text.count(fault['find'])} times; allowed: once"
-    edited, library = folder / Path(fault["file"]).relative_to("cpp" if "cpp/" in fault["file"] else "."), folder / "faulty.so"
-    edited.parent.mkdir(parents=True)
-    edited.write_text(text.replace(fault["find"], fault["replace"]))
-    command = COMMANDS[fault["file"]].format(folder if "cpp/" in fault["file"] else edited, library)
-    subprocess.run(command.split(), check=True, cwd=folder)
-    words = ["/usr/bin/python3", "-m", "contct_prove", str(library)]  # proves every kernel of the library
-    return subprocess.run(words, env=os.environ | {"PYTHONPATH": str(build)}, capture_output=True, text=True)
-
-
-def is_noticed(fault: dict) -> bool:
-    """Prints the verdict on a fault, and returns True if it is allowed. Only plug-ins can be run against the listing to
-    find a difference; other kernels stay undecided."""
-    with tempfile.TemporaryDirectory() as name:
-        said = verdict_on(fault, Path(name))
-    equivalent = fault["id"] in own["equivalent"]
-    allowed = (0, 2) if equivalent else (1,) if fault["id"] in own["differs"] else (2,)
+def is_noticed(fault: tuple[str, str, str, str]) -> bool:
+    """Builds a kernel with a fault, prints the verdict of the prover, and returns True if it is allowed. Only plug-ins can
+    be run against the listing to find a difference; other kernels stay undecided."""
+    name, file, find, replace = fault
+    with tempfile.TemporaryDirectory() as scratch:
+        copy = Path(scratch, file)
+        copy.parent.mkdir(parents=True)
+        copy.write_text(edited((root / file).read_text(), [(find, replace)]))
+        run(*COMMANDS[file].split(), "-o", "faulty.so", cwd=scratch, status=0)
+        said = run("/usr/bin/python3", "-m", "contct_prove", "faulty.so", cwd=scratch, env=os.environ | {"PYTHONPATH": str(build)})
+    equivalent = name in own["equivalent"]
+    allowed = (0, 2) if equivalent else (1,) if name in own["differs"] else (2,)
     right = said.returncode in allowed and not said.stderr
     verdicts = [line.partition("): ")[2] for line in said.stdout.splitlines() if "): " in line]
     words = next((v for v in verdicts if not v.startswith("proved")), "")[:150]
-    kind = "equivalent" if equivalent else "a fault"
-    print("ok" if right else "FAILED", fault["id"], kind, VERDICTS.get(said.returncode), words, said.stderr, sep="; ", flush=True)
+    print("ok" if right else "FAILED", name, "equivalent" if equivalent else "a fault", VERDICTS.get(said.returncode), words, said.stderr, sep="; ", flush=True)
     return right
 
 
 own = tomllib.loads((root / "tests/prove/faults.toml").read_text())
-faults = [
-    {"id": name, "file": source["file"], "find": find, "replace": replace}
-    for source in tomllib.loads((root / "tests/mutants/mutants.toml").read_text())["source"] + own["source"]
-    for name, find, replace in source["mutants"]
-    if source["file"] in COMMANDS
-]
-asked = [f for f in faults if "all" in sys.argv[3:] or f["id"] in sys.argv[3:]]
+asked = [(name, source["file"], find, replace) for source in tomllib.loads((root / "tests/mutants/mutants.toml").read_text())["source"] + own["source"]
+         for name, find, replace in source["mutants"] if source["file"] in COMMANDS and {"all", name} & set(sys.argv[3:])]  # fmt: skip
 with ThreadPoolExecutor(2) as pool:
     noticed = list(pool.map(is_noticed, asked))
 print(f"{len(asked)} faults, {noticed.count(False)} failed")

@@ -5,13 +5,12 @@ import ctypes
 import mmap
 import random
 import struct
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 build, root = Path(sys.argv[1]), Path(sys.argv[2])
-sys.path.insert(0, str(build))
+sys.path[:0] = [str(build), str(root / "tests/support")]
 import capstone
 import z3
 from contct_prove import reals, x86
@@ -20,6 +19,7 @@ from contct_prove.machine import Machine
 from contct_prove.specification import Specification
 from contct_prove.state import REGISTERS, State
 from contct_prove.__main__ import KERNELS
+from testing import run
 
 STATES = 12
 ORDER = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for k in range(8, 16)]
@@ -35,8 +35,8 @@ class Processor:
 
     def __init__(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run(["as", "-o", f"{folder}/stub.o", str(root / "tests/prove/stub.s")], check=True)
-            subprocess.run(["objcopy", "-O", "binary", f"{folder}/stub.o", f"{folder}/stub"], check=True)
+            run("as", "-o", f"{folder}/stub.o", root / "tests/prove/stub.s", status=0)
+            run("objcopy", "-O", "binary", f"{folder}/stub.o", f"{folder}/stub", status=0)
             code = Path(f"{folder}/stub").read_bytes()
         self.memory = mmap.mmap(-1, 4 * PAGE, prot=mmap.PROT_READ | mmap.PROT_WRITE | mmap.PROT_EXEC)
         self.base = ctypes.addressof(ctypes.c_char.from_buffer(self.memory))
@@ -79,9 +79,6 @@ class Concrete:
     push, pop = Machine.push, Machine.pop
 
 
-SCALAR = {"add": 0x58, "mul": 0x59, "sub": 0x5C, "div": 0x5E}
-
-
 def constant(term: z3.ExprRef) -> z3.ExprRef:
     """Returns the value of a term. Uninterpreted functions get the results of the processor's scalar instructions,
     which they represent."""
@@ -97,15 +94,13 @@ def constant(term: z3.ExprRef) -> z3.ExprRef:
 def applied(name: str, width: int, arguments: list[tuple[int, int]]) -> int:
     if name.startswith("product"):
         return arguments[0][0] * arguments[1][0] % (1 << width)
-    prefix = b"\xf2" if width == 64 else b"\xf3"
-    state = bytearray(128 + 16 + 256 + 64)
+    prefix, state = b"\xf2" if width == 64 else b"\xf3", bytearray(128 + 16 + 256 + 64)
     if name.startswith("from_int"):
         struct.pack_into("<Q", state, 0, arguments[0][0])
         code = prefix + b"\x48\x0f\x2a\xc0"
     else:
-        for k in range(2):
-            struct.pack_into("<Q", state, 144 + 16 * k, arguments[k][0])
-        code = prefix + bytes([0x0F, SCALAR[name[:3]], 0xC1])
+        struct.pack_into("<Q8xQ", state, 144, arguments[0][0], arguments[1][0])
+        code = prefix + bytes([0x0F, {"add": 0x58, "mul": 0x59, "sub": 0x5C, "div": 0x5E}[name[:3]], 0xC1])
     return struct.unpack_from("<Q", processor.run(code, bytes(state)), 144)[0] % (1 << width)
 
 
@@ -113,8 +108,7 @@ SPECIAL = [0, 1, 2, (1 << 64) - 1, 1 << 63, 1 << 31, (1 << 31) - 1, 0x7FF0000000
            0x7FC000007F800000, 0x3F8000003F800000, 0x80000000, 0x7FFFFFFFFFFFFFFF, 0xBFF0000000000000]  # fmt: skip
 
 
-def any_64() -> int:
-    return draw.choice(SPECIAL) if draw.random() < 0.4 else draw.getrandbits(64)
+any_64 = lambda: draw.choice(SPECIAL) if draw.random() < 0.4 else draw.getrandbits(64)
 
 
 def prepared(ins: capstone.CsInsn) -> tuple[bytes, bytes, int]:
@@ -197,14 +191,12 @@ def setting(jump: capstone.CsInsn) -> capstone.CsInsn:
     return ins
 
 
-for name in ("add", "mul"):
-    for width in (32, 64):
-        nan = reals.INFINITY[width]
-        for _ in range(200):
-            a, known = any_64() % (1 << width), any_64() % (1 << width)
-            if known & (1 << width - 1) - 1 <= nan:
-                both = [applied(name, width, [(x, width), (y, width)]) for x, y in ((a, known), (known, a))]
-                assert both[0] == both[1], f"{name} of {a:#x} and {known:#x} depends on their order"
+for name, width in (("add", 32), ("add", 64), ("mul", 32), ("mul", 64)):
+    for _ in range(200):
+        a, known = any_64() % (1 << width), any_64() % (1 << width)
+        if known & (1 << width - 1) - 1 <= reals.INFINITY[width]:  # not a NaN
+            both = {applied(name, width, [(x, width), (y, width)]) for x, y in ((a, known), (known, a))}
+            assert len(both) == 1, f"{name} of {a:#x} and {known:#x} depends on their order"
 
 image = Image(build / "contct")
 forms: dict[str, capstone.CsInsn] = {}

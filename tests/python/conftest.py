@@ -1,19 +1,19 @@
 """Fixtures for all tests of contct.py, which run with and without NumPy."""
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+sys.path[:0] = [os.environ["CONTCT_BUILD"], str(Path(__file__).parents[1] / "support")]  # for contct.py and libcontct.so; for testing.py
+from testing import ROOT, run  # noqa: E402
+
 NUMPY = os.environ["CONTCT_TEST_NUMPY"]
 if NUMPY == "hidden":
     sys.modules["numpy"] = None  # now `import numpy` raises ImportError
 
-ROOT = Path(__file__).resolve().parents[2]
 PROBLEMS = ROOT / "reference/problems"
-sys.path.insert(0, os.environ["CONTCT_BUILD"])  # for contct.py and libcontct.so
-sys.path.append(str(ROOT / "tests/course"))  # for page.py
+sys.path += [str(ROOT / folder) for folder in ("tests/course", "reference", "reference/kernels")]  # for page, atlas, contct_kernel
 import contct  # noqa: E402
 
 assert (contct._numpy is not None) == (NUMPY == "there"), f"NumPy: found {contct._numpy}; allowed: {NUMPY}"
@@ -22,10 +22,17 @@ assert (contct._numpy is not None) == (NUMPY == "there"), f"NumPy: found {contct
 @pytest.fixture
 def ask():
     """Runs the program: ask("run", FILE, ..) returns (exit status, standard output, standard error)."""
-    def run(*arguments):
-        finished = subprocess.run([os.environ["CONTCT_BUILD"] + "/contct", *map(str, arguments)], capture_output=True, text=True)
-        return finished.returncode, finished.stdout, finished.stderr
-    return run
+    def ask_contct(*arguments):
+        done = run(f"{os.environ['CONTCT_BUILD']}/contct", *arguments)
+        return done.returncode, done.stdout, done.stderr
+    return ask_contct
+
+
+def refusal(problem, function=contct.check, error=contct.InputError, **options):
+    """Returns the exception that a function raises for a problem."""
+    with pytest.raises(error) as caught:
+        function(problem, **options)
+    return caught.value
 
 
 @pytest.fixture

@@ -5,8 +5,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import contct
+import contct_kernel
 import pytest
-from conftest import PROBLEMS, ROOT
+from conftest import PROBLEMS, ROOT, refusal
 
 LAYOUT = dict(dd=[0.0, 9.0, 0.0, 9.0], dtest=[2.0, 0.0, 1.0, 0.0], cc=[0.5, 0.75], id=[1, 2], isep=[1, 1], isurf=[1, 1], ndofpn=2)
 
@@ -44,22 +45,10 @@ def test_contct_call_refuses_arrays_of_wrong_length_or_type(change, error, words
         contct.call(**{"kernel": "fortran", **LAYOUT, **change})
 
 
-def scale_factor(d, d_star, face, isep, isurf):
-    gap = face - d
-    if d_star == 0:
-        return 1.0
-    if abs(gap) < 1e-10:
-        s = isep * isurf / d_star
-        return s * 1e-20 if s > 0 else 1.0
-    return gap / d_star
-
-
-def listing(call, near=0.390625e-02, s_of=scale_factor):
-    """Answers a call like reference/kernels/contct_kernel.py."""
-    ss = [s_of(call.dd[dof], call.dtest[dof], *pair) for dof, *pair in zip(call.dofs, call.cc, call.isep, call.isurf)]
-    smin = min([1.0] + [s for s in ss if 0 < s < 1])
-    toggled = [smin != 1 and abs(s - smin) / smin < near for s in ss]
-    return ss, smin, [(-1 if isep == 1 else 1) if t else isep for t, isep in zip(toggled, call.isep)]
+def listing(call):
+    """Answers a call by reference/kernels/contct_kernel.py."""
+    smin, ss, isep = contct_kernel.contct([(call.dd[dof], call.dtest[dof], *pair) for dof, *pair in zip(call.dofs, call.cc, call.isep, call.isurf)])
+    return ss, smin, isep
 
 
 def test_contct_judge_finds_a_right_kernel_equal_to_the_bit():
@@ -82,8 +71,9 @@ def test_contct_judge_gives_the_numbers_of_contct_fuzz(ask):
     assert found == expected
 
 
-def test_contct_judge_detects_a_kernel_with_a_fault():
-    found = contct.judge(lambda call: listing(call, near=0.4e-02), calls=2000, problems=5, name="wrong")
+def test_contct_judge_detects_a_kernel_with_a_fault(monkeypatch):
+    monkeypatch.setattr(contct_kernel, "EPSMUL", 0.4e-02)
+    found = contct.judge(listing, calls=2000, problems=5, name="wrong")
     assert not found.equal and found.exit == 1 and found.mismatches > 0 and found.level in ("none", "certificate", "events")
     assert "wrong differs in" in found.findings[0] and "NOT equal" in repr(found)
 
@@ -105,16 +95,14 @@ def test_contct_judge_raises_the_exception_of_a_kernel_with_a_note_about_the_cal
             raise ZeroDivisionError("the hundredth")
         return listing(call)
 
-    with pytest.raises(ZeroDivisionError, match="the hundredth") as caught:
-        contct.judge(fails, calls=2000)
-    assert len(seen) == 100  # the kernel is not called again
-    assert caught.value.__notes__[0].startswith(f"in a call of {len(seen[-1].id)} pair")
+    error = refusal(fails, contct.judge, ZeroDivisionError, calls=2000)
+    assert str(error) == "the hundredth" and len(seen) == 100  # the kernel is not called again
+    assert error.__notes__[0].startswith(f"in a call of {len(seen[-1].id)} pair")
 
     def stops(call):
         raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        contct.judge(stops, calls=2000)
+    refusal(stops, contct.judge, KeyboardInterrupt, calls=2000)
     assert contct.judge(listing, calls=1000, problems=1).equal
 
 
@@ -135,8 +123,6 @@ def test_contct_replay_compares_a_kernel_with_a_trace_and_refuses_a_malformed_tr
     assert contct.replay(own).calls == 6
     doctored = contct.replay(own.replace(" isep -1", " isep 1", 1))
     assert doctored.mismatches >= 1 and doctored.first
-    with pytest.raises(contct.InputError) as caught:
-        contct.replay(own.replace("smin", "smax", 1))
-    assert caught.value.file == "trace" and caught.value.line > 1
-    with pytest.raises(TypeError):
-        contct.replay({})
+    error = refusal(own.replace("smin", "smax", 1), contct.replay)
+    assert error.file == "trace" and error.line > 1
+    refusal({}, contct.replay, TypeError)

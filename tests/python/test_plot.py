@@ -2,10 +2,8 @@
 import pickle
 import sys
 
-
-import pytest
-
 import contct
+import pytest
 
 L, EI, q = 6.0, 1000.0, -12.0
 
@@ -19,8 +17,9 @@ def simple():
             "step": [{"name": "half", "uniform": q / 2}, {"uniform": q}]}
 
 
-def drawn(axes):
-    """Returns {label: (x, y)} of the lines."""
+def plotted(problem, quantity="w", **options):
+    """Returns {label: (x, y)} of the lines that are drawn."""
+    axes = contct.run(problem, kernels="corrected").plot(quantity, **options)
     return {line.get_label(): (list(line.get_xdata()), list(line.get_ydata())) for line in axes.lines}
 
 
@@ -33,53 +32,46 @@ def matplotlib():
 
 
 def test_the_curves_of_a_beam_are_exact_between_nodes(simple, matplotlib):
-    result = contct.run(simple, kernels="corrected")
     closed_forms = {"w": lambda x: q * x * (L**3 - 2 * L * x**2 + x**3) / (24 * EI), "moment": lambda x: -q * x * (L - x) / 2,
                     "shear": lambda x: -q * (L / 2 - x)}
     for quantity, formula in closed_forms.items():
-        xs, ys = drawn(result.plot(quantity))[quantity]
+        xs, ys = plotted(simple, quantity)[quantity]
         assert len(xs) > 400 and xs[0] == 0 and xs[-1] == L
         assert ys == pytest.approx([formula(x) for x in xs], abs=1e-9)
-    assert result.plot().get_ylabel() == "w [m]"
+    assert contct.run(simple).plot().get_ylabel() == "w [m]"
 
 
 def test_the_curves_of_a_beam_have_kinks_at_a_load_inside_an_element_and_at_a_hinge(matplotlib):
     beam = {"beam": {"length": 10.0, "elements": 2, "EI": EI}, "hinge": [{"node": 2}],
             "support": [{"node": 1, "fix": ["w", "theta"]}, {"node": 3, "fix": "w"}], "step": [{"point": [{"x": 7.5, "w": -8.0}]}]}
-    result = contct.run(beam)
-    xs, ys = drawn(result.plot("moment"))["moment"]  # the right part is a simple beam hung from the left part
+    xs, ys = plotted(beam, "moment")["moment"]  # the right part is a simple beam hung from the left part
     assert all(abs(m - (-4 * (5 - x) if x <= 5 else 4 * (x - 5) if x <= 7.5 else 4 * (10 - x))) < 1e-9 for x, m in zip(xs, ys))
-    xs, ys = drawn(result.plot("w"))["w"]
+    xs, ys = plotted(beam)["w"]
     assert all(abs(w + 4 * x * x * (15 - x) / (6 * EI)) < 1e-9 for x, w in zip(xs, ys) if x <= 5)
-    xs, ys = drawn(result.plot("shear"))["shear"]
-    assert {round(v, 9) for v in ys} == {4.0, -4.0}
+    assert {round(v, 9) for v in plotted(beam, "shear")["shear"][1]} == {4.0, -4.0}
 
 
 def test_plot_draws_the_step_with_the_given_index(simple, matplotlib):
     axes = contct.run(simple, kernels="corrected").plot("moment", step=0)
-    assert max(drawn(axes)["moment"][1]) == pytest.approx(-q / 2 * L**2 / 8)
+    assert max(plotted(simple, "moment", step=0)["moment"][1]) == pytest.approx(-q / 2 * L**2 / 8)
     assert axes.get_title() == "Step 1, half" and axes.get_ylabel() == "moment [kN m]" and axes.get_xlabel() == "x [m]"
 
 
-def test_plot_draws_a_face_at_its_place_and_a_pair_in_contact_on_the_beam(simple, matplotlib):
-    assert drawn(contct.run(simple, kernels="corrected").plot())["face"] == ([3.0], [-0.3])
+def test_plot_draws_a_face_at_its_place_unless_it_is_far_away_and_a_pair_in_contact_on_the_beam(simple, matplotlib):
+    assert plotted(simple)["face"] == ([3.0], [-0.3])
     simple["contact"][0]["face"] = -0.1
-    pressed = contct.run(simple, kernels="corrected")
-    lines = drawn(pressed.plot())
-    assert lines["in contact"] == ([3.0], [pressed.steps[1].w[1]]) and pressed.steps[1].w[1] < -0.1
-    assert lines["face"] == ([], [])
-
-
-def test_plot_does_not_draw_a_face_that_is_far_away(simple, matplotlib):
+    w = contct.run(simple, kernels="corrected").steps[1].w[1]
+    lines = plotted(simple)
+    assert lines["in contact"] == ([3.0], [w]) and w < -0.1 and lines["face"] == ([], [])
     simple["contact"][0]["face"] = -100.0
-    assert drawn(contct.run(simple, kernels="corrected").plot())["face"] == ([], [])
+    assert plotted(simple)["face"] == ([], [])
 
 
 def test_plot_draws_a_dot_at_an_extreme_between_nodes(simple, matplotlib):
     simple["beam"]["elements"] = 1
     simple["support"][0]["nodes"] = [1, 2]
     del simple["contact"]
-    xs, ys = drawn(contct.run(simple, kernels="corrected").plot("moment"))["extremes"]
+    xs, ys = plotted(simple, "moment")["extremes"]
     assert (xs[1], ys[1]) == pytest.approx((L / 2, -q * L**2 / 8))
 
 

@@ -8,6 +8,7 @@ import contct
 problem: dict[str, Any] = contct.read("beam.toml")
 result: contct.Result = contct.run(problem, kernels="corrected", strict=True)
 again: contct.Result = contct.run(Path("beam.toml"), kernels=("fortran", "cpp"), engine=None, envelope=True, max_increments=9)
+loaded: contct.Result = contct.load("result.json")
 forces: list[float] = [pair.force for pair in result.steps[-1].pairs]
 events: list[tuple[float, str]] = [(i.fraction, event.change) for i in result.steps[0].increments for event in i.events]
 proved: bool = result.certified

@@ -1,265 +1,309 @@
+// Tests what is read of correct files, which accepted.txt lists, and the messages about the mistakes of
+// refused.txt.
 #include "contct/read/problem_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstring>
+#include <functional>
 
 #include "catch.hpp"
 #include "contct/kernel/call.hpp"
-#include "read/bad_inputs.hpp"
+#include "contct/linear/sparse_factor.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/read/matrix_files.hpp"
+#include "contct/read/tables.hpp"
+#include "contct/structure/acting.hpp"
 #include "read/good_problem.hpp"
+#include "read/small_matrix.hpp"
+#include "support/rows.hpp"
+#include "support/scratch_folder.hpp"
 
 using namespace contct;
+using Catch::Matchers::Contains;
 
 namespace {
+
+std::string words_of(const nodal_value& v, const model& m) {
+  return fmt::format("{} {} {}{}", v.node + 1, dof_names(m)[v.dof], v.value,
+                     v.factor == 1 ? "" : fmt::format(" * {}", v.factor));
+}
+
+/// Returns the loads, settlements and placed loads of a step, with elements, nodes and grid lines from 1.
+std::string words_of(const load& l, const model& m) {
+  std::vector<std::string> all;
+  for (const point_load& p : l.points) all.push_back(words_of(p, m));
+  for (const distributed_load& d : l.distributed) {
+    std::vector<int> on;
+    for (const int e : d.elements) on.push_back(e + 1);
+    all.push_back(fmt::format("on {}: {}", on.empty() ? "all" : fmt::format("{}", fmt::join(on, " ")),
+                              fmt::join(d.polynomial, " ")));
+    if (d.parts.empty()) continue;
+    all.back() += " exactly";
+    for (const rational& a : coefficients_of(d)) all.back() += " " + fraction_words(a);
+  }
+  for (const prescribed_displacement& s : l.settlements) all.push_back("settles " + words_of(s, m));
+  constexpr const char* kinds[] = {"force", "point", "moment", "curvature"};
+  const auto* const on_beam = std::get_if<beam>(&m.kind);
+  const auto* const on_plate = std::get_if<plate>(&m.kind);
+  const auto from_to = [](const line<rational>& along, const line_place& from, const line_place& to) {
+    return fraction_words(along.place(from)) + " to " + fraction_words(along.place(to));
+  };
+  for (const placed_load& p : l.placed) {
+    const line<rational> along = on_beam != nullptr ? line<rational>(on_beam->x, on_beam->runs)
+                                                    : line<rational>(on_plate->x, on_plate->x_runs);
+    all.push_back(fmt::format("{} {}: {}", kinds[static_cast<int>(p.what)], from_to(along, p.from, p.to),
+                              fmt::join(p.polynomial, " ")));
+    if (on_plate != nullptr)
+      all.back() += " across " + from_to({on_plate->y, on_plate->y_runs}, p.across[0], p.across[1]);
+  }
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// Returns what was read, as lines "key: value".
+std::vector<std::string> words_of(const problem& p) {
+  std::vector<std::string> lines;
+  const auto add = [&lines](const std::string& key, const auto& values, const char* between = ", ") {
+    lines.push_back(fmt::format("{}:{}{}", key, values.empty() ? "" : " ", fmt::join(values, between)));
+  };
+  using words = std::vector<std::string>;
+  words supports, pairs, beds, names;
+  for (const support& s : p.supports)
+    supports.push_back(fmt::format("{} {}{}", s.node + 1, dof_names(p.geometry)[s.dof],
+                                   s.fixed ? "" : fmt::format(" spring {}", s.spring)));
+  for (const contact_pair& c : p.pairs)
+    pairs.push_back(fmt::format("{} {} {} {} {}", c.node + 1, c.surface == face_above ? "above" : "below",
+                                c.face, c.stiffness, c.closed ? "touching" : "separated"));
+  for (const bed& b : p.beds)
+    beds.push_back(fmt::format("{} from pair {}: {}", b.modulus, b.first_pair + 1, fmt::join(b.share, " ")));
+  for (const load& l : p.steps)
+    if (!l.name.empty()) names.push_back(l.name);
+  add("nodes", words{std::to_string(nodes(p.geometry))});
+  add("supports", supports);
+  add("pairs", pairs);
+  add("beds", beds);
+  add("names", names);
+  add("units", p.units.length.empty() ? words{} : words{p.units.length, p.units.force}, " ");
+  add("warnings", p.warnings, " / ");
+  add("number of warnings", words{std::to_string(p.warnings.size())});
+  for (std::size_t step = 0; step < p.steps.size(); ++step) {
+    const load& l = p.steps[step];
+    const std::string acting = words_of(l, p.geometry);
+    add(fmt::format("load {}", step + 1), acting.empty() ? words{} : words{acting});
+    words terms;
+    for (const load_term& t : l.terms)
+      terms.push_back(fmt::format("{} {}{}", t.name, t.factor, t.at ? fmt::format(" at {}", *t.at) : ""));
+    lines.push_back(
+        fmt::format("terms {}: {}{}", step + 1, l.from_zero ? "from zero " : "", fmt::join(terms, ", ")));
+  }
+  if (const auto* b = std::get_if<beam>(&p.geometry.kind)) {
+    std::vector<int> hinges;
+    for (const int node : b->hinges) hinges.push_back(node + 1);
+    add("x", b->x, " ");
+    add("EI", b->EI, " ");
+    add("hinges", hinges, " ");
+  } else if (const auto* q = std::get_if<plate>(&p.geometry.kind)) {
+    add("x", q->x, " ");
+    add("y", q->y, " ");
+    add("D", words{fmt::format("{:.15g}", q->D)});
+    add("nu", words{fmt::format("{}", q->nu)});
+  } else if (const auto* a = std::get_if<assembled>(&p.geometry.kind)) {
+    words labels;
+    for (int dof = 0; dof < a->dofs(); ++dof) labels.push_back(a->label_of(dof));
+    add("labels", labels, " ");
+    add("storage", words{a->as_band ? "band" : "sparse"});
+    add("free motions", words{a->free_motions ? std::to_string(*a->free_motions) : "unknown"});
+    const placed_nodes& at = a->places;
+    lines.push_back(fmt::format("places: {} nodes, {} edges", at.nodes.size(), at.edges.size()));
+    for (const placed_dof& dof : at.dofs)
+      lines.back() +=
+          dof.node < 0 ? ", none" : fmt::format(", {}.{}", at.nodes[dof.node].name, dof.direction);
+    add("notes", at.notes);
+  }
+  return lines;
+}
+
+std::vector<double> nodes_of(const std::string& beam_lines) {
+  const problem p = parse_problem("[beam]\n" + beam_lines + "\n[[step]]\nuniform = -1\n", "pb.toml");
+  return std::get<beam>(p.geometry.kind).x;
+}
+
+/// Returns the message about a problem on a matrix, without the names of folders.
+std::string message_about(const std::string& text, const scratch_folder& here) {
+  std::string message = "accepted";
+  try {
+    (void)structure_of(parse_problem(text, here.at("pb.toml")));
+  } catch (const std::exception& e) {
+    message = e.what();
+  }
+  const std::string folder = here.path().string() + "/";
+  for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder))
+    message.erase(at, folder.size());
+  return message;
+}
 
 std::string message_of_text(const std::string& text) {
   return verdict([&] { (void)parse_problem(text, "pb.toml"); });
 }
 
-const beam& beam_of(const problem& p) {
-  return std::get<beam>(p.geometry.kind);
-}
-
 }  // namespace
 
-TEST_CASE("parse_problem accepts a correct problem") {
-  const problem p = parse_problem(good_problem, "pb.toml");
-  CHECK(beam_of(p).x == std::vector<double>{0, 1, 2});
-  CHECK(beam_of(p).EI == std::vector<double>{1e4, 1e4});
-  REQUIRE(p.supports.size() == 2);
-  CHECK(p.supports[1].dof == 1);
-  REQUIRE(p.pairs.size() == 1);
-  CHECK(p.pairs[0].node == 2);
-  CHECK(p.pairs[0].surface == face_below);
-  CHECK_FALSE(p.pairs[0].closed);
-  REQUIRE(p.steps.size() == 1);
-  CHECK(p.steps[0].points[0].value == -60.0);
-  CHECK(p.warnings.empty());
-}
-
-TEST_CASE("a bad input of any kind is refused with place, key, what was found and what is allowed") {
-  const auto kinds = bad_inputs();
-  REQUIRE(kinds.size() >= 120);
-  for (const bad_input& kind : kinds) {
-    const std::string message = message_of_text(kind.text);
-    INFO(kind.what << "\n" << message);
-    CHECK_THAT(message, Catch::Matchers::StartsWith("pb.toml:" + std::string(kind.place)));
-    CHECK_THAT(message, Catch::Matchers::Contains(kind.key));
-    CHECK_THAT(message, Catch::Matchers::Contains(kind.found));
-    CHECK_THAT(message, Catch::Matchers::Contains(kind.allowed));
-    CHECK(message.find('\n') == std::string::npos);
+TEST_CASE("of every file of accepted.txt, the reader gives the parts that the table lists") {
+  const scratch_folder here;
+  write_matrix_files(here);
+  const std::string bare = "[beam]\nlength = 1\nelements = 1\nEI = 1\n[[step]]\nuniform = -1\n";
+  const auto rows = rows_of(
+      "read/accepted.txt",
+      {{"beam", good_problem}, {"bare", bare}, {"plate", good_plate}, {"matrix", good_matrix_problem}});
+  CHECK(rows.size() > 60);
+  for (const table_row& row : rows) {
+    INFO(row.fact << "\n" << row.row);
+    std::vector<std::string> lines;
+    CHECK_NOTHROW(
+        lines = words_of(parse_problem(row.text, row.base == "matrix" ? here.at("pb.toml") : "pb.toml")));
+    for (const std::string& expected : split(row.expected, " | ")) {
+      const std::string key = expected.substr(0, expected.find(':') + 1);
+      const auto found = std::ranges::find_if(lines, [&](const auto& l) { return l.starts_with(key); });
+      std::string words = found == lines.end() ? "nothing" : *found;
+      if (const auto at = words.find(here.path().string() + "/"); at != std::string::npos)
+        words.erase(at, here.path().string().size() + 1);
+      INFO(words);
+      CHECK((expected.find(" ..") == std::string::npos ? words == expected : has_in_order(words, expected)));
+    }
   }
 }
 
-TEST_CASE("a pair with a face at 0 is in contact before any load, unless its state is given as separated") {
-  const auto state = [](const std::string& lines) {
-    return parse_problem(with("face = -0.004\n", lines), "pb.toml").pairs[0].closed;
+TEST_CASE("with element_size, 2,000,000 elements are accepted, but not one more") {
+  const auto sized = [](const std::string& size) {
+    return verdict([&] { (void)nodes_of("length = 2000000\nelement_size = " + size + "\nEI = 1"); });
   };
-  CHECK(state("face = 0\n"));
-  CHECK(state("face = 0.0\nstate = \"contact\"\n"));
-  CHECK_FALSE(state("face = 0.0\nstate = \"separated\"\n"));
-  CHECK_FALSE(state("face = -1e-12\n"));
-}
-
-TEST_CASE("a bed has a pair at each free node, with the stiffness modulus times tributary length") {
-  const std::string head = "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\"]\n";
-  const std::string tail = "[[step]]\nuniform = -1\n";
-  const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
-  REQUIRE(whole.pairs.size() == 2);  // node 1 is fixed
-  CHECK(whole.pairs[0].node == 1);
-  CHECK(whole.pairs[0].stiffness == 6.0);
-  CHECK(whole.pairs[1].stiffness == 4.0);
-  CHECK(whole.pairs[0].closed);
-  const problem part = parse_problem(
-      head + "[[bed]]\nmodulus = 4\nsurface = \"above\"\nface = 0.5\nnodes = [3]\n" + tail, "pb.toml");
-  REQUIRE(part.pairs.size() == 1);
-  CHECK(part.pairs[0].stiffness == 4.0);
-  CHECK(part.pairs[0].surface == face_above);
-  CHECK_FALSE(part.pairs[0].closed);
-}
-
-TEST_CASE("pairs of contact tables come before pairs of bed tables, and both are in the order of the file") {
-  const problem p =
-      parse_problem(with("[[step]]",
-                         "[[bed]]\nmodulus = 1\nface = 0\n[[contact]]\nnode = 2\nsurface = \"above\"\n"
-                         "face = 1\nstiffness = 2\n[[step]]"),
-                    "pb.toml");
-  REQUIRE(p.pairs.size() == 4);
-  CHECK(p.pairs[1].node == 1);
-  CHECK(p.pairs[1].surface == face_above);
-  CHECK(p.pairs[2].node == 1);
+  CHECK(sized("1") == "accepted");
+  CHECK_THAT(sized("0.9999999"), Contains("which makes 2000001 elements"));
 }
 
 TEST_CASE(
-    "distributed loads on the same elements are added, and a list of all elements is the same as no list") {
-  const problem p = parse_problem(
-      with("point = [ { node = 3, w = -60.0 } ]",
-           "uniform = [ { value = -3, elements = [2] }, { value = -1 }, { polynomial = [1, 2], elements = "
-           "\"2..2\" }, { value = -4, elements = \"all\" }, { value = 0.5, elements = [2, 1] } ]"),
-      "pb.toml");
-  const load& l = p.steps[0];
-  REQUIRE(l.distributed.size() == 2);
-  CHECK(l.distributed[0].elements == std::vector<int>{1});
-  CHECK(l.distributed[0].polynomial == std::vector<double>{-2, 2});
-  CHECK(l.distributed[1].elements.empty());
-  CHECK(l.distributed[1].polynomial == std::vector<double>{-4.5});
+    "the largest plate that is accepted has a stiffness matrix of 4 GB, and a larger plate is refused") {
+  const auto square = [](int n) {
+    return verdict([&] {
+      const auto document = parse_toml(
+          fmt::format("[plate]\nsize = [1, 1]\nelements = [{}, {}]\nD = 1\nnu = 0\n", n, n), "m.toml");
+      std::vector<std::string> warnings;
+      (void)read_model(toml_value(document, "m.toml"), {"m.toml", reach::own_folder}, warnings);
+    });
+  };
+  // The band has 3 (n + 1)^2 rows of 3 (n + 2) + 3 entries.
+  const auto entries = [](std::int64_t n) { return 3 * (n + 1) * (n + 1) * (3 * (n + 2) + 3); };
+  int n = 1;
+  while (entries(n + 1) <= 500'000'000) ++n;
+  CHECK(square(n) == "accepted");
+  CHECK_THAT(square(n + 1), Contains("whose stiffness matrix takes 4.0 GB"));
 }
 
-TEST_CASE("a pair at a fixed dof is accepted, with a warning that the 1989 rule may change its status") {
-  const problem p = parse_problem(with("node = 3\nsurface", "node = 1\nsurface"), "pb.toml");
-  REQUIRE(p.warnings.size() == 1);
-  CHECK_THAT(p.warnings[0], Catch::Matchers::StartsWith("pb.toml:7: contact[1]: node 1 is fixed in w"));
+TEST_CASE("each mistake of refused.txt is refused with place, what was found and what is allowed") {
+  const scratch_folder here;
+  write_matrix_files(here);
+  const auto no_places = [] {
+    assembled a;
+    a.labels = {"1.x"};
+    a.stiffness.order = 1;
+    return a;
+  };
+  using reader = std::function<void(const std::string&)>;
+  const std::map<std::string, std::pair<std::string, reader>> kinds = {
+      {"beam", {good_problem, [](auto& text) { (void)parse_problem(text, "pb.toml"); }}},
+      {"plate", {good_plate, [](auto& text) { (void)parse_problem(text, "pb.toml"); }}},
+      {"matrix", {good_matrix_problem, {}}},
+      {"K.mtx", {small_matrix, [](auto& text) { (void)parse_symmetric(text, "K.mtx"); }}},
+      {"f.mtx", {small_vector, [](auto& text) { (void)parse_vector(text, "f.mtx", 3); }}},
+      {"s.mtx", {small_sparse_vector, [](auto& text) { (void)parse_vector(text, "s.mtx", 3); }}},
+      {"job.sti", {small_job, [](auto& text) { (void)parse_calculix_stiffness(text, "job.sti", 2); }}},
+      {"K.dof", {"5.1\n5.2\n", [](auto& text) { (void)parse_labels(text, "K.dof"); }}},
+      {"K.xyz", {small_places, [](auto& text) { (void)parse_coordinates(text, "K.xyz"); }}},
+      {"job.inp", {small_mesh, [&](auto& text) { (void)places_by_mesh(text, "job.inp", no_places()); }}}};
+  std::map<std::string, std::string> bases;
+  for (const auto& [name, base_and_reader] : kinds) {
+    const auto& base = base_and_reader.first;
+    const auto& read = base_and_reader.second;
+    bases[name] = base;
+    INFO(name);
+    CHECK((name == "matrix" ? message_about(base, here) : verdict([&] { read(base); })) == "accepted");
+  }
+  const auto rows = rows_of("read/refused.txt", bases);
+  REQUIRE(rows.size() > 250);
+  for (const table_row& row : rows) {
+    const std::string message = row.base == "matrix" ? message_about(row.text, here)
+                                                     : verdict([&] { kinds.at(row.base).second(row.text); });
+    INFO(row.base << ": " << row.row << "\n" << message);
+    CHECK(has_in_order(message, row.expected));
+    CHECK(message.find('\n') == std::string::npos);
+    CHECK(message.size() < 450);
+  }
 }
 
 TEST_CASE("a binary file, a deeply nested file and an empty file are refused with a message") {
-  for (const std::string& text : {std::string("\x7f"
-                                              "ELF\x02\x01\x01\x00\x00\x00\x00",
-                                              11),
+  std::string dotted = "a";
+  for (int i = 0; i < 300000; ++i) dotted += ".a";
+  for (const std::string& text : {std::string("\x7f\x45LF\x02\x01\x01\x00\x00\x00\x00", 11),
                                   std::string(200000, '['), "x = " + std::string(100000, '['), std::string(),
-                                  std::string("\xff\xfe"), std::string(1000, '\0'), [] {
-                                    std::string dotted = "a";
-                                    for (int i = 0; i < 300000; ++i) dotted += ".a";
-                                    return dotted + " = 1\n";
-                                  }()}) {
+                                  std::string("\xff\xfe"), std::string(1000, '\0'), dotted + " = 1\n"})
     CHECK(message_of_text(text) != "accepted");
-  }
+  CHECK(message_of_text("[beam") ==
+        "pb.toml:1:6: not TOML: found the end of the file; allowed: the rest of this table header");
 }
 
-TEST_CASE("a plate is read with grid lines, a D from E, nu and thickness, and loads on every dof") {
-  const problem p = parse_problem(good_plate, "pb.toml");
-  const auto& it = std::get<plate>(p.geometry.kind);
-  CHECK(it.x == std::vector<double>{0, 0.5, 1});
-  CHECK(it.y == std::vector<double>{0, 1});
-  CHECK(it.D == Approx(1.0).epsilon(1e-15));
-  CHECK(it.nu == 0.3);
-  REQUIRE(p.supports.size() == 6);
-  CHECK(p.supports[5].node == 3);
-  CHECK(p.supports[5].dof == 2);
-  REQUIRE(p.pairs.size() == 1);
-  CHECK(p.pairs[0].node == 5);
-  REQUIRE(p.steps.size() == 1);
-  const load& l = p.steps[0];
-  REQUIRE(l.distributed.size() == 2);
-  CHECK(l.distributed[1].elements == std::vector<int>{1});
-  REQUIRE(l.points.size() == 3);
-  CHECK(l.points[1].dof == 1);
-  CHECK(l.points[2].node == 5);
-  CHECK(l.points[2].dof == 2);
-  CHECK(l.points[2].value == -0.5);
-}
-
-TEST_CASE("a plate may have a size and a D, springs on every dof, and any nu from -0.999 to 0.5") {
-  const problem p = parse_problem(
-      "[plate]\nsize = [3, 1]\nelements = [3, 2]\nD = 2\nnu = 0.5\n[[support]]\nnode = 12\n"
-      "spring = { w = 1, wx = 2, wy = 3 }\n[[step]]\nuniform = 0\n",
-      "pb.toml");
-  const auto& it = std::get<plate>(p.geometry.kind);
-  CHECK(it.x == std::vector<double>{0, 1, 2, 3});
-  CHECK(it.y == std::vector<double>{0, 0.5, 1});
-  CHECK(it.D == 2.0);
-  REQUIRE(p.supports.size() == 3);
-  CHECK(p.supports[2].spring == 3.0);
-  CHECK(message_of_text(plate_with("0.3", "-0.999")) == "accepted");
-  CHECK(message_of_text(plate_with("0.3", "0")) == "accepted");
+TEST_CASE("a message quotes no long word or line, and says that a file may be cut short") {
+  const auto of_matrix = [](const std::string& text) {
+    return verdict([&] { (void)parse_symmetric(text, "K.mtx"); });
+  };
+  const std::string long_word = changed(small_matrix, "4 2 1 -1\x1b[31m" + std::string(5000, 'x'));
+  CHECK_THAT(of_matrix(long_word), Contains("K.mtx:4: found a word of 5007 bytes for an entry"));
+  CHECK_THAT(of_matrix(changed(small_matrix, "1 root:$6$secret:19000:0:99999:7:::")),
+             Contains("K.mtx:1: found a line of 33 bytes"));
+  const std::string cut =
+      " without a line end: the file may be cut short; allowed: a line end after every line";
+  CHECK(of_matrix(std::string(small_matrix, std::strlen(small_matrix) - 1)) ==
+        "K.mtx:7: found \"3 3 1\"" + cut);
+  CHECK(verdict([] { (void)parse_coordinates(small_places + std::string("c 1 2"), "K.xyz"); }) ==
+        "K.xyz:5: found a line of 5 bytes" + cut);
+  CHECK(verdict([] { (void)places_by_mesh(small_mesh + std::string("7,1,2,3"), "job.inp", assembled()); }) ==
+        "job.inp:6: found \"7,1,2,3\"" + cut);
+  CHECK_THAT(verdict([] { (void)parse_labels(std::string(101, 'n') + "\n", "K.dof"); }),
+             Contains("K.dof:1: found a word of 101 bytes; allowed: ") && Contains("at most 100 bytes"));
+  CHECK_THAT(verdict([] {
+               (void)places_by_mesh(small_mesh + std::string("7,1\0,2,3\n", 9), "job.inp", assembled());
+             }),
+             Contains("job.inp:6: found a byte with the value 0; allowed: a text file"));
 }
 
 TEST_CASE(
-    "a bed under a plate has a pair at each free node, with the stiffness modulus times tributary area") {
-  const std::string head =
-      "[plate]\nx = [0, 1, 3]\ny = [0, 2]\nD = 1\nnu = 0\n[[support]]\nnode = 4\nfix = [\"w\"]\n"
-      "[[support]]\nnode = 5\nfix = [\"wx\", \"wy\"]\n";
-  const std::string tail = "[[step]]\nuniform = -1\n";
-  const problem whole = parse_problem(head + "[[bed]]\nmodulus = 4\nface = 0\n" + tail, "pb.toml");
-  REQUIRE(whole.pairs.size() == 5);  // node 4 is fixed, node 5 only in its slopes
-  const std::vector<double> expected = {2, 6, 4, 6, 4};
-  for (std::size_t i = 0; i < 5; ++i) CHECK(whole.pairs[i].stiffness == expected[i]);
-  CHECK(whole.pairs[3].node == 4);
-}
-
-TEST_CASE("a polynomial face below 0 is accepted, even if its terms add up to a positive number in doubles") {
-  const problem p = parse_problem(
-      "[beam]\nx = [0, 1.1, 2.2]\nEI = 1e4\n[[support]]\nnodes = [1, 3]\nfix = [\"w\"]\n[[bed]]\nmodulus = "
-      "1\n"
-      "face = { polynomial = [-0.001, -1.21e30, 0, 1e30] }\n[[step]]\nuniform = -1\n",
-      "far.toml");
-  REQUIRE(p.pairs.size() == 1);
-  CHECK(p.pairs[0].face == -0.001);
-}
-
-TEST_CASE("a file may have labels for the units of length and force, which are empty by default") {
-  CHECK(parse_problem(good_problem, "pb.toml").units.length.empty());
-  const problem p =
-      parse_problem("[units]\nlength = \"m\"\nforce = \"kN\"\n" + std::string(good_problem), "pb.toml");
-  CHECK(p.units.length == "m");
-  CHECK(p.units.force == "kN");
-}
-
-TEST_CASE("a single fixed dof of a support may be given without brackets") {
-  const problem p = parse_problem(with("[\"w\", \"theta\"]", "\"theta\""), "pb.toml");
-  REQUIRE(p.supports.size() == 1);
-  CHECK(p.supports[0].dof == 1);
-}
-
-TEST_CASE("one contact table makes a pair at each node that it lists, in the order of the list") {
-  const auto pairs_of = [](const std::string& lines) {
-    return parse_problem(with("node = 3\nsurface = \"below\"\nface = -0.004\nstiffness = 5.0e4\n",
-                              "surface = \"below\"\n" + lines),
-                         "pb.toml")
-        .pairs;
+    "a matrix whose band exceeds the memory is refused before allocation, but is accepted in sparse "
+    "storage") {
+  const scratch_folder here;
+  // The last row of this matrix is full in any order of rows.
+  constexpr int n = 400'000;
+  std::string arrow =
+      fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{} {} {}\n", n, n, 2 * n - 1);
+  for (int i = 1; i < n; ++i) arrow += fmt::format("{} {} 2\n{} {} -1e-6\n", i, i, n, i);
+  (void)here.write("arrow.mtx", arrow + fmt::format("{} {} 2\n", n, n));
+  const auto message_with = [&](const std::string& key) {
+    return verdict([&] {
+      (void)parse_problem("[matrix]\nstiffness = \"arrow.mtx\"\n" + key +
+                              "[[step]]\npoint = [ { dof = \"1\", value = 1 } ]\n",
+                          here.at("p.toml"));
+    });
   };
-  const auto own = pairs_of("x = [2.0, 1.0]\nface = [-0.25, 0]\nstiffness = [3, 4]\n");
-  REQUIRE(own.size() == 2);
-  CHECK((own[0].node == 2 && own[0].face == -0.25 && own[0].stiffness == 3 && !own[0].closed));
-  CHECK((own[1].node == 1 && own[1].face == 0 && own[1].stiffness == 4 && own[1].closed));
-  const auto common = pairs_of("nodes = \"2..3\"\nface = 0\nstiffness = 7\nstate = \"separated\"\n");
-  REQUIRE(common.size() == 2);
-  for (const contact_pair& pair : common) CHECK((pair.face == 0 && pair.stiffness == 7 && !pair.closed));
-}
-
-TEST_CASE("the face of a bed is one number, one number for each node, or a polynomial in x") {
-  const std::string head =
-      "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[bed]]\nmodulus = 2\n";
-  const auto bed_of = [&](const std::string& lines) {
-    return parse_problem(head + lines + "[[step]]\nuniform = -1\n", "pb.toml");
+  const bool has_sparse = sparse_factor::available();
+  const auto is_refused = [&](const std::string& message) {
+    CHECK(has_in_order(
+        message.substr(here.path().string().size() + 1),
+        "p.toml:1:1: matrix: found 400000 dofs with a half bandwidth of .. GiB, three quarters of this "
+        "machine's memory; " +
+            std::string(has_sparse ? "storage = \"sparse\"" : "build with CHOLMOD") + "; condense"));
   };
-  const problem each = bed_of("face = [9, -0.5, 0]\n");  // the face of the fixed node is unused
-  REQUIRE(each.pairs.size() == 2);
-  CHECK((each.pairs[0].face == -0.5 && !each.pairs[0].closed));
-  CHECK((each.pairs[1].face == 0 && each.pairs[1].closed));
-  const problem curved = bed_of("face = { polynomial = [-1, 0, -2] }\n");
-  CHECK((curved.pairs[0].face == -3 && curved.pairs[1].face == -19));
-  CHECK(bed_of("face = [-4]\nx = 3\n").pairs.at(0).face == -4);
-}
-
-TEST_CASE("a bed that was read has its modulus, its first pair and the tributary length of each pair") {
-  const problem p = parse_problem(
-      "[beam]\nx = [0, 1, 3]\nEI = 1\n[[support]]\nnode = 1\nfix = \"w\"\n[[contact]]\nnode = 3\nsurface = "
-      "\"above\"\nface = 1\nstiffness = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[bed]]\nmodulus = 8\nface = "
-      "-1\nnodes = [3]\n[[step]]\nuniform = -1\n",
-      "pb.toml");
-  REQUIRE(p.beds.size() == 2);
-  CHECK(p.beds[0].modulus == 4);
-  CHECK(p.beds[0].first_pair == 1);
-  CHECK(p.beds[0].share == std::vector<double>{1.5, 1});
-  CHECK(p.beds[1].first_pair == 3);
-  CHECK(p.beds[1].share == std::vector<double>{1});
-  CHECK(p.pairs[2].stiffness == 4);
-}
-
-TEST_CASE("for each bed whose mesh is too coarse there is one warning, which suggests an element_size") {
-  const auto warnings_of = [](const std::string& mesh, const std::string& beds) {
-    return parse_problem("[beam]\nlength = 8\n" + mesh + "\n" + beds + "[[step]]\nuniform = -1\n", "pb.toml")
-        .warnings;
-  };
-  // Elements may be at most 1 long: half of (4 EI / modulus)^(1/4) = 2.
-  const std::string bed = "[[bed]]\nmodulus = 1\nface = 0\n";
-  CHECK(warnings_of("elements = 8\nEI = 4", bed).empty());
-  const auto coarse =
-      warnings_of("elements = 4\nEI = [1e3, 4, 3, 1e3]", bed + "state = \"separated\"\n" + bed);
-  REQUIRE(coarse.size() == 2);
-  CHECK_THAT(coarse[0], Catch::Matchers::StartsWith("pb.toml:5: bed[1]: the mesh is coarse"));
-  CHECK_THAT(coarse[0], Catch::Matchers::Contains("nodes 3 and 4 are 2 apart; allowed: 0.93, half of (4 EI / "
-                                                  "modulus)^(1/4); set element_size = 0.93 in [beam]"));
-  CHECK_THAT(coarse[1], Catch::Matchers::Contains("bed[2]"));
-  CHECK(warnings_of("element_size = 0.93\nEI = 3", bed).empty());
-  // Only elements between two neighbouring nodes of the bed count.
-  CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 3]\n").empty());
-  CHECK(warnings_of("elements = 4\nEI = 4", bed + "nodes = [1, 2]\n").size() == 1);
+  is_refused(message_with("storage = \"band\"\n"));
+  if (has_sparse)  // sparse storage has few entries and no fill-in
+    CHECK(message_with("") == "accepted");
+  else
+    is_refused(message_with(""));
 }

@@ -1,13 +1,15 @@
-#include "referee/hard_problems.hpp"
-
+// Draws small problems that are hard for double precision.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <string>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "contct/kernel/call.hpp"
 #include "contct/number/random.hpp"
+#include "referee/judge.hpp"
 
 namespace contct::referee {
 namespace {
@@ -21,23 +23,26 @@ double decimal(std::int64_t mantissa, int exponent) {
 /// 2u), which bend a beam of length 1 by about 1.
 class hard_drawing {
  public:
-  hard_drawing(std::uint64_t seed, std::uint64_t number, hard_kind kind)
+  hard_drawing(std::uint64_t seed, std::uint64_t number, int kind)
       : random_((seed * 0x9e3779b97f4a7c15U + number) * 16U + static_cast<std::uint64_t>(kind)) {}
 
-  problem draw(hard_kind kind) {
-    u_ = random_.chance(0.5) ? 0 : random_.whole(-12, 12);
-    e_ = random_.whole(-6, 6);
-    constexpr void (hard_drawing::*draws[])() = {
+  problem draw(int kind) {
+    constexpr void (hard_drawing::*draws[hard_kinds])() = {
         &hard_drawing::stiff_pairs,      &hard_drawing::drop,        &hard_drawing::small_after_large,
         &hard_drawing::cancelling_loads, &hard_drawing::graded_mesh, &hard_drawing::pairs_alone,
         &hard_drawing::near_tipping,     &hard_drawing::soft_matrix, &hard_drawing::spring_decades};
+    u_ = random_.chance(0.5) ? 0 : random_.whole(-12, 12);
+    e_ = random_.whole(-6, 6);
+    p_.title = fmt::format("hard problem of kind {}", kind);
     // With `->*draws[..]`, g++ 12 warns about a wrong index.
-    const auto drawn = draws[static_cast<int>(kind)];
-    (this->*drawn)();
+    const auto draw_it = draws[kind];
+    (this->*draw_it)();
     return std::move(p_);
   }
 
  private:
+  using drawn = std::function<double()>;
+
   int two_digits() { return random_.whole(10, 99); }
   double either_way(double x) { return random_.chance(0.5) ? x : -x; }
   /// Return 1.0 to 9.9 times 10^exponent, in the units of lengths, forces or moments.
@@ -69,18 +74,21 @@ class hard_drawing {
     if (how != 1) fix(0, 1);
     if (how != 0) fix(last(), 0);
   }
+  bool hold_by_chance(double share) {
+    const bool held = random_.chance(share);
+    if (held) hold();
+    return held;
+  }
   [[nodiscard]] bool is_fixed(int node) const {
-    for (const support& s : p_.supports)
-      if (s.fixed && s.node == node && s.dof == 0) return true;
-    return false;
+    return std::ranges::any_of(p_.supports,
+                               [node](const support& s) { return s.fixed && s.node == node && s.dof == 0; });
   }
 
   void pair(int node, int surface, double gap, double k) {
     p_.pairs.push_back({node, surface, gap == 0.0 ? 0.0 : surface * gap, k, gap == 0.0});
   }
   /// Adds pairs at some of the nodes that are not fixed, and at least one pair.
-  template <class Gap, class Stiffness>
-  void pairs(double density, int surface, Gap gap, Stiffness k) {
+  void pairs(double density, int surface, const drawn& gap, const drawn& k) {
     const auto place = [&](int node) {
       const double of_pair = gap();  // drawn before the stiffness, in a defined order
       pair(node, surface, of_pair, k());
@@ -90,18 +98,21 @@ class hard_drawing {
     if (p_.pairs.empty()) place(is_fixed(last()) ? 1 : last());
   }
   /// Adds pairs below both ends and below some nodes between.
-  template <class Gap, class Stiffness>
-  void pairs_below(Gap gap, Stiffness k) {
+  void pairs_below(const drawn& gap, const drawn& k) {
     for (int node = 0; node <= last(); ++node) {
       if (node != 0 && node != last() && !random_.chance(0.5)) continue;
       const double of_pair = gap();
       pair(node, face_below, of_pair, k());
     }
   }
+  void pairs_of(bool held, double density, const drawn& gap, const drawn& k) {
+    held ? pairs(density, face_below, gap, k) : pairs_below(gap, k);
+  }
 
   int node_between() { return random_.whole(1, last() - 1); }
   void step(std::vector<point_load> points) { p_.steps.push_back({std::move(points), {}}); }
 
+  /// Pairs are up to 1e18 times as stiff as the beam.
   void stiff_pairs() {
     make_beam(random_.whole(2, 5));
     hold();
@@ -116,6 +127,7 @@ class hard_drawing {
     if (random_.chance(0.3)) step({{last(), 0, 0.0}});
   }
 
+  /// A free beam falls on its pairs from up to 1e6 times its length.
   void drop() {
     make_beam(random_.whole(2, 5));
     const int height = random_.whole(0, 6);
@@ -125,20 +137,17 @@ class hard_drawing {
     if (random_.chance(0.3)) step({{node_between(), 0, -force(random_.whole(-3, 1))}});
   }
 
-  /// The small load moves the pairs by about 10^(small - k), which is the order of magnitude of their gaps.
+  /// A load is 1e4 to 1e12 times smaller than the load before it. It moves the pairs by about 10^(small - k),
+  /// the order of their gaps.
   void small_after_large() {
     make_beam(random_.whole(3, 6));
     if (random_.chance(0.5)) return large_between_two_pairs();
-    const bool held = random_.chance(0.4);
-    if (held) hold();
+    const bool held = hold_by_chance(0.4);
     const int small = random_.whole(-4, 0);
     const int k = random_.whole(-1, 3);
     const auto gap = [&] { return random_.chance(0.5) ? 0.0 : length(small - k + random_.whole(-1, 3)); };
     const auto of_pair = [&] { return stiffness(k); };
-    if (held)
-      pairs(0.8, face_below, gap, of_pair);
-    else
-      pairs_below(gap, of_pair);
+    pairs_of(held, 0.8, gap, of_pair);
     step({{node_between(), 0, -force(small + random_.whole(4, 12))}});
     step({{node_between(), 0, -force(small)}});
     if (random_.chance(0.5)) step({{node_between(), 0, -force(small)}});
@@ -157,20 +166,16 @@ class hard_drawing {
     step({{last() == 3 ? 3 : last() - 1, 0, -force(small)}});
   }
 
+  /// Large loads have a small resultant.
   void cancelling_loads() {
-    std::vector<std::int64_t> at{0};
-    const int elements = random_.whole(3, 6);
-    while (static_cast<int>(at.size()) <= elements) at.push_back(at.back() + 1);
+    std::vector<std::int64_t> at(static_cast<std::size_t>(random_.whole(3, 6)) + 1);
+    std::iota(at.begin(), at.end(), 0);
     make_beam(at, 0);
-    const bool held = random_.chance(0.3);
-    if (held) hold();
+    const bool held = hold_by_chance(0.3);
     const int small = random_.whole(-4, 0);
     const auto gap = [&] { return random_.chance(0.5) ? 0.0 : length(small); };
     const auto k = [&] { return stiffness(random_.whole(-3, 3)); };
-    if (held)
-      pairs(0.7, face_below, gap, k);
-    else
-      pairs_below(gap, k);
+    pairs_of(held, 0.7, gap, k);
     const int large = two_digits();
     const int exponent = small - 1 + random_.whole(6, 13) + e_ - 2 * u_;
     const int middle = random_.whole(1, last() - 1);
@@ -183,6 +188,7 @@ class hard_drawing {
     if (random_.chance(0.3)) step({{node_between(), 0, -force(small)}});
   }
 
+  /// Elements are 1e5 times as long as others, or far from x = 0.
   void graded_mesh() {
     const bool far = random_.chance(0.3);
     constexpr std::int64_t offset = 100'000'000;
@@ -194,25 +200,19 @@ class hard_drawing {
       at.push_back(at.back() + element);
     }
     make_beam(at, far ? -1 : -5);
-    if (random_.chance(0.7)) {
-      hold();
-      pairs(
-          0.6, face_below, [&] { return random_.chance(0.3) ? 0.0 : length(-3); },
-          [&] { return stiffness(random_.whole(0, 6)); });
-    } else {
-      pairs_below([&] { return random_.chance(0.3) ? 0.0 : length(-3); },
-                  [&] { return stiffness(random_.whole(0, 6)); });
-    }
-    const int steps = random_.whole(1, 3);
-    for (int i = 0; i < steps; ++i) step({{node_between(), 0, -force(random_.whole(-3, 1))}});
+    const bool held = hold_by_chance(0.7);
+    pairs_of(
+        held, 0.6, [&] { return random_.chance(0.3) ? 0.0 : length(-3); },
+        [&] { return stiffness(random_.whole(0, 6)); });
+    for (int steps = random_.whole(1, 3); steps > 0; --steps)
+      step({{node_between(), 0, -force(random_.whole(-3, 1))}});
   }
 
   void pairs_alone() {
     make_beam(random_.whole(2, 6));
     pairs_below([&] { return random_.chance(0.5) ? 0.0 : length(random_.whole(-6, 0)); },
                 [&] { return stiffness(random_.whole(-1, 8)); });
-    const int steps = random_.whole(1, 4);
-    for (int i = 0; i < steps; ++i) {
+    for (int steps = random_.whole(1, 4); steps > 0; --steps) {
       std::vector<point_load> points{{random_.whole(0, last()), 0, -force(0)}};
       if (random_.chance(0.5)) points.push_back({random_.whole(0, last()), 0, either_way(force(-1))});
       if (random_.chance(0.3)) points.push_back({random_.whole(0, last()), 1, either_way(moment(-1))});
@@ -270,8 +270,7 @@ class hard_drawing {
     pairs(
         0.6, random_.chance(0.5) ? face_below : face_above,
         [&] { return random_.chance(0.3) ? 0.0 : length(random_.whole(-6, 2)); }, k);
-    const int steps = random_.whole(1, 3);
-    for (int i = 0; i < steps; ++i)
+    for (int steps = random_.whole(1, 3); steps > 0; --steps)
       step({{random_.whole(0, last()), 0, either_way(force(random_.whole(-3, 1)))}});
   }
 
@@ -282,14 +281,7 @@ class hard_drawing {
 
 }  // namespace
 
-std::string_view name_of(hard_kind k) {
-  constexpr std::string_view names[] = {"stiff-pairs",      "drops",         "small-after-large",
-                                        "cancelling-loads", "graded-meshes", "pairs-alone",
-                                        "near-tipping",     "soft-matrices", "spring-decades"};
-  return names[static_cast<int>(k)];
-}
-
-problem make_hard_problem(std::uint64_t seed, std::uint64_t number, hard_kind kind) {
+problem make_hard_problem(std::uint64_t seed, std::uint64_t number, int kind) {
   return hard_drawing(seed, number, kind).draw(kind);
 }
 

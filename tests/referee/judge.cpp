@@ -8,42 +8,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "contct/certify/certificate.hpp"
-#include "contct/exact/exact_means.hpp"
-#include "contct/exact/kernel_digits.hpp"
-#include "contct/kernel/registry.hpp"
-#include "contct/path/solve_problem.hpp"
+#include "contct/results/kernel_digits.hpp"
+#include "support/judged_run.hpp"
 
 namespace contct::referee {
 namespace {
-
-/// The kinds of numbers, in the order of the values of `fault`.
-enum class number_kind { deflection, slope, force, reaction };
-constexpr int number_kinds = 4;
-
-struct kept_state {
-  int step;
-  std::vector<double> displacement;
-  std::vector<int> isep;
-  end_numbers numbers;
-};
-
-struct state_keeper final : observer {
-  explicit state_keeper(const problem& p) : what(p) {}
-
-  void step_ended(const step_state& s) override {
-    lost = lost || (s.from_fallback && !s.from_exact_path);
-    exact = exact || s.from_exact_path;
-    states.push_back({s.step,
-                      {s.displacement.begin(), s.displacement.end()},
-                      {s.isep.begin(), s.isep.end()},
-                      reported_state_at(what, s).numbers});
-  }
-
-  const problem& what;
-  std::vector<kept_state> states;
-  bool lost = false, exact = false;
-};
 
 double size_of(const rational& x) {
   return rounded(rational(abs(x)));
@@ -74,20 +43,13 @@ struct sizes {
   }
 
   void include(const sizes& s) {
-    deflection = std::max(deflection, s.deflection);
-    slope = std::max(slope, s.slope);
-    force = std::max(force, s.force);
-    moment = std::max(moment, s.moment);
+    for (double sizes::*size : {&sizes::deflection, &sizes::slope, &sizes::force, &sizes::moment})
+      this->*size = std::max(this->*size, s.*size);
   }
 
  private:
   static void take(double& largest, const rational& x) { largest = std::max(largest, size_of(x)); }
 };
-
-double share(double error, double size) {
-  if (error == 0.0) return 0.0;
-  return size > 0.0 ? error / size : std::numeric_limits<double>::infinity();
-}
 
 /// Compares the states of one run with the exact ones.
 class comparing {
@@ -95,99 +57,54 @@ class comparing {
   comparing(const problem& p, const exact_answer& exactly, way how, judgement& j)
       : p_(p), exactly_(exactly), is_refined_(how != way::listing), result_(j) {}
 
-  void compare(const kept_state& k, const certificate& c) {
-    const auto step = static_cast<std::size_t>(k.step - 1);
+  void compare(std::size_t step, const std::vector<double>& u, const end_numbers& n, const certificate& c) {
     if (step >= exactly_.path.steps.size() || exactly_.path.steps[step].fraction != 1) return;
-    state_ = &exactly_.path.steps[step];
-    kept_ = &k;
+    const exact_step_end& state = exactly_.path.steps[step];
+    step_ = step + 1;
     judged_ = &c;
-    here_ = {p_, exactly_.problem, exactly_.problem.steps[step], *state_};
+    here_ = {p_, exactly_.problem, exactly_.problem.steps[step], state};
     seen_.include(here_);
     worst_ = 0.0;
     ++result_.steps;
     result_.certified += c.certified ? 1 : 0;
-    if (exactly_.unique[step] != 0) compare_displacements();
-    compare_forces();
-    compare_reactions();
-    compare_digits();
-    compare_bounds(exactly_.unique[step] != 0);
+    const std::size_t stride = dofs_per_node(p_.geometry);
+    for (std::size_t dof = 0; dof < u.size() && exactly_.unique[step] != 0; ++dof) {
+      const bool deflects = dof % stride == 0;
+      number(deflects ? quantity::w : quantity::slope, u[dof], state.displacement[dof],
+             deflects ? &sizes::deflection : &sizes::slope, dof / stride);
+    }
+    for (std::size_t i = 0; i < p_.pairs.size(); ++i)
+      number(quantity::force, n.pair_forces[i], state.force[i], &sizes::force, i);
+    for (std::size_t i = 0; i < n.reactions.size(); ++i) {
+      const bool is_force = p_.supports[i].dof == 0;
+      number(is_force ? quantity::reaction : quantity::moment, n.reactions[i], state.reactions[i],
+             is_force ? &sizes::force : &sizes::moment, i);
+    }
+    const double digits = worst_ > 0.0 ? std::clamp(-std::log10(worst_), 0.0, 16.0) : 16.0;
+    if (digits_of(c) - digits > 0.5)
+      found(fault::digits, fmt::format("claims {} digits; there are {:.1f}", digits_of(c), digits));
+    if (exactly_.unique[step] != 0 && is_refined_ && c.proved && !c.certified) found(fault::loose, c.problem);
   }
 
  private:
-  void compare_displacements() {
-    const std::size_t stride = dofs_per_node(p_.geometry);
-    for (std::size_t dof = 0; dof < kept_->displacement.size(); ++dof) {
-      const bool deflects = dof % stride == 0;
-      number(deflects ? number_kind::deflection : number_kind::slope, kept_->displacement[dof],
-             state_->displacement[dof], deflects ? here_.deflection : here_.slope,
-             deflects ? seen_.deflection : seen_.slope, dof / stride);
-    }
+  void found(fault what, const std::string& words) {
+    result_.findings.push_back({what, fmt::format("step {}: {}", step_, words)});
   }
 
-  void compare_forces() {
-    for (std::size_t i = 0; i < p_.pairs.size(); ++i)
-      number(number_kind::force, kept_->numbers.pair_forces[i], state_->force[i], here_.force, seen_.force,
-             i);
-  }
-
-  void compare_reactions() {
-    const std::vector<double>& all = kept_->numbers.reactions;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool is_force = p_.supports[i].dof == 0;
-      const double of_path = is_force ? seen_.force : seen_.moment;
-      number(number_kind::reaction, all[i], state_->reactions[i], is_force ? here_.force : here_.moment,
-             of_path, i);
-    }
-  }
-
-  /// Returns the proved bound of a kind of number; for a reaction moment the bound of moments.
-  [[nodiscard]] double bound_of(number_kind kind, std::size_t at) const {
-    const bool of_moment = kind == number_kind::reaction && p_.supports[at].dof != 0;
-    constexpr quantity quantities[] = {quantity::w, quantity::slope, quantity::force, quantity::reaction};
-    const quantity q = of_moment ? quantity::moment : quantities[static_cast<int>(kind)];
-    return judged_->error[q].value_or(std::numeric_limits<double>::infinity());
-  }
-
-  /// Compares a number with the exact one. The relative error refers to `size`, the largest number of the
-  /// kind in the state, or to `path_size`, the largest on the path, if `size` is 0. `at`: node, pair or
-  /// support, from 0.
-  void number(number_kind kind, double given, const rational& exactly, double size, double path_size,
-              std::size_t at) {
-    constexpr double promised = 1e-6;
+  /// Compares a number with the exact one. The relative error refers to the largest number of the kind in the
+  /// state or, if this is 0, on the path. `at`: node, pair or support, from 0.
+  void number(quantity kind, double given, const rational& exactly, double sizes::*size, std::size_t at) {
+    constexpr double promised = 1e-6, infinite = std::numeric_limits<double>::infinity();
     ++result_.values;
-    const double error = std::isfinite(given) ? size_of(binary_value(given) - exactly)
-                                              : std::numeric_limits<double>::infinity();
-    const double relative = share(error, size > 0.0 ? size : path_size);
+    const double error = std::isfinite(given) ? size_of(binary_value(given) - exactly) : infinite;
+    const double scale = here_.*size > 0.0 ? here_.*size : seen_.*size;
+    const double relative = error == 0.0 ? 0.0 : scale > 0.0 ? error / scale : infinite;
     worst_ = std::max(worst_, relative);
     if (!judged_->proved) return;
-    const auto report = [&](int first, double amount) {
-      const auto what = static_cast<fault>(first + static_cast<int>(kind));
-      result_.findings.push_back({what, amount,
-                                  fmt::format("step {}, number {}: {:.17g}; exactly {}", kept_->step, at + 1,
-                                              given, short_words(exactly, 20))});
-    };
-    const double bound = bound_of(kind, at);
-    if (error > bound) report(static_cast<int>(fault::outside_deflection), share(error, bound));
-    if (judged_->certified && relative > promised)
-      report(static_cast<int>(fault::beyond_deflection), relative);
-  }
-
-  void compare_digits() {
-    constexpr double all_digits = 16.0;
-    const int claimed = digits_of(*judged_);
-    const double there = worst_ >= 1.0  ? 0.0
-                         : worst_ > 0.0 ? std::min(-std::log10(worst_), all_digits)
-                                        : all_digits;
-    if (claimed - there <= 0.5) return;
-    result_.findings.push_back({fault::digits, claimed - there,
-                                fmt::format("step {}: claims {} digits; there are {:.1f}{}", kept_->step,
-                                            claimed, there, judged_->certified ? ", certified" : "")});
-  }
-
-  void compare_bounds(bool unique) {
-    if (!unique || !is_refined_ || !judged_->proved || judged_->certified) return;
-    result_.findings.push_back(
-        {fault::loose, judged_->worst_share, fmt::format("step {}: {}", kept_->step, judged_->problem)});
+    const std::string words = fmt::format("number {} of kind {}: {:.17g}; exactly {}", at + 1,
+                                          static_cast<int>(kind), given, short_words(exactly, 20));
+    if (error > judged_->error[kind].value_or(infinite)) found(fault::outside, words);
+    if (judged_->certified && relative > promised) found(fault::beyond, words);
   }
 
   const problem& p_;
@@ -195,50 +112,53 @@ class comparing {
   bool is_refined_;
   judgement& result_;
   // Of the step that is compared:
-  const exact_step_end* state_ = nullptr;
-  const kept_state* kept_ = nullptr;
+  std::size_t step_ = 0;
   const certificate* judged_ = nullptr;
   sizes here_, seen_;
   double worst_ = 0.0;
 };
 
-path_end solve(const problem& p, const linear_structure& s, way how, const std::vector<observer*>& observers,
-               certifier& judged) {
-  if (how == way::final_only) return judged.find_final_states(observers);
-  const auto leader = make_kernel(how == way::listing ? "cpp" : "corrected");
-  const std::string engine(how == way::default_engine ? quickest_engine(s) : "refactor");
-  return follow(p, s, engine, *leader, observers, {0, judged.ends()});
-}
-
 /// Returns the error in the end of the path, or nothing.
 std::optional<finding> compare_ends(const path_end& end, const exact_path& exactly) {
-  const auto found = [&](fault what, std::string_view words) {
-    return finding{what, 1.0, fmt::format("step {}: {}", end.step, words)};
+  const auto found = [&](fault what, const char* words) {
+    return finding{what, fmt::format("step {}: {}", end.step, words)};
   };
   const bool same_step = end.step == static_cast<int>(exactly.steps.size());
-  if (end.status == exactly.status && (end.status == path_status::solved || same_step)) return std::nullopt;
+  if (end.status == exactly.status() && (end.status == path_status::solved || same_step)) return std::nullopt;
   if (end.status == path_status::not_factored) return found(fault::refused, "held but too ill-conditioned");
   if (end.status == path_status::solved)
     return found(fault::false_solution, "solved; there is no equilibrium");
-  if (end.status == path_status::mechanism && exactly.status == path_status::solved)
+  if (end.status == path_status::mechanism && exactly.status() == path_status::solved)
     return found(fault::false_mechanism, "a mechanism is told; there is an equilibrium");
   return found(fault::other_end, "neither an equilibrium nor the mechanism that there is");
 }
 
+void judge_run(const problem& p, const exact_answer& exactly, way how, judgement& j) {
+  digit_counter counter(p, exactly.path);
+  const judged_run run(p,
+                       how == way::final_only ? ""
+                       : how == way::listing  ? "cpp"
+                                              : "corrected",
+                       true, how == way::default_engine ? "" : "refactor", &counter);
+  comparing compared(p, exactly, how, j);
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    if (how != way::final_only) counter.take(run.steps[i]);
+    if (const auto& c = run.steps[i].judged) compared.compare(i, run.u(i + 1), run.numbers(i + 1), *c);
+  }
+  if (how == way::listing) return;
+  const bool exact = std::ranges::count(run.steps, origin::exact_path, &solved_step::from) > 0;
+  const bool lost =
+      how != way::final_only && std::ranges::count(run.steps, origin::reference, &solved_step::from) > 0;
+  if (exact) j.findings.push_back({fault::exactly, "ended by the exact path"});
+  if (lost) j.findings.push_back({fault::fallback, "the path was lost"});
+  if (auto wrong = compare_ends(run.end, exactly.path)) return j.findings.push_back(*wrong);
+  if (how == way::final_only || exact || lost) return;  // these paths do not have all events
+  constexpr double tie = 1e-9;
+  const kernel_digits r = counter.result("corrected", run.end.status, tie);
+  if (!r.same_events) j.findings.push_back({fault::other_events, r.first_difference});
+}
+
 }  // namespace
-
-std::string_view name_of(way w) {
-  constexpr std::string_view names[] = {"default-engine", "refactor", "final-only", "1989-rule"};
-  return names[static_cast<int>(w)];
-}
-
-std::string_view name_of(fault f) {
-  constexpr std::string_view names[] = {"out-w",     "out-slope",  "out-force", "out-react", "off-w",
-                                        "off-slope", "off-force",  "off-react", "loose",     "digits",
-                                        "solved!",   "mechanism!", "refused",   "other-end", "events",
-                                        "fallback",  "exactly"};
-  return names[static_cast<int>(f)];
-}
 
 exact_answer::exact_answer(const contct::problem& p)
     : problem(exact_problem_of(p)), path(follow_corrected_path(problem)) {
@@ -252,44 +172,14 @@ exact_answer::exact_answer(const contct::problem& p)
   }
 }
 
-namespace {
-
-void judge_run(const problem& p, const exact_answer& exactly, way how, judgement& j) {
-  const linear_structure s = structure_of(p);
-  state_keeper kept(p);
-  digit_counter counter(p, exactly.path);
-  certifier judged(p, s, exact_means_of(p));
-  const path_end end = solve(p, s, how, {&kept, &judged, &counter}, judged);
-  comparing compared(p, exactly, how, j);
-  for (std::size_t i = 0; i < kept.states.size(); ++i)
-    if (judged.steps()[i]) compared.compare(kept.states[i], *judged.steps()[i]);
-  if (how == way::listing) return;
-  if (kept.exact) j.findings.push_back({fault::exactly, 1.0, "ended by the exact path"});
-  if (kept.lost) j.findings.push_back({fault::fallback, 1.0, "the path was lost"});
-  if (auto wrong = compare_ends(end, exactly.path)) {
-    j.findings.push_back(*wrong);
-    return;
-  }
-  // These paths do not have all events.
-  if (how == way::final_only || kept.exact || kept.lost) return;
-  constexpr double tie = 1e-9;
-  const kernel_digits r = counter.result("corrected", end.status, tie);
-  if (!r.same_events) j.findings.push_back({fault::other_events, 1.0, r.first_difference});
-}
-
-}  // namespace
-
 judgement judge(const problem& p, const exact_answer& exactly, way how) {
   judgement j;
-  const auto refused = [&j](const std::exception& e) {
-    j.findings.push_back({fault::refused, 1.0, e.what()});
-  };
   try {
     judge_run(p, exactly, how, j);
   } catch (const no_factor& e) {
-    refused(e);
+    j.findings.push_back({fault::refused, e.what()});
   } catch (const std::invalid_argument& e) {
-    refused(e);
+    j.findings.push_back({fault::refused, e.what()});
   }
   return j;
 }

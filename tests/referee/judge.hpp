@@ -1,38 +1,29 @@
-// Judges the claims of a run about a problem by the exact path.
+// Judges the claims of a run about a problem by the exact path, and draws problems that are hard for double
+// precision.
 #pragma once
 
-#include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "contct/exact/path.hpp"
-#include "contct/model/problem.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct::referee {
 
 /// The ways to run a problem: `contct run --kernels corrected`, the same with `--engine refactor`,
-/// `--final-only`, and `--kernels cpp --engine refactor`. Of the last way only certified numbers and digits
-/// are judged, because it follows the 1989 rule.
+/// `--final-only`, and
+/// `--kernels cpp --engine refactor`. Of the last way only certified numbers and digits are judged, because
+/// it follows the 1989 rule.
 enum class way { default_engine, refactor, final_only, listing };
+inline constexpr const char* way_names[] = {"default-engine", "refactor", "final-only", "1989-rule"};
 inline constexpr int ways = 3;  ///< number of ways with the corrected rule, which come first
-[[nodiscard]] std::string_view name_of(way w);
 
-/// The errors of a run. `outside`: the error of a number exceeds the proved bound. `beyond`: the error of a
-/// number in a certified step exceeds 1e-6 of the largest exact number of its kind in the state or, if this
-/// is 0, on the path. `loose`: the proved bounds of a step are too large for a certificate, although its
-/// final state is the only equilibrium.
+/// The errors of a run.
 enum class fault {
-  outside_deflection,
-  outside_slope,
-  outside_force,
-  outside_reaction,
-  beyond_deflection,
-  beyond_slope,
-  beyond_force,
-  beyond_reaction,
-  loose,
-  digits,           ///< a step claims over half a digit more than its worst number has
+  outside,  ///< the error of a number exceeds the proved bound
+  beyond,   ///< the error of a certified number exceeds 1e-6 of the largest number of its kind in the state
+  loose,    ///< no certificate, for too large bounds, although the state is the only equilibrium
+  digits,   ///< a step claims over half a digit more than its worst number has
   false_solution,   ///< solved, although there is no equilibrium
   false_mechanism,  ///< no equilibrium is found, although there is one
   refused,          ///< exit status 2, although there is an equilibrium or a mechanism
@@ -41,8 +32,10 @@ enum class fault {
   fallback,         ///< the end of a step is the reference solution's
   exactly,          ///< the end of a step is the exact path's
 };
-inline constexpr int faults = 17;
-[[nodiscard]] std::string_view name_of(fault f);
+inline constexpr const char* fault_names[] = {"outside", "beyond",     "loose",   "digits",
+                                              "solved!", "mechanism!", "refused", "other-end",
+                                              "events",  "fallback",   "exactly"};
+inline constexpr int faults = std::size(fault_names);
 
 /// A problem and its exact path.
 struct exact_answer {
@@ -54,10 +47,8 @@ struct exact_answer {
   std::vector<char> unique;
 };
 
-/// One error of a run.
 struct finding {
   fault what;
-  double amount;  ///< error / proved bound; relative error for `beyond`; false digits for `digits`
   std::string words;
 };
 
@@ -72,5 +63,12 @@ struct judgement {
 /// Solves `p` and judges the result. If equilibria differ by a rigid-body motion, only forces and reactions
 /// are compared.
 [[nodiscard]] judgement judge(const problem& p, const exact_answer& exactly, way how);
+
+inline constexpr int hard_kinds = 9;
+
+/// Returns problem `number` of `seed` of a hard kind, from 0. Its title names the kind. Problems are the same
+/// on every machine. Every number has at most 15 decimal digits, so that a file gives exactly the number of
+/// the double.
+[[nodiscard]] problem make_hard_problem(std::uint64_t seed, std::uint64_t number, int kind);
 
 }  // namespace contct::referee

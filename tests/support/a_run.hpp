@@ -2,14 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/proof/certificate.hpp"
 #include "contct/read/problem_file.hpp"
-#include "contct/session/path_states.hpp"
+#include "contct/results/envelope.hpp"
+#include "contct/results/path_states.hpp"
+#include "contct/results/step_results.hpp"
 #include "read/good_problem.hpp"
 
 namespace contct {
@@ -30,6 +32,18 @@ inline const std::string loaded_span =
     "[beam]\nlength = 12\nelements = 12\nEI = 3e4\n[[support]]\nx = [0, 6, 12]\nfix = \"w\"\n"
     "[[step]]\nuniform = [ { value = -20, from = 0, to = 6 } ]\n";
 
+/// Returns a beam with this number of elements on springs, pressed at its middle.
+inline std::string lying_beam(int elements) {
+  return "[beam]\nlength = 10.0\nelements = " + std::to_string(elements) +
+         "\nEI = 1.0\n[[contact]]\nnodes = 'all'\nsurface = 'below'\nface = 0\nstiffness = 1e3\n"
+         "[[step]]\npoint = [ { node = " +
+         std::to_string(elements / 2 + 1) + ", w = -1.0 } ]\n";
+}
+
+inline problem parsed(const std::string& text) {
+  return parse_problem(text, "pb.toml", reach::anywhere);
+}
+
 /// A run with everything that outputs need: of FORTRAN with C++ in lockstep, or of one other kernel alone.
 struct a_run {
   const problem what;
@@ -37,12 +51,13 @@ struct a_run {
   run_result result;
 
   explicit a_run(const std::string& text, const std::string& leads = "fortran")
-      : a_run(parse_problem(text, "pb.toml", reach::anywhere), leads) {}
+      : a_run(parsed(text), leads) {}
 
   explicit a_run(problem p, const std::string& leads = "fortran")
       : what(std::move(p)), structure(structure_of(what)), result(what, structure) {
     const std::unique_ptr<kernel> leader = make_kernel(leads);
-    std::vector<observer*> watching = {&result.judged, &result.early, &result.record};
+    certifier proof(what, structure);
+    std::vector<observer*> watching = {&result.early, &result.record};
     if (leads == "fortran") {
       result.compared.emplace(leader->facts(), std::vector<std::string>{"cpp"});
       watching.insert(watching.begin(), &*result.compared);
@@ -54,8 +69,24 @@ struct a_run {
     result.engine = "refactor";
     result.comparison = "all equal";
     result.facts = {"contct 0"};
-    result.end = follow(what, structure, "refactor", *leader, watching, {0, result.judged.ends()});
+    result.take(follow(what, structure, "refactor", *leader, watching, &proof));
   }
+
+  /// Returns the state at the end of a recorded step, from 0, and its results.
+  [[nodiscard]] const structure_state& end(std::size_t step = 0) const {
+    return result.record.steps.at(step);
+  }
+  [[nodiscard]] step_results results(std::size_t step = 0) const { return {what, end(step)}; }
 };
+
+/// The ranges of a quantity in an envelope, by its key.
+inline const std::vector<envelope::range<double>>& listed(const envelope& all, std::string_view key) {
+  return std::ranges::find(all.lists, key, [](const auto& l) { return l.row->key; })->at;
+}
+
+/// Returns the run of a file of reference/problems under the corrected rule.
+inline a_run reference_run(const std::string& name) {
+  return a_run(read_problem(CONTCT_REFERENCE "/problems/" + name + ".toml"), "corrected");
+}
 
 }  // namespace contct

@@ -1,13 +1,14 @@
 // Small beams with pairs, for tests of paths.
 #pragma once
 
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contct/kernel/registry.hpp"
-#include "contct/model/problem.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/proof/certificate.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct {
 
@@ -28,17 +29,16 @@ struct beam_problem {
     return p;
   }
 
-  path_end run(kernel& k, const std::vector<observer*>& observers, const path_limits& limits = {}) const {
-    return follow(as_problem(), structure(), "refactor", k, observers, limits);
+  solved_path run(kernel& k, const std::vector<observer*>& observers, int max_increments = 0) const {
+    return follow(as_problem(), structure(), "refactor", k, observers, nullptr, max_increments);
   }
 
-  path_end run(const std::string& kernel_name, const std::vector<observer*>& observers,
-               const path_limits& limits = {}) const {
-    return run(*make_kernel(kernel_name), observers, limits);
+  solved_path run(const std::string& kernel_name, const std::vector<observer*>& observers) const {
+    return run(*make_kernel(kernel_name), observers);
   }
 };
 
-/// Copies the numbers and events that an observer receives.
+/// Copies the numbers and events that an observer receives, and the ends of steps.
 struct recorder final : observer {
   struct seen_increment {
     int step, number;
@@ -52,7 +52,7 @@ struct recorder final : observer {
     std::vector<double> u;
     std::vector<int> isep;
     double rcond;
-    bool from_fallback;
+    origin from;
   };
   std::vector<seen_increment> increments;
   std::vector<seen_step> steps;
@@ -62,13 +62,9 @@ struct recorder final : observer {
   void incremented(const increment& i) override {
     increments.push_back({i.step, i.number, i.s, i.fraction, {i.events.begin(), i.events.end()}, i.snaps});
   }
-  void step_ended(const step_state& s) override {
-    steps.push_back({s.step,
-                     s.fraction,
-                     {s.displacement.begin(), s.displacement.end()},
-                     {s.isep.begin(), s.isep.end()},
-                     s.rcond,
-                     s.from_fallback});
+  void take(const solved_path& path) {
+    for (const solved_step& s : path.steps)
+      steps.push_back({s.step, s.fraction, s.displacement, s.isep, s.rcond, s.from});
   }
   /// Returns all events of the path in order.
   [[nodiscard]] std::vector<event> events() const {
@@ -77,6 +73,20 @@ struct recorder final : observer {
     return all;
   }
 };
+
+/// A path, and what an observer received of it.
+struct seen_path {
+  path_end end;
+  recorder seen;
+};
+template <class Kernel>
+seen_path path_of(const beam_problem& p, Kernel&& kernel) {
+  seen_path r;
+  const solved_path path = p.run(kernel, {&r.seen});
+  r.end = path.end;
+  r.seen.take(path);
+  return r;
+}
 
 inline beam even_beam(double length, int elements, double EI) {
   beam b;
@@ -89,12 +99,34 @@ inline load tip_load(int node, double w) {
   return {{{node, 0, w}}, {}};
 }
 
+inline load uniform(double q, std::vector<int> elements = {}) {
+  return {{}, {{{q}, std::move(elements)}}};
+}
+
+/// Returns a cantilever of two elements of length 1.
+inline beam_problem cantilever(std::vector<contact_pair> pairs, std::vector<load> steps) {
+  return {even_beam(2.0, 2, 1e4), {{0, 0, true}, {0, 1, true}}, std::move(pairs), std::move(steps)};
+}
+
 /// Returns PB1: a cantilever over a stop at its tip, which is loaded, unloaded and loaded upwards.
 inline beam_problem cantilever_over_a_stop() {
-  return {even_beam(2.0, 2, 1e4),
-          {{0, 0, true}, {0, 1, true}},
-          {{2, -1, -0.004, 5e4, false}},
-          {tip_load(2, -10), tip_load(2, -60), tip_load(2, -30), tip_load(2, 20)}};
+  return cantilever({{2, -1, -0.004, 5e4, false}},
+                    {tip_load(2, -10), tip_load(2, -60), tip_load(2, -30), tip_load(2, 20)});
+}
+
+/// Returns a beam without supports, of four elements of length 1.
+inline beam_problem free_beam(double EI, std::vector<contact_pair> pairs, std::vector<load> steps) {
+  return {even_beam(4.0, 4, EI), {}, std::move(pairs), std::move(steps)};
+}
+
+/// Returns a free beam above stops at its ends, at distances of 0.1 and 0.3.
+inline beam_problem beam_above_stops(std::vector<load> steps) {
+  return free_beam(1e3, {{0, -1, -0.1, 50.0, false}, {4, -1, -0.3, 50.0, false}}, std::move(steps));
+}
+
+/// Returns a free beam that balances on a pair in its middle, above a stop that it does not reach.
+inline beam_problem balanced_beam(std::vector<load> steps) {
+  return free_beam(1e3, {{2, -1, -0.1, 50.0, false}, {0, -1, -9, 1e3, false}}, std::move(steps));
 }
 
 /// Returns a free beam on a spring at each node, with all pairs in contact.

@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "contct/matrix/cholesky.hpp"
-#include "contct/model/problem.hpp"
+#include "contct/linear/cholesky.hpp"
 #include "contct/number/random.hpp"
+#include "contct/structure/statics.hpp"
 
 namespace contct {
 
 /// Returns the entries of a structure's matrix in the order of its dofs.
 inline sparse_matrix entries_of(const linear_structure& s) {
   sparse_matrix a{s.dofs(), {}};
+  const band_matrix k = s.stiffness.band();
   for (int column = 0; column < s.dofs(); ++column) {
     for (int row = column; row < s.dofs(); ++row) {
       const int i = std::max(s.row_of(row), s.row_of(column));
       const int j = std::min(s.row_of(row), s.row_of(column));
-      if (i - j > s.stiffness.band().subdiagonals()) continue;
-      if (const double value = s.stiffness.band().at(i, j); value != 0.0)
-        a.entries.push_back({row, column, value});
+      if (i - j > k.subdiagonals()) continue;
+      if (const double value = k.at(i, j); value != 0.0) a.entries.push_back({row, column, value});
     }
   }
   return a;
@@ -40,15 +40,24 @@ inline std::vector<double> product(const band_matrix& a, const std::vector<doubl
   return y;
 }
 
+/// Returns the reactions of a structure without pairs.
+inline std::vector<double> reactions(const model& m, const load& l, const std::vector<support>& supports,
+                                     std::span<const double> u) {
+  problem p;
+  p.geometry = m;
+  p.supports = supports;
+  return statics_of(p, l, u, {}).reactions;
+}
+
 /// Returns the displacements of a beam or plate on its supports without pairs.
 inline std::vector<double> displaced(const model& m, const std::vector<support>& supports, const load& l) {
-  linear_structure s = build(m, supports, {});
-  std::vector<double> f(s.dofs());
-  add_consistent_loads(m, l, f);
+  const linear_structure s = build(m, supports, {});
+  stiffness_factor k(s.stiffness);
+  std::vector<double> f = nodal_loads(m, l).force;
   std::vector<double> x(f.size());
   for (int dof = 0; dof < s.dofs(); ++dof) x[s.row_of(dof)] = s.fixed[dof] != 0 ? 0.0 : f[dof];
-  REQUIRE(factor(s.stiffness.band()));
-  solve_with(s.stiffness.band(), x);
+  REQUIRE(k.factor({}));
+  k.solve(x);
   for (int dof = 0; dof < s.dofs(); ++dof) f[dof] = x[s.row_of(dof)];
   return f;
 }

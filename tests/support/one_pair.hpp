@@ -1,10 +1,12 @@
-// Calls with one pair, or with a few pairs at separate nodes, and a kernel's answer to a call.
+// Calls with one pair, or with a few pairs at separate nodes.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "contct/kernel/contct.hpp"
 #include "contct/kernel/kernel.hpp"
+#include "contct/number/bits.hpp"
 
 namespace contct {
 
@@ -17,11 +19,11 @@ inline constexpr int below = face_below;
 /// The state of a pair before a call.
 template <class Real>
 struct pair_at {
-  Real d;       ///< D
-  Real d_star;  ///< d*
-  Real c;       ///< face
-  int isep;
-  int isurf;
+  Real d = 0;       ///< D
+  Real d_star = 0;  ///< d*
+  Real c = 0;       ///< face
+  int isep = separated;
+  int isurf = face_above;
 };
 
 /// A call that owns its arrays, with pair i at node i + 1 and one dof per node.
@@ -47,13 +49,24 @@ struct small_call {
 
   call<Real> arguments() { return {dd, dtest, cc, ss, Real(0), id, isep, isurf, {1, 1}}; }
 
-  /// Calls the C++ kernel.
-  small_call& ask() {
+  /// Has a function answer the call.
+  template <class Function>
+  small_call& ask_by(Function answer) {
     before = isep;
     call<Real> c = arguments();
-    events.resize(static_cast<std::size_t>(contct(c, std::span<event>(events))));
+    answer(c);
     smin = c.smin;
     return *this;
+  }
+  small_call& ask(kernel& k) {
+    return ask_by([&k](call<double>& c) { k.answer(c); });
+  }
+  /// Calls the C++ kernel.
+  small_call& ask() {
+    events.resize(cc.size());
+    return ask_by([this](call<Real>& c) {
+      events.resize(static_cast<std::size_t>(contct(c, std::span<event>(events))));
+    });
   }
 
   /// Returns the call with the answer of `ask`.
@@ -64,14 +77,9 @@ struct small_call {
   }
 };
 
-/// Returns a kernel's answer.
-inline call_outputs answer_of(kernel& k, const call_inputs<double>& in) {
-  call_outputs out;
-  call<double> c = out.prepare(in);
-  k.answer(c);
-  out.smin = c.smin;
-  out.text = k.take_text();
-  return out;
+template <class Real>
+bool equal_bits(const std::vector<Real>& a, const std::vector<Real>& b) {
+  return std::ranges::equal(a, b, [](Real x, Real y) { return same_bits(x, y); });
 }
 
 }  // namespace contct

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <string_view>
 
-#include "contct/lab/random_problem.hpp"
+#include "contct/results/random_problem.hpp"
 
 namespace contct {
 
@@ -23,29 +22,23 @@ inline std::string_view name_of(verdict v) {
 /// Counts of the events on a path.
 struct path_counts final : observer {
   int makes = 0, breaks = 0;
-  int at_rest = 0;    ///< increments without progress
-  int snaps = 0;      ///< rigid-body motions at constant load
-  int fallbacks = 0;  ///< steps that ended in the reference solution
+  int at_rest = 0;  ///< increments without progress
+  int snaps = 0;    ///< rigid-body motions at constant load
 
   void incremented(const increment& i) override {
     at_rest += i.s == 0.0 ? 1 : 0;
     snaps += i.snaps ? 1 : 0;
     for (const event& e : i.events) ++(e.what == change::make ? makes : breaks);
   }
-  void step_ended(const step_state& s) override { fallbacks += s.from_reference ? 1 : 0; }
 };
 
 /// Returns the largest error measure in any certificate.
 inline double needed_by(const problem_result& t) {
   double needed = 0.0;
-  for (const certificate& c : t.certificates)
-    needed = std::max({needed, c.displacement_error, c.shape_error, c.equilibrium, c.penetration, c.tension});
+  for (const solved_step& s : t.followed.steps)
+    if (s.judged)
+      needed = std::max({needed, s.judged->worst_share, s.judged->penetration, s.judged->tension});
   return needed;
-}
-
-/// Solves p with its own structure, and counts the events of its path.
-inline problem_result try_and_count(const random_problem& p, kernel& leader, path_counts& counts) {
-  return try_structure(p, build(p.geometry, p.supports, p.pairs), leader, "refactor", {&counts});
 }
 
 }  // namespace contct

@@ -1,25 +1,37 @@
-// Tests suggestions for misspelt words, and text escaped for XML and for messages.
+// Tests suggestions for misspelt words, text escaped for XML and for messages, shares and amounts, and
+// tables' widths, colours and line breaks.
 #include "contct/text/strings.hpp"
 
-#include <vector>
+#include <stdlib.h>  // setenv
 
 #include "catch.hpp"
+#include "contct/text/memory.hpp"
+#include "contct/text/terminal.hpp"
 
 using namespace contct;
 
+namespace {
+
+int width_with(const char* columns) {
+  REQUIRE(setenv("COLUMNS", columns, 1) == 0);
+  const int width = look_at_terminal().width;
+  REQUIRE(unsetenv("COLUMNS") == 0);
+  return width;
+}
+
+}  // namespace
+
 TEST_CASE("a message suggests the nearest known word, unless too many letters differ") {
   const std::vector<std::string> keys = {"node", "nodes", "surface", "face", "stiffness"};
-  CHECK(did_you_mean("stifness", keys) == " (did you mean \"stiffness\"?)");
-  CHECK(did_you_mean("Stiffness", keys) == " (did you mean \"stiffness\"?)");
-  CHECK(did_you_mean("fase", keys) == " (did you mean \"face\"?)");
-  CHECK(did_you_mean("nod", keys) == " (did you mean \"node\"?)");
-  // Two neighbouring letters are swapped.
-  CHECK(did_you_mean("stfifness", keys) == " (did you mean \"stiffness\"?)");
-  CHECK(did_you_mean("colour", keys).empty());
-  CHECK(did_you_mean("", keys).empty());
-  CHECK(did_you_mean(std::string(100'000, 's'), keys).empty());
-  const std::vector<std::string> one = {"w"};
-  CHECK(did_you_mean("x", one).empty());  // no letter is right
+  for (const auto& [word, meant] : {std::pair("stifness", "stiffness"),
+                                    {"Stiffness", "stiffness"},
+                                    {"fase", "face"},
+                                    {"nod", "node"},
+                                    {"stfifness", "stiffness"}})  // two neighbouring letters are swapped
+    CHECK(did_you_mean(word, keys) == " (did you mean \"" + std::string(meant) + "\"?)");
+  for (const std::string& none : {std::string("colour"), std::string(), std::string(100'000, 's')})
+    CHECK(did_you_mean(none, keys).empty());
+  CHECK(did_you_mean("x", std::vector<std::string>{"w"}).empty());  // no letter is right
 }
 
 TEST_CASE("joined puts a separator between words, and escaped replaces each given character by a text") {
@@ -51,14 +63,15 @@ TEST_CASE("terminal_text escapes control characters, marks of text direction, an
        {"\u00a0\u00e9", "\u2029\u202f\u2065\u206a", "\U0001F600", "\u05d0", "\ud7ff\ue000"})
     CHECK(terminal_text(kept) == kept);
   // Cut sequences, overlong sequences, a surrogate, a value beyond Unicode, and bytes that begin no sequence.
-  CHECK(terminal_text("\xc3") == "\\xc3");
-  CHECK(terminal_text("\xe2\x80") == "\\xe2\\x80");
-  CHECK(terminal_text("\xc0\x9b") == "\\xc0\\x9b");
-  CHECK(terminal_text("\xe0\x82\x9b") == "\\xe0\\x82\\x9b");
-  CHECK(terminal_text("\xf0\x80\x82\x9b") == "\\xf0\\x80\\x82\\x9b");
-  CHECK(terminal_text("\xed\xa0\x80") == "\\xed\\xa0\\x80");
-  CHECK(terminal_text("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");
-  CHECK(terminal_text("\x9b\xff") == "\\x9b\\xff");
+  for (const auto& [bytes, words] : {std::pair("\xc3", "\\xc3"),
+                                     {"\xe2\x80", "\\xe2\\x80"},
+                                     {"\xc0\x9b", "\\xc0\\x9b"},
+                                     {"\xe0\x82\x9b", "\\xe0\\x82\\x9b"},
+                                     {"\xf0\x80\x82\x9b", "\\xf0\\x80\\x82\\x9b"},
+                                     {"\xed\xa0\x80", "\\xed\\xa0\\x80"},
+                                     {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},
+                                     {"\x9b\xff", "\\x9b\\xff"}})
+    CHECK(terminal_text(bytes) == words);
 }
 
 TEST_CASE("on_one_line replaces line ends by blanks, and json_escaped uses the escapes of JSON") {
@@ -69,8 +82,7 @@ TEST_CASE("on_one_line replaces line ends by blanks, and json_escaped uses the e
   CHECK(markup_text("\u009b\u2066\xff") == "\uFFFD\uFFFD\uFFFD");
 }
 
-TEST_CASE(
-    "a message quotes a field only if it looks like a number or is short, and otherwise gives its length") {
+TEST_CASE("a message quotes a field if it looks like a number or is short, and else gives its length") {
   for (const char* number : {"12", "-1.5e+300", "1,5", "0x1p3", "NaN", "-inf", "1.5D0", "1 2"})
     CHECK(field_words(number) == std::string("\"") + number + "\"");
   CHECK(field_words("root:x:0:0") == "a word of 10 bytes");
@@ -89,9 +101,35 @@ TEST_CASE("text that is too long is cut between two UTF-8 characters") {
   CHECK(in_quotes(std::string(60, 'x')) == "\"" + std::string(60, 'x') + "\"");
 }
 
-TEST_CASE("a share in per cent has at most two digits or is a whole number, and has no exponent") {
-  CHECK(percent_words(1e-6) == "0.0001 %");
-  CHECK(percent_words(0.03) == "3 %");
-  CHECK(percent_words(0.0251) == "2.5 %");
-  CHECK(percent_words(19.07) == "1907 %");
+TEST_CASE("a share in per cent and an amount of memory are written with few digits and without an exponent") {
+  for (const auto& [share, words] :
+       {std::pair(1e-6, "0.0001 %"), {0.03, "3 %"}, {0.0251, "2.5 %"}, {19.07, "1907 %"}})
+    CHECK(percent_words(share) == words);
+  CHECK(bytes_words(1 << 19) == "0.5 MiB");
+  CHECK(bytes_words(std::int64_t{20} << 20) == "20 MiB");
+  CHECK(bytes_words(std::int64_t{3} << 29) == "1.5 GiB");
+  CHECK(memory_limit() > 0);
+}
+
+TEST_CASE("COLUMNS sets the width of a table between 40 and 160, and an invalid COLUMNS gives 80") {
+  for (const auto& [columns, width] :
+       {std::pair("100", 100), {"10", 40}, {"1000", 160}, {"0", 80}, {"-5", 80}, {"wide", 80}})
+    CHECK(width_with(columns) == width);
+}
+
+TEST_CASE("text is coloured only if colour is requested") {
+  CHECK(painted({80, false}, paint::bad, "no") == "no");
+  CHECK(painted({80, true}, paint::good, "yes") == "\033[32myes\033[0m");
+  CHECK(painted({80, true}, paint::bad, "no") == "\033[1;31mno\033[0m");
+  CHECK(painted({80, true}, paint::quiet, "so") == "\033[2mso\033[0m");
+  CHECK(painted({80, true}, paint::strong, "so") == "\033[1mso\033[0m");
+}
+
+TEST_CASE("wrap puts several items on a line, and breaks a long item only at blanks") {
+  using lines = std::vector<std::string>;
+  CHECK(wrap({"a", "b", "c"}, 4) == lines{"a; b", "c"});
+  CHECK(wrap({"one two three"}, 7) == lines{"one two", "three"});
+  CHECK(wrap({"one two three"}, 6) == lines{"one", "two", "three"});
+  CHECK(wrap({"a unbreakable b"}, 5) == lines{"a", "unbreakable", "b"});
+  CHECK(wrap({""}, 5) == lines{""});
 }

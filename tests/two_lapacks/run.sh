@@ -85,7 +85,7 @@ case $other in *OpenBLAS*) ;; *) fail "the other LAPACK is not OpenBLAS" ;; esac
 # Solves of two LAPACKs differ in their last digits, so paths without any difference would mean that only one was used.
 [ $different -gt 0 ] || fail "the numbers of every call are the same, so only one LAPACK was used"
 
-for room in compare model path certify lab; do
+for room in compare model path certify lab solve; do
   said=$(under openblas "$build/tests/contct_${room}_tests" 2>&1)
   [ $? = 0 ] || { fail "contct_${room}_tests fails under OpenBLAS"; echo "$said" | tail -n 40; }
   echo "   contct_${room}_tests under OpenBLAS: $(echo "$said" | grep -a 'assertion' | tail -n 1)"

@@ -7,14 +7,13 @@ and with the RUN lines of the Dockerfile.
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "support"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 from edits import edited  # noqa: E402
+from testing import TESTS, run  # noqa: E402
 
 
 def steps_of_action(text, adopt, replay):
@@ -28,23 +27,16 @@ def steps_of_action(text, adopt, replay):
 def jobs(root, replay, bare):
     """Returns {file of reference/adopt: [(line, environment)]}."""
     adopt, repository = root / "reference/adopt", {"CONTCT_REPOSITORY": f"file://{root}"}
-    text = {file.name: file.read_text() for file in (HERE.parent.parent / "reference/adopt").iterdir()}
+    text = {file.name: file.read_text() for file in (TESTS.parent / "reference/adopt").iterdir()}
     installs = re.findall(r"^RUN (.*)$", text["Dockerfile"], re.M) if bare else []
+    copies = [(f"mkdir -p {Path(target).parent} && cp -r {root / source} {target}", {}) for source, target in re.findall(r"^COPY (\S+) /(\S+)$", text["Dockerfile"], re.M)]
+    entry, = re.findall(r'^ENTRYPOINT \["sh", "/(.*)"\]$', text["Dockerfile"], re.M)
     return {
         "action.yml": list(steps_of_action(text["action.yml"], str(adopt), replay)),
         "gitlab-ci.yml": [(line, repository) for line in re.findall(r"^    - (.*)$", text["gitlab-ci.yml"], re.M)],
         "Jenkinsfile": [(line, repository) for line in re.findall(r"sh '(.*)'", text["Jenkinsfile"])],
-        "Dockerfile": [(line, {}) for line in installs] + copies(text["Dockerfile"], root),
+        "Dockerfile": [(line, {}) for line in installs] + copies + [(f"sh {entry} mine.c", {})],
     }
-
-
-def copies(text, root):
-    """Returns lines that copy the files of COPY in a Dockerfile, and run its ENTRYPOINT on mine.c."""
-    lines = []
-    for source, target in re.findall(r"^COPY (\S+) /(\S+)$", text, re.M):
-        lines.append((f"mkdir -p {Path(target).parent} && cp -r {root / source} {target}", {}))
-    entry, = re.findall(r'^ENTRYPOINT \["sh", "/(.*)"\]$', text, re.M)
-    return [*lines, (f"sh {entry} mine.c", {})]
 
 
 def statuses(lines, kernel, bare):
@@ -58,26 +50,16 @@ def statuses(lines, kernel, bare):
             (Path(folder) / "git").write_text('#!/bin/sh\nexec ln -s "${5#file://}" "$6"\n')  # links the working copy as clone
             (Path(folder) / "git").chmod(0o755)
         path = usual["PATH"] if bare else f"{folder}:{usual['PATH']}"
-        return [subprocess.run([*enter, line], cwd=folder, env={**usual, "PATH": path, **environment}, capture_output=True,
-                               check=False, timeout=300).returncode for line, environment in lines]
+        return [run(*enter, line, cwd=folder, env={**usual, "PATH": path, **environment}, timeout=300).returncode for line, environment in lines]
 
 
-def main(root, replay, bare=None):
-    root, replay = Path(root).resolve(), str(Path(replay).resolve())
-    if not bare and not shutil.which("cc"):
-        return 77
-    good = (HERE.parent.parent / "reference/kernels/contct_kernel.c").read_text()
-    bad = edited(good, [("epsgap = 1e-10", "epsgap = 1e-9")])
-    count = 0
-    for name, lines in jobs(root, replay, bare).items():
-        found, faulty = statuses(lines, good, bare), statuses(lines, bad, bare)
-        print(name, found, faulty)
-        if len(lines) < 2 or any(found) or 1 not in faulty or set(faulty) - {0, 1}:
-            return f"{name}: found {found} for a kernel that is CONTCT, {faulty} for one that is not"
-        count += len(lines)
-    print(f"{count} lines run")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+root, replay, bare = Path(sys.argv[1]).resolve(), str(Path(sys.argv[2]).resolve()), next(iter(sys.argv[3:]), None)
+if not bare and not shutil.which("cc"):
+    sys.exit(77)
+good = (TESTS.parent / "reference/kernels/contct_kernel.c").read_text()
+bad = edited(good, [("epsgap = 1e-10", "epsgap = 1e-9")])
+for name, lines in jobs(root, replay, bare).items():
+    found, faulty = statuses(lines, good, bare), statuses(lines, bad, bare)
+    print(name, found, faulty)
+    if len(lines) < 2 or any(found) or 1 not in faulty or set(faulty) - {0, 1}:
+        sys.exit(f"{name}: found {found} for a kernel that is CONTCT, {faulty} for one that is not")

@@ -1,24 +1,23 @@
 """consumers.py ROOT LANGUAGE [PROGRAM [REPLAY]]: tests that the consumer of reference/vectors/consumers in this
 language accepts the correct kernel, and detects each fault of faults.toml. With PROGRAM (contct), `replay` and `fuzz`
 must give the same verdicts on the kernels, and the faulty line of the listing must be that of the mutant with the same
-name. Each judge must name the first wrong value of the first wrong call, and its right value. With REPLAY (the static contct-replay), it must give the same verdicts on the kernels as commands. Exit status 77:
-the language is not installed.
+name. Each judge must name the first wrong value of the first wrong call, and its right value. With REPLAY (the static
+contct-replay), it must give the same verdicts on the kernels as commands. Exit status 77: the language is missing.
 """
 import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "support"), str(HERE.parent / "mutants")]
+TESTS = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / "support"), str(TESTS / "mutants")]
 import mutants  # noqa: E402
 from edits import edited  # noqa: E402
+import testing  # noqa: E402
 
 STRICT = "-O2 -ffp-contract=off"
 # the tool; the file with the kernel: in reference/kernels, or the consumer; how it is built; how it is run; the vectors
@@ -32,9 +31,10 @@ LANGUAGES = {
     "javascript": ("node", "judge.js", "", "node judge.js VECTORS", "json"),
     "octave": ("octave-cli", "judge.m", "", "octave-cli --quiet --norc judge.m VECTORS", "txt"),
 }
+WARN = "-Wall -Wextra -Wpedantic -Wconversion -Werror -shared -fPIC"
 OUTSIDE = {
-    "c": (f"cc {STRICT} -shared -fPIC -I ROOT/cpp -o kernel.so contct_kernel.c", "plugin:./kernel.so", 20000),
-    "fortran": (f"gfortran {STRICT} -shared -fPIC -o kernel.so contct_kernel.f90", "plugin:./kernel.so", 20000),
+    "c": (f"cc {STRICT} -std=c11 {WARN} -Wshadow -I ROOT/cpp -o kernel.so contct_kernel.c", "plugin:./kernel.so", 20000),
+    "fortran": (f"gfortran {STRICT} -std=f2018 {WARN} -Wno-compare-reals -o kernel.so contct_kernel.f90", "plugin:./kernel.so", 20000),
     "python": ("", "pipe:python3 contct_kernel.py", 5000),
 }
 EXCEPTION = "python", "s-ge"  # it divides by SMIN = 0, and then has no answer that leads to a line
@@ -46,33 +46,24 @@ PIPES = {
 }
 
 
-def run(command, folder):
-    begun = time.monotonic()
-    done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True, text=True, errors="replace", check=False, timeout=300,
-                          env={**os.environ, "GOCACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"})
-    return done.returncode, done.stdout + done.stderr, time.monotonic() - begun
-
-
-def built(command, root, folder):
-    status, said, _ = run(command.replace("ROOT", str(root)), folder)
-    if status != 0:
-        raise ValueError(f"{command}: {said}")
-
-
 def judgements(root, language, folder, program, replay):
-    """Returns {judge: (exit status, output, seconds)}; judges are the vectors, `replay` and `fuzz`."""
+    """Returns {judge: (exit status, output)}; judges are the vectors, `replay` and `fuzz`."""
+    def run(command, build="", status=None):
+        if build:
+            run(build, status=0)
+        done = testing.run("sh", "-c", command.replace("ROOT", str(root)), cwd=folder, status=status,
+                           env={**os.environ, "GOCACHE": str(folder / "cache"), "PYTHONDONTWRITEBYTECODE": "1"})
+        return done.returncode, done.stdout + done.stderr
+
     _, _, build, judge, kind = LANGUAGES[language]
-    built(build, root, folder)
-    found = {"vectors": run(judge.replace("VECTORS", f"{root}/reference/vectors/contct-vectors-1.{kind}"), folder)}
+    found = {"vectors": run(judge.replace("VECTORS", f"ROOT/reference/vectors/contct-vectors-1.{kind}"), build)}
     if program and language in OUTSIDE:
         build, kernel, calls = OUTSIDE[language]
-        built(build, root, folder)
-        found["replay"] = run(f"{program} replay --quiet --kernel '{kernel}' {root}/reference/traces/*.trace", folder)
-        found["fuzz"] = run(f"{program} fuzz --quiet --problems 0 --calls {calls} --kernels 'fortran,{kernel}'", folder)
+        found["replay"] = run(f"{program} replay --quiet --kernel '{kernel}' ROOT/reference/traces/*.trace", build)
+        found["fuzz"] = run(f"{program} fuzz --quiet --problems 5 --calls {calls} --kernels 'fortran,{kernel}'")
     if replay and language in PIPES:
         build, kernel = PIPES[language]
-        built(build, root, folder)
-        found["static replay"] = run(f"{replay} --quiet --kernel 'pipe:{kernel}' {root}/reference/traces/*.trace", folder)
+        found["static replay"] = run(f"{replay} --quiet --kernel 'pipe:{kernel}' ROOT/reference/traces/*.trace", build)
     return found
 
 
@@ -90,43 +81,32 @@ def misnamed(said, document):
     return f"{field}: found equals expected" if float(found) == right and str(float(found)) == str(right) else ""
 
 
-def lines_at_fault(name):
-    """Returns the faulty lines of the listing's mutant with this name."""
-    table = tomllib.loads((HERE.parent / "mutants/mutants.toml").read_text())
-    source = table["source"][0]
-    edit, = ([(old, new)] for mutant, old, new in source["mutants"] if mutant == name)
-    return mutants.lines_of(source["file"], name, edit, {n: lines for lines, names in table["lines"] for n in names})
-
-
-def main(root, language, program=None, replay=None):
-    root, (tool, kernel, *_) = Path(root).resolve(), LANGUAGES[language]
-    program, replay = program and Path(program).resolve(), replay and Path(replay).resolve()
-    if not shutil.which(tool):
-        print(f"{tool} is not installed")
-        return 77
-    folders = [root / "reference/vectors/consumers", root / "reference/kernels"]
-    source = next(folder / kernel for folder in folders if (folder / kernel).exists()).read_text()
-    document = json.loads((root / "reference/vectors/contct-vectors-1.json").read_text())
-    calls = sum(len(case["calls"]) for case in document["cases"] if case["real"] == 8)
-    faults = tomllib.loads((HERE / "faults.toml").read_text())[language]
-    for name, *edit in [["as it is"], *faults]:
-        with tempfile.TemporaryDirectory() as work:
-            shutil.copytree(folders[0], work, dirs_exist_ok=True)
-            (Path(work) / kernel).write_text(edited(source, [edit] if edit else []))
-            found = judgements(root, language, Path(work), program, replay)
-        print(name, {who: f"{status}, {seconds:.1f} s" for who, (status, _, seconds) in found.items()}, flush=True)
-        for who, (status, said, _) in found.items():
-            if status != (1 if edit else 0) or (not edit and who == "vectors" and f"{calls} calls" not in said):
-                return f"{language}, {name}, judged by {who}: found exit status {status}, allowed: {1 if edit else 0}\n{said[-2000:]}"
-            wrong = edit and who == "vectors" and (language, name) != EXCEPTION and misnamed(said, document)
-            if wrong or f"{calls} calls, " not in said and who == "vectors":
-                return f"{language}, {name}, judged by {who}: {wrong or 'it ended early'}\n{said[-2000:]}"
-            named = {int(line) for line in re.findall(r"at fault: line (\d+),", said)}
-            if edit and who != "vectors" and not ((named or (language, name) == EXCEPTION) and named <= lines_at_fault(name)):
-                return f"{language}, {name}, judged by {who}: found lines {named}, allowed: {lines_at_fault(name)}\n{said[-2000:]}"
-    print(f"{language}: {len(faults)} faults are found")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+root, language, (program, replay) = Path(sys.argv[1]).resolve(), sys.argv[2], [a and Path(a).resolve() for a in (*sys.argv[3:5], None, None)[:2]]
+tool, kernel, *_ = LANGUAGES[language]
+if not shutil.which(tool):
+    print(f"{tool} is not installed")
+    sys.exit(77)
+folders = [root / "reference/vectors/consumers", root / "reference/kernels"]
+source = next(folder / kernel for folder in folders if (folder / kernel).exists()).read_text()
+document = json.loads((root / "reference/vectors/contct-vectors-1.json").read_text())
+calls = sum(len(case["calls"]) for case in document["cases"] if case["real"] == 8)
+faults = tomllib.loads((TESTS / "vectors/faults.toml").read_text())[language]
+table = tomllib.loads((TESTS / "mutants/mutants.toml").read_text())
+listing, of_mutants = table["source"][0], {n: lines for lines, names in table["lines"] for n in names}
+faulty_lines = {mutant: mutants.lines_of(listing["file"], mutant, [(old, new)], of_mutants) for mutant, old, new in listing["mutants"]}
+for name, *edit in [["as it is"], *faults]:
+    with tempfile.TemporaryDirectory() as work:
+        shutil.copytree(folders[0], work, dirs_exist_ok=True)
+        (Path(work) / kernel).write_text(edited(source, [edit] if edit else []))
+        found = judgements(root, language, Path(work), program, replay)
+    print(name, {who: status for who, (status, _) in found.items()}, flush=True)
+    for who, (status, said) in found.items():
+        of_vectors, excepted = who == "vectors", (language, name) == EXCEPTION
+        named = {int(line) for line in re.findall(r"at fault: line (\d+),", said)}
+        for wrong, what in ((status != (1 if edit else 0), f"found exit status {status}"),
+                            (of_vectors and f"{calls} calls" + (", " if edit else "") not in said, "it ended early"),
+                            (edit and of_vectors and not excepted and misnamed(said, document), "the first wrong value is not named"),
+                            (edit and not of_vectors and not ((named or excepted) and named <= set(faulty_lines[name])), f"found lines {named}")):
+            if wrong:
+                sys.exit(f"{language}, {name}, judged by {who}: {what}: {wrong}\n{said[-2000:]}")
+print(f"{language}: {len(faults)} faults are found")

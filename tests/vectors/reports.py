@@ -3,46 +3,38 @@ schema, and that verify_report.py verifies those of built-in kernels and refuses
 """
 import hashlib
 import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import jsonschema
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+from testing import Checks, run  # noqa: E402
 
-def main(root, program):
-    root = Path(root).resolve()
-    script, reports = root / "reference/vectors/verify_report.py", sorted((root / "reference/vectors/reports").glob("*.json"))
-
-    schema = jsonschema.Draft202012Validator(json.loads((root / "reference/vectors/contct-report-1.schema.json").read_text()))
-
-    def verified(file, kernel):
-        line = [sys.executable, script, file, "--kernel", kernel, "--contct", program]
-        return subprocess.run(line, capture_output=True, text=True, check=False).returncode
-
-    built_in = [r for r in reports if r.stem in ("fortran", "cpp", "fortran-r4", "cpp-r4")]
-    if len(reports) < 8 or not all(schema.is_valid(json.loads(report.read_text())) for report in reports):
-        return "a report of reference/vectors/reports is not as contct-report-1.schema.json says"
-    if len(built_in) != 4 or any(verified(report, report.stem) != 0 for report in built_in):
-        return "a report of reference/vectors/reports is not verified"
-    traces = json.loads(built_in[0].read_text())["traces"]
-    if any(t["sha256"] != hashlib.sha256((root / f"reference/traces/{t['name']}.trace").read_bytes()).hexdigest() for t in traces):
-        return "a report has another SHA-256 of a trace than Python"
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "fuzz.json"
-        subprocess.run([program, "fuzz", "--quiet", "--calls", "1500", "--report", file], check=True)
-        if verified(file, "cpp") != 0 or not schema.is_valid(json.loads(file.read_text())):
-            return "a report of fuzz is not verified, or not as contct-report-1.schema.json says"
-        good = json.loads(built_in[0].read_text())
-        for change in ({"calls": good["calls"] + 1}, {"mismatches": 1}, {"rung": "ulps"}, {"kernel": {**good["kernel"], "sha256": "0" * 64}},
-                       {"traces": traces[1:]}, {"traces": [{**traces[0], "sha256": "0" * 64}, *traces[1:]]}, {"command": "replay; true"}):
-            file.write_text(json.dumps({**good, **change}))
-            if verified(file, built_in[0].stem) not in (1, 2):
-                return f"verified although it has {list(change)}"
-    print(f"{len(built_in)} reports of replays and one of fuzz are verified; seven changed ones are not")
-    return 0
+root, program, check = Path(sys.argv[1]).resolve(), sys.argv[2], Checks()
+schema = jsonschema.Draft202012Validator(json.loads((root / "reference/vectors/contct-report-1.schema.json").read_text()))
+reports = {file.stem: file for file in sorted((root / "reference/vectors/reports").glob("*.json"))}
 
 
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+def is_verified(file, kernel):
+    return run(sys.executable, root / "reference/vectors/verify_report.py", file, "--kernel", kernel, "--contct", program).returncode
+
+
+for name, file in reports.items():
+    check(schema.is_valid(json.loads(file.read_text())), f"{name} is as contct-report-1.schema.json says")
+for name in ("fortran", "cpp", "fortran-r4", "cpp-r4"):
+    check(is_verified(reports[name], name) == 0, f"{name} is verified")
+good = json.loads(reports["cpp"].read_text())
+traces = good["traces"]
+for t in traces:
+    check(t["sha256"] == hashlib.sha256((root / f"reference/traces/{t['name']}.trace").read_bytes()).hexdigest(), f"the SHA-256 of {t['name']}")
+with tempfile.TemporaryDirectory() as folder:
+    file = Path(folder) / "fuzz.json"
+    run(program, "fuzz", "--quiet", "--calls", 1500, "--report", file, status=0)
+    check(is_verified(file, "cpp") == 0 and schema.is_valid(json.loads(file.read_text())), "a report of fuzz is verified, and as the schema says")
+    for change in ({"calls": good["calls"] + 1}, {"mismatches": 1}, {"rung": "ulps"}, {"kernel": {**good["kernel"], "sha256": "0" * 64}},
+                   {"traces": traces[1:]}, {"traces": [{**traces[0], "sha256": "0" * 64}, *traces[1:]]}, {"command": "replay; true"}):
+        file.write_text(json.dumps({**good, **change}))
+        check(is_verified(file, "cpp") in (1, 2), f"a report with {change} is refused")
+check.end(8 + 4 + 8 + 8)

@@ -18,22 +18,21 @@ work=$build/tests/vtk
 rm -rf "$work"
 mkdir -p "$work"
 wrong=0
+# compare FILE [LABELS NODES]: compares the grids of a problem with its JSON.
+compare() {
+  name=$work/$(basename "$1")
+  file=$1
+  shift
+  "$build/contct" run "$file.toml" --quiet --vtu "$name.vtu" --json "$name.json" 2>"$work/said" || { cat "$work/said"; wrong=1; return; }
+  $python tests/vtk/read_back.py "$name.json" "$name.vtu" "$@" || { echo "VTK: $file differs"; wrong=1; }
+}
 for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-three-gap-supports \
   pp03e-corners-and-settled-stop-n8 pp05a-free-plate-on-bed-n8; do
-  "$build/contct" run "reference/problems/$problem.toml" --quiet --vtu "$work/$problem.vtu" \
-    --json "$work/$problem.json" 2>"$work/said" || { cat "$work/said"; wrong=1; continue; }
-  $python tests/vtk/read_back.py "$work/$problem.json" "$work/$problem.vtu" || { echo "VTK: $problem differs"; wrong=1; }
+  compare reference/problems/$problem
 done
 # External structures with coordinates and with CalculiX's mesh.
 structures=reference/structures
-for given in "frame $structures/frame.dof $structures/frame.xyz" \
-  "calculix/console $structures/calculix/console.dof $structures/calculix/console.inp"; do
-  # shellcheck disable=SC2086
-  set -- $given
-  name=$(basename "$1")
-  "$build/contct" run "$structures/$1.toml" --quiet --vtu "$work/$name.vtu" --json "$work/$name.json" 2>"$work/said" ||
-    { cat "$work/said"; wrong=1; continue; }
-  $python tests/vtk/read_back.py "$work/$name.json" "$work/$name.vtu" "$2" "$3" || { echo "VTK: $name differs"; wrong=1; }
-done
+compare $structures/frame $structures/frame.dof $structures/frame.xyz
+compare $structures/calculix/console $structures/calculix/console.dof $structures/calculix/console.inp
 [ $wrong = 0 ] || { echo "VTK: FAILED"; exit 1; }
 echo "VTK: passed"

@@ -64,25 +64,13 @@ class soft_ground {
   std::vector<free_motion> motions_;
 };
 
-class corrected_path {
+class corrected_path final : public exact_rule {
  public:
-  corrected_path(const exact_problem& p, const exact_progress& tell) : at_(p), tell_(tell) {}
-
-  exact_path follow() {
-    for (std::size_t step = 0; goes_on(path_, at_.problem, step); ++step) {
-      at_.begin_step(step);
-      increments_.clear();
-      const path_status status = follow_step();
-      path_.take(at_.end(status, std::move(increments_), true));
-    }
-    return std::move(path_);
-  }
+  corrected_path(const exact_problem& p, const exact_progress& tell) : exact_rule(p, tell, true) {}
 
  private:
-  path_status follow_step() {
-    while (increments_.size() < most_exact_increments(at_.problem)) {
-      if (tell_)
-        tell_(static_cast<int>(at_.step) + 1, static_cast<int>(increments_.size()) + 1, at_.fraction);
+  path_status follow_step() override {
+    while (begin_increment(increments_.size() + 1)) {
       const std::vector<char> before = at_.closed;
       settle_statuses();
       const bool driven = !is_zero(response_[0]);
@@ -174,13 +162,13 @@ class corrected_path {
   }
 
   void prove(const rational_vector& motion) {
-    if (path_.mechanism) return;
+    if (mechanism_) return;
     rational largest;
     for (const rational& x : motion) largest = std::max(largest, rational(abs(x)));
     mechanism_proof proof{rational_vector(motion.size()), 0};
     add(proof.motion, motion, 1 / largest);
     proof.work = dot(proof.motion, at_.problem.steps[at_.step].force);
-    path_.mechanism = std::move(proof);
+    mechanism_ = std::move(proof);
   }
 
   /// Increases the load up to the first event or the end of the step. False at the end of the step.
@@ -219,10 +207,6 @@ class corrected_path {
   }
 
   static constexpr std::size_t most_terms = 12;
-  position at_;
-  const exact_progress& tell_;
-  exact_path path_;
-  std::vector<exact_increment> increments_;
   std::vector<rational_vector> response_;
   rational_vector line_start_, line_rate_;  // on this piece, u = line_start_ + fraction * line_rate_
 };

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "contct/model/equations.hpp"
 #include "contct/number/rational.hpp"
+#include "contct/structure/equations.hpp"
 
 namespace contct {
 

@@ -1,6 +1,7 @@
 // A problem in rational numbers, with its paths under the corrected and the 1989 rule.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -8,9 +9,9 @@
 
 #include "contct/exact/lifted_solver.hpp"
 #include "contct/kernel/call.hpp"
-#include "contct/model/equations.hpp"
 #include "contct/number/rational.hpp"
 #include "contct/path/path.hpp"
+#include "contct/structure/equations.hpp"
 
 namespace contct {
 
@@ -66,22 +67,17 @@ struct mechanism_proof {
 };
 
 struct exact_path {
-  path_status status = path_status::solved;  ///< status of the first step that is not solved
   /// After a step that is not solved, the path continues only if the next step starts from zero.
   std::vector<exact_step_end> steps;
   std::optional<mechanism_proof> mechanism;  ///< of the first mechanism; corrected path only
 
-  void take(exact_step_end end) {
-    if (status == path_status::solved) status = end.status;
-    steps.push_back(std::move(end));
+  /// The status of the first step that is not solved.
+  [[nodiscard]] path_status status() const {
+    const auto is_solved = [](const exact_step_end& s) { return s.status == path_status::solved; };
+    const auto failed = std::ranges::find_if_not(steps, is_solved);
+    return failed == steps.end() ? path_status::solved : failed->status;
   }
 };
-
-/// True if step `number`, from 0, can follow the steps of `path`.
-[[nodiscard]] inline bool goes_on(const exact_path& path, const exact_problem& p, std::size_t number) {
-  return number < p.steps.size() &&
-         (path.steps.empty() || path.steps.back().status == path_status::solved || p.steps[number].from_zero);
-}
 
 /// Called before every increment, with the step and the increment, from 1, and the share of the step reached.
 using exact_progress = std::function<void(int step, int increment, const rational& fraction)>;

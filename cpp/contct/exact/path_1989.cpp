@@ -30,21 +30,16 @@ rational scale_factor(const listing_pair& p) {
   return s_chk > 0 ? rational(s_chk * delta()) : 1;
 }
 
-class path_1989 {
+class path_1989 final : public exact_rule {
  public:
-  /// `p` must outlive this object.
-  explicit path_1989(const exact_problem& p) : at_(p) {}
-
-  exact_path follow(const exact_progress& tell);
+  path_1989(const exact_problem& p, const exact_progress& tell) : exact_rule(p, tell, false) {}
 
  private:
-  path_status follow_step(const exact_progress& tell);
+  path_status follow_step() override;
   rational ask(const rational_vector& d_star);
   exact_increment next();
 
-  position at_;
-  std::vector<exact_increment> increments_;  // increments of the current step
-  rational s_min_ = 1;                       // SMIN of the last call; 1: the call ended a step
+  rational s_min_ = 1;  // SMIN of the last call; 1: the call ended a step
 };
 
 /// Calls CONTCT and toggles the pairs in its answer. Returns SMIN.
@@ -76,26 +71,14 @@ exact_increment path_1989::next() {
   return {at_.fraction, at_.events_since(before)};
 }
 
-path_status path_1989::follow_step(const exact_progress& tell) {
-  for (std::size_t number = 1; number <= most_exact_increments(at_.problem); ++number) {
-    if (tell) tell(static_cast<int>(at_.step) + 1, static_cast<int>(number), at_.fraction);
+path_status path_1989::follow_step() {
+  for (std::size_t number = 1; begin_increment(number); ++number) {
     at_.factor();
     if (!at_.solver().free_motions().empty()) return path_status::mechanism;
     increments_.push_back(next());
     if (s_min_ == 1) return path_status::solved;
   }
   return path_status::iteration_limit;
-}
-
-exact_path path_1989::follow(const exact_progress& tell) {
-  exact_path path;
-  for (std::size_t step = 0; goes_on(path, at_.problem, step); ++step) {
-    at_.begin_step(step);
-    increments_.clear();
-    const path_status status = follow_step(tell);
-    path.take(at_.end(status, std::move(increments_), false));
-  }
-  return path;
 }
 
 }  // namespace
@@ -114,7 +97,7 @@ listing_answer answer_exactly(std::span<const listing_pair> pairs) {
 }
 
 exact_path follow_1989_path(const exact_problem& p, const exact_progress& tell) {
-  return path_1989(p).follow(tell);
+  return path_1989(p, tell).follow();
 }
 
 }  // namespace contct

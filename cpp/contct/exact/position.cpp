@@ -1,6 +1,5 @@
 #include "contct/exact/position.hpp"
 
-#include <set>
 #include <utility>
 
 namespace contct {
@@ -15,26 +14,13 @@ void position::begin_step(std::size_t number) {
   else
     before_ = problem.steps[number - 1];
   fraction = 0;
-  const exact_step& after = problem.steps[number];
-  increment_ = after.force;
-  settlement_ = after.settlement;
-  rational_vector moved = after.moved;
-  for (std::size_t dof = 0; dof < u.size(); ++dof) {
-    increment_[dof] -= before_.force[dof];
-    settlement_[dof] -= before_.settlement[dof];
-    moved[dof] -= before_.moved[dof];
-  }
-  increment_ = less_settled(std::move(increment_), shift_of(settlement_, moved, false));
-  settlement_ = shift_of(std::move(settlement_), moved, true);
-}
-
-rational_vector position::shift_of(rational_vector settled, const rational_vector& moved,
-                                   bool from_faces) const {
-  for (std::size_t dof = 0; dof < settled.size(); ++dof) {
-    if (problem.fixed[dof] == 0) settled[dof] = from_faces ? rational(0) : moved[dof];
-    if (problem.fixed[dof] != 0 && from_faces) settled[dof] -= moved[dof];
-  }
-  return settled;
+  exact_step more = problem.steps[number];
+  add(more.force, before_.force, -1);
+  add(more.settlement, before_.settlement, -1);
+  add(more.moved, before_.moved, -1);
+  more = problem.from_faces(std::move(more));
+  increment_ = std::move(more.force);
+  settlement_ = std::move(more.settlement);
 }
 
 void position::unload() {
@@ -42,16 +28,6 @@ void position::unload() {
   before_ = {u, {}, u, u};
   closed.clear();
   for (const exact_pair& c : problem.pairs) closed.push_back(c.closed ? 1 : 0);
-}
-
-rational_vector position::less_settled(rational_vector b, const rational_vector& settled) const {
-  for (std::size_t dof = 0; dof < b.size(); ++dof) {
-    if (problem.fixed[dof] != 0) b[dof] = 0;
-    if (settled[dof] == 0) continue;
-    for (const auto& [row, k] : problem.stiffness[dof])
-      if (problem.fixed[row] == 0) b[row] -= k * settled[dof];
-  }
-  return b;
 }
 
 void position::factor() {
@@ -70,13 +46,13 @@ rational_vector position::moved(const rational_vector& b, const rational_vector&
 }
 
 rational_vector position::at_start_of_step() const {
-  rational_vector b = before_.force;
+  exact_step l = before_;
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    if (closed[i] != 0) c.add_to(b, rational(c.stiffness * c.face));
+    if (closed[i] != 0) c.add_to(l.force, rational(c.stiffness * c.face));
   }
-  return moved(less_settled(std::move(b), shift_of(before_.settlement, before_.moved, false)),
-               shift_of(before_.settlement, before_.moved, true));
+  l = problem.from_faces(std::move(l));
+  return moved(l.force, l.settlement);
 }
 
 std::vector<event> position::events_since(const std::vector<char>& before) const {
@@ -87,37 +63,45 @@ std::vector<event> position::events_since(const std::vector<char>& before) const
   return events;
 }
 
-/// At a fixed dof: K u minus the load and the forces of pairs. If a dof is fixed twice, the first support
-/// gets the whole reaction.
-rational_vector position::reactions(const rational_vector& displacement,
-                                    const rational_vector& forces) const {
-  const exact_step& after = problem.steps[step];
-  std::set<int> reacted;
-  rational_vector values;
-  for (const auto& s : problem.supports) {
-    rational value = -s.spring * displacement[s.dof];
-    if (s.fixed && reacted.insert(s.dof).second) {
-      for (const auto& [column, k] : problem.stiffness[s.dof]) value += k * displacement[column];
-      value -= before_.force[s.dof] + fraction * (after.force[s.dof] - before_.force[s.dof]) + forces[s.dof];
-    }
-    values.push_back(std::move(value));
-  }
-  return values;
-}
-
 exact_step_end position::end(path_status status, std::vector<exact_increment> increments,
                              bool pairs_react) const {
   exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}, status};
   for (std::size_t dof = 0; dof < u.size(); ++dof) e.displacement[dof] += moved_face(dof);
-  rational_vector at_dofs(u.size());
+  rational_vector pressing(u.size());  // the forces of the pairs, against the structure
   for (std::size_t i = 0; i < closed.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    e.gap.push_back(closed[i] != 0 ? rational(0) : gap(i));
-    e.force.push_back(closed[i] != 0 ? rational(-c.stiffness * gap(i)) : rational(0));
-    if (pairs_react) c.add_to(at_dofs, rational(-c.surface * e.force.back()));
+    e.gap.push_back(gap_of(c, c.seen_in(u), closed[i] != 0));
+    e.force.push_back(force_of(c, c.seen_in(u), closed[i] != 0));
+    if (pairs_react) c.add_to(pressing, rational(c.surface * e.force.back()));
   }
-  e.reactions = reactions(e.displacement, at_dofs);
+  const exact_step& after = problem.steps[step];
+  const auto needed = [&](int dof) {
+    const rational load = before_.force[dof] + fraction * (after.force[dof] - before_.force[dof]);
+    return problem.add_row(dof, e.displacement, rational(pressing[dof] - load));
+  };
+  for (const auto& s : problem.supports) e.reactions.push_back(s.force(e.displacement, needed));
   return e;
+}
+
+exact_path exact_rule::follow() {
+  exact_path path;
+  bool stands = true;  // the step before was solved
+  for (std::size_t step = 0; step < at_.problem.steps.size(); ++step) {
+    if (!stands && !at_.problem.steps[step].from_zero) break;
+    at_.begin_step(step);
+    increments_.clear();
+    const path_status status = follow_step();
+    stands = status == path_status::solved;
+    path.steps.push_back(at_.end(status, std::move(increments_), pairs_react_));
+  }
+  path.mechanism = std::move(mechanism_);
+  return path;
+}
+
+bool exact_rule::begin_increment(std::size_t number) const {
+  if (number > 1000 + 50 * at_.problem.pairs.size()) return false;
+  if (tell_) tell_(static_cast<int>(at_.step) + 1, static_cast<int>(number), at_.fraction);
+  return true;
 }
 
 }  // namespace contct

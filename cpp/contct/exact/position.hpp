@@ -34,7 +34,7 @@ class position {
 
   [[nodiscard]] rational gap(std::size_t pair) const {
     const exact_pair& c = problem.pairs[pair];
-    return c.surface * (c.face - c.seen_in(u));
+    return gap_of(c, c.seen_in(u), false);
   }
   /// The displacement of a pair in `v` towards its face.
   [[nodiscard]] rational approach(std::size_t pair, const rational_vector& v) const {
@@ -53,32 +53,45 @@ class position {
   const exact_problem& problem;
   std::size_t step = 0;      ///< from 0
   rational fraction;         ///< share of the step's load applied so far
-  rational_vector u;         ///< displacements less the moves of faces: see count_from_faces [dofs]
+  rational_vector u;         ///< displacements less the moves of faces: see equations::from_faces [dofs]
   std::vector<char> closed;  ///< [pairs]
 
  private:
   void unload();
-  [[nodiscard]] rational_vector reactions(const rational_vector& displacement,
-                                          const rational_vector& forces) const;
   /// The movement of the face at a dof up to this position.
   [[nodiscard]] rational moved_face(std::size_t dof) const {
     return before_.moved[dof] + fraction * (problem.steps[step].moved[dof] - before_.moved[dof]);
   }
-  /// The movements of dofs in a step: settlements at fixed dofs, moves of faces at free dofs. `from_faces`:
-  /// the movements relative to the faces, which are 0 at free dofs.
-  [[nodiscard]] rational_vector shift_of(rational_vector settled, const rational_vector& moved,
-                                         bool from_faces) const;
-  /// b less the forces of K that displacements `settled` cause; 0 at fixed dofs.
-  [[nodiscard]] rational_vector less_settled(rational_vector b, const rational_vector& settled) const;
-
   lifted_solver solver_;
   rational_vector increment_, settlement_;
   exact_step before_;  // the loads at the end of the previous step
 };
 
-/// The limit of increments for a step.
-[[nodiscard]] inline std::size_t most_exact_increments(const exact_problem& p) {
-  return 1000 + 50 * p.pairs.size();
-}
+/// A path of one rule, step by step.
+class exact_rule {
+ public:
+  /// `pairs_react`: see position::end. Both references must outlive this object.
+  exact_rule(const exact_problem& p, const exact_progress& tell, bool pairs_react)
+      : at_(p), tell_(tell), pairs_react_(pairs_react) {}
+  virtual ~exact_rule() = default;
+  exact_rule(const exact_rule&) = delete;
+  exact_rule& operator=(const exact_rule&) = delete;
+
+  [[nodiscard]] exact_path follow();
+
+ protected:
+  /// Follows a step to its end, and adds its increments to increments_.
+  virtual path_status follow_step() = 0;
+  /// Tells that the next increment begins; false beyond the limit of increments for a step.
+  [[nodiscard]] bool begin_increment(std::size_t number) const;
+
+  position at_;
+  std::vector<exact_increment> increments_;
+  std::optional<mechanism_proof> mechanism_;  // of the first mechanism
+
+ private:
+  const exact_progress& tell_;
+  bool pairs_react_;
+};
 
 }  // namespace contct

@@ -37,14 +37,6 @@ struct event {
   friend bool operator==(const event&, const event&) = default;
 };
 
-/// The branch of the listing's DO 10 loop that set the scale factor s of a pair.
-enum class listing_branch {
-  no_response,       ///< d* = 0: s is 1, the mark for "no event"
-  stationary,        ///< the pair is at its face and keeps its status: s is 1, the mark for "no event"
-  stationary_event,  ///< the pair is at its face, and the load changes its status: eq. 12
-  moving,            ///< the pair advances or recedes: eq. 4
-};
-
 /// The arguments of CONTCT in the listing's order, and COMMON /DOF/.
 /// `nc` = cc.size() is the length of every array over pairs, and must be below 2^31 - 1. Every id[i] must
 /// address a dof inside dd and dtest. The values of (id[i] - 1) * ndofpn + indof and of isep[i] * isurf[i]
@@ -73,10 +65,9 @@ struct answered_call {
 };
 
 /// The inputs of one call in owned arrays. dd and dtest may have dofs without a pair.
-template <class Real>
 struct call_inputs {
-  std::vector<Real> dd, dtest;       ///< [dofs]
-  std::vector<Real> cc;              ///< [pairs]
+  std::vector<double> dd, dtest;     ///< [dofs]
+  std::vector<double> cc;            ///< [pairs]
   std::vector<int> id, isep, isurf;  ///< [pairs]
   dof_layout dof;
 
@@ -97,17 +88,49 @@ struct call_outputs {
 
   /// Returns a call that reads `in` and writes to `ss` and `isep`. Before the call, SMIN and SS are
   /// not_an_answer, and ISEP is in.isep.
-  call<double> prepare(const call_inputs<double>& in) {
+  call<double> prepare(const call_inputs& in) {
     ss.assign(in.pairs(), not_an_answer);
     isep = in.isep;
     return {in.dd, in.dtest, in.cc, ss, not_an_answer, in.id, isep, in.isurf, in.dof};
   }
+
+  /// The same for a call that was answered by another kernel.
+  call<double> prepare(const answered_call& other) {
+    ss.assign(other.c.ss.size(), not_an_answer);
+    isep.assign(other.isep_before.begin(), other.isep_before.end());
+    call<double> c = other.c;
+    c.ss = ss;
+    c.isep = isep;
+    c.smin = not_an_answer;
+    return c;
+  }
+
+  /// Returns the call with the inputs `in` and these outputs. It has no text if `text` is empty, because a
+  /// kernel that writes to unit 26 does so in every call.
+  [[nodiscard]] answered_call answering(const call_inputs& in, std::int64_t number) {
+    return {{in.dd, in.dtest, in.cc, ss, smin, in.id, isep, in.isurf, in.dof},
+            in.isep,
+            text.empty() ? std::nullopt : std::optional<std::string_view>(text),
+            number};
+  }
 };
 
-/// Rounds the arrays and SMIN of `c` to float, and returns then(call<float>&). ID, ISEP and ISURF are those
-/// of `c`, so that `then` changes c.isep, but not c.ss or c.smin.
-template <class Then>
-auto as_float_call(const call<double>& c, Then then) {
+/// One call in owned arrays.
+struct recorded_call {
+  std::int64_t number = 0;
+  std::string note;  ///< the purpose of the call; may be empty
+  call_inputs in;
+  call_outputs out;
+
+  [[nodiscard]] answered_call answered() { return out.answering(in, number); }
+};
+
+/// Returns then(call), with the call in REAL of `real_bytes`: `c`, or a copy whose arrays and SMIN are
+/// rounded to float. ID, ISEP and ISURF of the copy are those of `c`, so that `then` changes c.isep, but not
+/// c.ss or c.smin.
+template <class Call, class Then>
+auto in_precision(Call& c, int real_bytes, Then then) {
+  if (real_bytes == 8) return then(c);
   const auto rounded = [](std::span<const double> x) { return std::vector<float>(x.begin(), x.end()); };
   const std::vector<float> dd = rounded(c.dd);
   const std::vector<float> dtest = rounded(c.dtest);

@@ -188,13 +188,11 @@ class kernel_in_child final : public kernel {
   /// error message; the constructor then throws the error message as std::invalid_argument.
   kernel_in_child(kernel_facts facts, std::function<void(int channel)> body, bool loads,
                   const outside_limits& limits)
-      : facts_(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {
+      : kernel(std::move(facts)), body_(std::move(body)), loads_(loads), limits_(limits) {
     if (!loads_) return;
     if (const std::string wrong = start(); !wrong.empty())
-      throw std::invalid_argument(facts_.name + ": " + wrong);
+      throw std::invalid_argument(this->facts().name + ": " + wrong);
   }
-  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
-  std::string take_text() override { return std::exchange(text_, {}); }
 
   void answer(call<double>& c) override {
     refuse_when_enough();
@@ -294,7 +292,6 @@ class kernel_in_child final : public kernel {
     text_ += out_.text;
   }
 
-  kernel_facts facts_;
   std::function<void(int channel)> body_;
   bool loads_;
   outside_limits limits_;
@@ -303,7 +300,7 @@ class kernel_in_child final : public kernel {
   int waits_ = 0;
   std::string last_;
   std::int64_t calls_ = 0;
-  std::string asked_, answered_, text_;
+  std::string asked_, answered_;
   call_outputs out_;
 };
 
@@ -338,11 +335,7 @@ std::string answer_to(std::string_view asked, kernel_procedure* ask) {
 }
 
 void say(int channel, std::string_view words) {
-  while (!words.empty()) {
-    const ssize_t n = ::write(channel, words.data(), words.size());
-    if (n <= 0) return;
-    words.remove_prefix(n);
-  }
+  (void)dprintf(channel, "%.*s", static_cast<int>(words.size()), words.data());
 }
 
 /// In a plug-in's child: waits for calls, executes them and sends the answers, until the channel is closed.

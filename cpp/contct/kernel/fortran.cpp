@@ -12,7 +12,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "contct/kernel/contct.h"
 #include "contct/text/output_file.hpp"
 
 using contct::fortran::call_r8;
@@ -58,16 +57,23 @@ std::mutex& process_wide() {
   return mutex;
 }
 
-void contct(call<float>& c) {
+namespace {
+
+template <class Real, class Procedure>
+void call_alone(call<Real>& c, Procedure* procedure) {
   const std::scoped_lock lock(process_wide());
-  contct_call_r4(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
-                 c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
+  procedure(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
+            c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
+}
+
+}  // namespace
+
+void contct(call<float>& c, const compiled_listing& /*by*/) {
+  call_alone(c, contct_call_r4);
 }
 
 void contct(call<double>& c, const compiled_listing& by) {
-  const std::scoped_lock lock(process_wide());
-  by.call(c.dd.data(), c.dtest.data(), c.cc.data(), c.ss.data(), &c.smin, c.id.data(), c.isep.data(),
-          c.isurf.data(), c.nc(), c.dof.indof, c.dof.ndofpn);
+  call_alone(c, by.call);
 }
 
 void forget_unit_26() {

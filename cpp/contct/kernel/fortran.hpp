@@ -6,14 +6,14 @@
 #include <string>
 
 #include "contct/kernel/call.hpp"
+#include "contct/kernel/contct.h"
 
 namespace contct::fortran {
 
 // The procedures of fortran/contct_c.f90 and fortran/f2c_calls.c.
-using call_r8 = void(const double* dd, const double* dtest, const double* cc, double* ss, double* smin,
-                     const int* id, int* isep, const int* isurf, int nc, int indof, int ndofpn);
-using log_open = int(const char* path, int length);
-using log_act = void();
+using call_r8 = decltype(contct_call_r8);
+using log_open = decltype(contct_log_open);
+using log_act = decltype(contct_log_close);
 
 /// A compiler's build of the 8-byte listing, and the unit 26 of its run-time library.
 struct compiled_listing {
@@ -36,10 +36,10 @@ extern compiled_listing flang, f2c;  // defined if CMake found these compilers
 /// too.
 [[nodiscard]] std::mutex& process_wide();
 
-/// One call of the listing: built as printed for float, with 8-byte REAL for double. A lock serialises calls,
-/// because COMMON /DOF/ and unit 26 belong to the whole process. The unit-26 text goes to the open unit_26
-/// object of this build; without an open object, the text is lost.
-void contct(call<float>& c);
+/// One call of the listing: built as printed for float, by gfortran only; with 8-byte REAL for double. A lock
+/// serialises calls, because COMMON /DOF/ and unit 26 belong to the whole process. The unit-26 text goes to
+/// the open unit_26 object of this build; without an open object, the text is lost.
+void contct(call<float>& c, const compiled_listing& by = gfortran);
 void contct(call<double>& c, const compiled_listing& by = gfortran);
 
 /// In a child process: connects gfortran's unit 26 to the null device, instead of the parent's file.

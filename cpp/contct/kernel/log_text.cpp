@@ -29,28 +29,17 @@ void append_e(Real value, int significant, std::size_t width, std::string& text)
   // Gives d.ddde+ee, in which a locale may change the point. std::to_chars would add 110 kB of tables to the
   // static program.
   char scientific[48];
-  const int length =
-      std::snprintf(scientific, sizeof scientific, "%.*e", significant - 1, static_cast<double>(value));
-  const char* const end = scientific + length;
-  const std::string_view all(scientific, length);
+  (void)std::snprintf(scientific, sizeof scientific, "%.*e", significant - 1, static_cast<double>(value));
+  const std::string_view all(scientific);
   const std::size_t mark = all.find('e');
-  int exponent = 0;
-  std::from_chars(all.data() + mark + 2, end, exponent);  // after the sign, because from_chars refuses '+'
-  if (all[mark + 1] == '-') exponent = -exponent;
-  ++exponent;  // all digits are after the point here
-  const int size = std::abs(exponent);
-
-  char digits[48] = "0.";
-  std::size_t n = 2;
-  for (const char ch : all.substr(0, mark)) {
-    if (ch >= '0' && ch <= '9') digits[n++] = ch;
-  }
-  if (size < 100) digits[n++] = 'E';
-  digits[n++] = exponent < 0 ? '-' : '+';
-  if (size >= 100) digits[n++] = static_cast<char>('0' + size / 100);
-  digits[n++] = static_cast<char>('0' + size / 10 % 10);
-  digits[n++] = static_cast<char>('0' + size % 10);
-  append_field({digits, n}, width, text);
+  std::string digits(all.substr(0, mark));
+  std::erase_if(digits, [](char ch) { return ch < '0' || ch > '9'; });
+  // All digits are after the point here.
+  const auto exponent = static_cast<int>(std::strtol(scientific + mark + 1, nullptr, 10)) + 1;
+  char field[48];
+  const int length = std::snprintf(field, sizeof field, std::abs(exponent) < 100 ? "0.%sE%+03d" : "0.%s%+04d",
+                                   digits.c_str(), exponent);
+  append_field({field, static_cast<std::size_t>(length)}, width, text);
 }
 
 }  // namespace

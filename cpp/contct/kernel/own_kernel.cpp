@@ -45,26 +45,6 @@ class fenced {
   std::vector<T> copy_;
 };
 
-class function_kernel final : public kernel {
- public:
-  function_kernel(const std::string& name, kernel_procedure* procedure)
-      : facts_(facts_of_outside(name, "a function")), procedure_(procedure) {}
-  [[nodiscard]] const kernel_facts& facts() const override { return facts_; }
-  std::string take_text() override { return {}; }
-
-  void answer(call<double>& c) override {
-    try {
-      put_guarded(c, procedure_);
-    } catch (const kernel_failure& failure) {
-      throw kernel_failure(facts_.name + ": " + failure.what());
-    }
-  }
-
- private:
-  kernel_facts facts_;
-  kernel_procedure* procedure_;
-};
-
 }  // namespace
 
 void put_guarded(call<double>& c, kernel_procedure* procedure) {
@@ -95,7 +75,14 @@ void refuse_name_of_function(const std::string& name) {
 }
 
 std::unique_ptr<kernel> make_function_kernel(const std::string& name, kernel_procedure* procedure) {
-  return std::make_unique<function_kernel>(name, procedure);
+  const auto answer = [name, procedure](call<double>& c, std::string& /*text*/) {
+    try {
+      put_guarded(c, procedure);
+    } catch (const kernel_failure& failure) {
+      throw kernel_failure(name + ": " + failure.what());
+    }
+  };
+  return std::make_unique<function_kernel>(facts_of_outside(name, "a function"), answer);
 }
 
 }  // namespace contct

@@ -23,62 +23,36 @@ const char* const cxx_compiler = CONTCT_CXX_COMPILER;    // NOLINT: set by CMake
 const char* const cxx_flags = CONTCT_CXX_FLAGS;          // NOLINT: set by CMake
 const char* const fortran_flags = CONTCT_FORTRAN_FLAGS;  // NOLINT: set by CMake
 
-class built_in : public kernel {
- public:
-  explicit built_in(kernel_facts facts) : facts_(std::move(facts)) {}
-  [[nodiscard]] const kernel_facts& facts() const final { return facts_; }
-  std::string take_text() override { return std::exchange(text_, {}); }
-
- protected:
-  std::string text_;
-
- private:
-  kernel_facts facts_;
-};
-
-class corrected_kernel final : public built_in {
- public:
-  using built_in::built_in;
-  void answer(call<double>& c) override { contct_corrected(c); }
-};
-
-/// Answers `c` with `answer`, which takes a call<float>.
+/// Answers `c` with `answer`, which takes the call in REAL of `real_bytes`.
 template <class Answer>
-void answer_narrow(call<double>& c, Answer answer) {
-  as_float_call(c, [&](call<float>& narrow) {
-    answer(narrow);
-    std::copy(narrow.ss.begin(), narrow.ss.end(), c.ss.begin());
-    c.smin = narrow.smin;
+void answer_in(int real_bytes, call<double>& c, Answer answer) {
+  in_precision(c, real_bytes, [&](auto& own) {
+    answer(own);
+    if constexpr (sizeof own.smin == 4) {
+      std::copy(own.ss.begin(), own.ss.end(), c.ss.begin());
+      c.smin = own.smin;
+    }
   });
 }
 
-class cpp_kernel final : public built_in {
- public:
-  using built_in::built_in;
-  void answer(call<double>& c) override {
-    if (facts().real_bytes == 8) return answer_in_precision(c);
-    answer_narrow(c, [this](call<float>& narrow) { answer_in_precision(narrow); });
-  }
-
- private:
-  template <class Real>
-  void answer_in_precision(call<Real>& c) {
-    if (events_.size() < c.cc.size()) events_.resize(c.cc.size());
-    const int happened = contct(c, std::span<event>(events_));
-    append_log_text(c, std::span<const event>(events_.data(), happened), text_);
-  }
-
-  std::vector<event> events_;
-};
+/// C++ CONTCT in REAL of `real_bytes`.
+function_kernel::function cpp_contct(int real_bytes) {
+  return [real_bytes, events = std::vector<event>()](call<double>& c, std::string& text) mutable {
+    answer_in(real_bytes, c, [&](auto& own) {
+      if (events.size() < own.cc.size()) events.resize(own.cc.size());
+      const int happened = contct(own, std::span<event>(events));
+      append_log_text(own, std::span<const event>(events.data(), happened), text);
+    });
+  };
+}
 
 /// The 1989 code as one compiler builds it. Each object occupies unit 26 of the compiler's run-time library.
-class fortran_kernel final : public built_in {
+class fortran_kernel final : public kernel {
  public:
   fortran_kernel(const kernel_facts& facts, fortran::compiled_listing& by)
-      : built_in(facts), listing_(by), log_(by) {}
+      : kernel(facts), listing_(by), log_(by) {}
   void answer(call<double>& c) override {
-    if (facts().real_bytes == 8) return fortran::contct(c, listing_);
-    answer_narrow(c, [](call<float>& narrow) { fortran::contct(narrow); });
+    answer_in(facts().real_bytes, c, [this](auto& own) { fortran::contct(own, listing_); });
   }
   std::string take_text() override { return log_.take(); }
 
@@ -106,19 +80,20 @@ entry as_printed() {
   return e;
 }
 
-template <class Kernel>
-entry in_cpp(const char* name, int real_bytes, contact_rule rule, bool has_text) {
+entry in_cpp(const char* name, int real_bytes, contact_rule rule, const function_kernel::function& answer) {
+  const bool has_text = rule == contact_rule::listing;
   return {{name, real_bytes, rule, "C++20", cxx_compiler, cxx_flags, has_text},
-          [](const kernel_facts& f) { return std::make_unique<Kernel>(f); }};
+          [answer](const kernel_facts& f) { return std::make_unique<function_kernel>(f, answer); }};
 }
 
 const std::vector<entry>& known_kernels() {
   static const std::vector<entry> known = {
       compiled_by(fortran::gfortran),
       as_printed(),
-      in_cpp<cpp_kernel>("cpp", 8, contact_rule::listing, true),
-      in_cpp<cpp_kernel>("cpp-r4", 4, contact_rule::listing, true),
-      in_cpp<corrected_kernel>("corrected", 8, contact_rule::corrected, false),
+      in_cpp("cpp", 8, contact_rule::listing, cpp_contct(8)),
+      in_cpp("cpp-r4", 4, contact_rule::listing, cpp_contct(4)),
+      in_cpp("corrected", 8, contact_rule::corrected,
+             [](call<double>& c, std::string& /*text*/) { contct_corrected(c); }),
 #ifdef CONTCT_FLANG_COMPILER
       compiled_by(fortran::flang),
 #endif
@@ -145,6 +120,10 @@ std::optional<std::string> after(std::string_view prefix, std::string_view name)
 }
 
 }  // namespace
+
+std::string kernel::take_text() {
+  return std::exchange(text_, {});
+}
 
 std::unique_ptr<kernel> make_kernel(std::string_view name) {
   if (const auto path = after("plugin:", name)) return make_plugin(*path);

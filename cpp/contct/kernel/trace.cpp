@@ -15,7 +15,7 @@ namespace {
 /// The header lines "key value" after "about", in order. The lines "real" and "rule" follow "kernel". A line
 /// with an empty value is omitted.
 constexpr std::pair<std::string_view, std::string trace_header::*> trace_facts[] = {
-    {"kernel", &trace_header::kernel},     {"listing", &trace_header::listing},
+    {"kernel", &trace_header::name},       {"listing", &trace_header::listing},
     {"compiler", &trace_header::compiler}, {"flags", &trace_header::flags},
     {"lapack", &trace_header::lapack},     {"floating-point", &trace_header::floating_point}};
 
@@ -114,15 +114,7 @@ bool takes(std::string_view& line, std::string_view key) {
 }  // namespace
 
 trace_header header_for(const kernel_facts& k, const std::string& listing, const std::string& lapack) {
-  return {.about = {},
-          .kernel = k.name,
-          .real_bytes = k.real_bytes,
-          .rule = k.rule,
-          .listing = listing,
-          .compiler = k.compiler,
-          .flags = k.flags,
-          .lapack = lapack,
-          .floating_point = describe(probe_floating_point())};
+  return {k, {}, listing, lapack, describe(probe_floating_point())};
 }
 
 void append_header(const trace_header& h, std::string& text) {
@@ -154,12 +146,6 @@ void append_inputs(const answered_call& answered, std::string_view note, std::st
   text += "ask\n";
 }
 
-void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
-                   std::string& text) {
-  append_inputs({{in.dd, in.dtest, in.cc, {}, 0.0, in.id, {}, in.isurf, in.dof}, in.isep, {}, number}, note,
-                text);
-}
-
 void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,
                    std::string_view unit_26, std::string& text) {
   text += "smin " + hexfloat(smin) + "\n";
@@ -173,6 +159,11 @@ void append_answer(double smin, std::span<const double> ss, std::span<const int>
     unit_26.remove_prefix(std::min(end + 1, unit_26.size()));
   }
   text += "end\n";
+}
+
+void append_call(const answered_call& answered, std::string_view note, std::string& text) {
+  append_inputs(answered, note, text);
+  append_answer(answered.c.smin, answered.c.ss, answered.c.isep, answered.text.value_or(""), text);
 }
 
 void trace_reader::refuse(std::string_view found, std::string_view allowed) const {
@@ -253,7 +244,7 @@ bool trace_reader::next_inputs(recorded_call& c) {
   return true;
 }
 
-void trace_reader::read_layout(call_inputs<double>& in) {
+void trace_reader::read_layout(call_inputs& in) {
   constexpr int most_pairs = 10'000'000;
   constexpr std::size_t shortest_pair = std::string_view("pair 1 id 1 isep 1 isurf 1 cc 0\n").size();
   std::size_t dofs = 0;
@@ -276,7 +267,7 @@ void trace_reader::read_layout(call_inputs<double>& in) {
 }
 
 /// Clears only the dofs of the previous call. Clearing all dofs at every call would cost quadratic time.
-void trace_reader::forget_dofs(call_inputs<double>& in) {
+void trace_reader::forget_dofs(call_inputs& in) {
   for (const std::size_t dof : given_) {
     if (dof < in.dd.size()) in.dd[dof] = in.dtest[dof] = unknown;
     is_given_[dof] = 0;
@@ -284,7 +275,7 @@ void trace_reader::forget_dofs(call_inputs<double>& in) {
   given_.clear();
 }
 
-void trace_reader::read_dofs(call_inputs<double>& in) {
+void trace_reader::read_dofs(call_inputs& in) {
   while (lines_.rest().starts_with("dof ")) {
     const std::string_view line = need_line("");
     std::size_t dof = 0;
@@ -302,7 +293,7 @@ void trace_reader::read_dofs(call_inputs<double>& in) {
   }
 }
 
-void trace_reader::read_pairs(call_inputs<double>& in) {
+void trace_reader::read_pairs(call_inputs& in) {
   const std::size_t nc = in.cc.size();
   in.id.resize(nc);
   in.isep.resize(nc);
@@ -331,7 +322,7 @@ void trace_reader::read_pairs(call_inputs<double>& in) {
   if (line != "ask") refuse(line, "\"ask\" after the last pair");
 }
 
-void trace_reader::refuse_missing_dofs(const call_inputs<double>& in) const {
+void trace_reader::refuse_missing_dofs(const call_inputs& in) const {
   for (std::size_t i = 0; i < in.pairs(); ++i) {
     if (is_given_[in.dof_of_pair(i)] != 0) continue;
     refuse("no line \"dof " + std::to_string(in.dof_of_pair(i) + 1) + " ...\" in this call",

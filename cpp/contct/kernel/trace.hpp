@@ -16,35 +16,13 @@ namespace contct {
 /// The first line of every trace: the name and the date of the format.
 inline constexpr std::string_view trace_format = "contct-trace-1 2026-11-21";
 
-/// The header of a trace. Only kernels with the same `real_bytes` and `rule` can be compared with the trace.
-/// If `kernel` is "f2c", unit-26 texts are compared by meaning (.25 equals 0.25). The other fields are only
-/// documentation.
-struct trace_header {
-  std::vector<std::string> about;  ///< lines about the purpose of the trace
-  std::string kernel;              ///< name of the kernel that answered
-  int real_bytes = 8;              ///< 8, or 4 for the listing as printed
-  contact_rule rule = contact_rule::listing;
-  std::string listing;  ///< checksum of fortran/contct.f
-  std::string compiler;
-  std::string flags;           ///< the compiler's floating-point flags
-  std::string lapack;          ///< library whose solves gave the inputs, or "none"
-  std::string floating_point;  ///< the result of the floating-point probe
-};
-
-struct recorded_call {
-  std::int64_t number = 0;
-  std::string note;  ///< the purpose of the call; may be empty
-  call_inputs<double> in;
-  call_outputs out;
-
-  /// Returns the call for comparisons. The text is nothing if out.text is empty, because a kernel that writes
-  /// to unit 26 does so in every call.
-  [[nodiscard]] answered_call answered() {
-    return {{in.dd, in.dtest, in.cc, out.ss, out.smin, in.id, out.isep, in.isurf, in.dof},
-            in.isep,
-            out.text.empty() ? std::nullopt : std::optional<std::string_view>(out.text),
-            number};
-  }
+/// The header of a trace: name, precision, rule, compiler and flags of the kernel that answered, and more. If
+/// `name` is "f2c", unit-26 texts are compared by meaning (.25 equals 0.25).
+struct trace_header : kernel_facts {
+  std::vector<std::string> about = {};  ///< lines about the purpose of the trace
+  std::string listing = {};             ///< checksum of fortran/contct.f
+  std::string lapack = {};              ///< library whose solves gave the inputs, or "none"
+  std::string floating_point = {};      ///< the result of the floating-point probe
 };
 
 /// The header of a trace whose calls a kernel with these facts answers in this process. `listing` is the
@@ -57,12 +35,13 @@ void append_header(const trace_header& h, std::string& text);
 /// Appends the inputs of a call, from "call N" and its note to "ask". Writes dd and dtest only at the dofs of
 /// pairs, because a kernel may read no other dofs.
 void append_inputs(const answered_call& answered, std::string_view note, std::string& text);
-void append_inputs(std::int64_t number, std::string_view note, const call_inputs<double>& in,
-                   std::string& text);
 
 /// Appends an answer, from "smin" to "end".
 void append_answer(double smin, std::span<const double> ss, std::span<const int> isep,
                    std::string_view unit_26, std::string& text);
+
+/// Appends a whole call, inputs and answer.
+void append_call(const answered_call& answered, std::string_view note, std::string& text);
 
 /// Reads calls as text. Every error is an input_error with file, line, the text found and the text allowed.
 class trace_reader {
@@ -95,11 +74,11 @@ class trace_reader {
   std::string_view need_line(std::string_view allowed);
   [[noreturn]] void refuse(std::string_view found, std::string_view allowed) const;
   void read_header_line(std::string_view line, trace_header& h) const;
-  void read_layout(call_inputs<double>& in);
-  void forget_dofs(call_inputs<double>& in);
-  void read_dofs(call_inputs<double>& in);
-  void read_pairs(call_inputs<double>& in);
-  void refuse_missing_dofs(const call_inputs<double>& in) const;
+  void read_layout(call_inputs& in);
+  void forget_dofs(call_inputs& in);
+  void read_dofs(call_inputs& in);
+  void read_pairs(call_inputs& in);
+  void refuse_missing_dofs(const call_inputs& in) const;
 
   text_lines lines_;
   std::int64_t last_call_ = 0;

@@ -4,8 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-
-#include "contct/text/strings.hpp"
+#include <optional>
 
 namespace contct {
 namespace {
@@ -16,70 +15,58 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Removes the digits at the front of `rest`, and the underscores between them; returns the digits.
-std::string take_digits(std::string_view& rest) {
-  std::string digits;
-  while (!rest.empty() && (is_digit(rest.front()) || rest.front() == '_')) {
-    if (rest.front() != '_') digits += rest.front();
-    rest.remove_prefix(1);
-  }
-  return digits;
+bool is_whole(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, is_digit);
 }
 
 /// Removes a sign at the front of `rest`; returns true if the sign is a minus.
 bool take_minus(std::string_view& rest) {
-  const bool minus = !rest.empty() && rest.front() == '-';
-  if (minus || (!rest.empty() && rest.front() == '+')) rest.remove_prefix(1);
+  const bool minus = rest.starts_with('-');
+  if (minus || rest.starts_with('+')) rest.remove_prefix(1);
   return minus;
-}
-
-/// The exponent that `rest` is, such as "e-3"; 0 if `rest` is empty, nothing if it is not an exponent.
-std::optional<std::int64_t> exponent_in(std::string_view rest) {
-  if (rest.empty()) return 0;
-  if (std::string_view("eEdD").find(rest.front()) == std::string_view::npos) return std::nullopt;
-  rest.remove_prefix(1);
-  const bool minus = take_minus(rest);
-  const std::string digits = take_digits(rest);
-  if (digits.empty() || !rest.empty()) return std::nullopt;
-  std::int64_t exponent = 0;
-  for (const char c : digits) exponent = std::min(endless, exponent * 10 + (c - '0'));
-  return minus ? -exponent : exponent;
 }
 
 /// The number that `literal`, such as "-1_000.5e-3" or "1.5D+02", means; nothing if `literal` is not a
 /// decimal.
 std::optional<decimal> decimal_in(std::string_view literal) {
-  const bool negative = take_minus(literal);
-  std::string digits = take_digits(literal);
+  std::string text(literal);
+  std::erase(text, '_');
+  std::string_view rest = text;
+  const bool negative = take_minus(rest);
   std::int64_t exponent = 0;
-  if (!literal.empty() && literal.front() == '.') {
-    literal.remove_prefix(1);
-    const std::string fraction = take_digits(literal);
-    exponent = -static_cast<std::int64_t>(fraction.size());
-    digits += fraction;
+  if (const std::size_t mark = rest.find_first_of("eEdD"); mark != std::string_view::npos) {
+    std::string_view power = rest.substr(mark + 1);
+    rest = rest.substr(0, mark);
+    const bool minus = take_minus(power);
+    if (!is_whole(power)) return std::nullopt;
+    for (const char c : power) exponent = std::min(endless, exponent * 10 + (c - '0'));
+    if (minus) exponent = -exponent;
   }
-  const std::optional<std::int64_t> written = exponent_in(literal);
-  if (digits.empty() || !written) return std::nullopt;
+  std::string digits(rest);
+  if (const std::size_t point = digits.find('.'); point != std::string::npos) {
+    digits.erase(point, 1);
+    exponent -= static_cast<std::int64_t>(digits.size() - point);
+  }
+  if (!is_whole(digits)) return std::nullopt;
   const std::size_t last = digits.find_last_not_of('0');
   if (last == std::string::npos) return decimal{false, "0", 0};
   const std::size_t first = digits.find_first_not_of('0');
   return decimal{negative, digits.substr(first, last + 1 - first),
-                 *written + exponent + static_cast<std::int64_t>(digits.size() - last - 1)};
+                 exponent + static_cast<std::int64_t>(digits.size() - last - 1)};
 }
 
-/// The decimal of the finite x with `behind` digits behind the first; the shortest one without `behind`.
-template <class... Behind>
-decimal printed(double x, Behind... behind) {
+/// The finite x as std::to_chars writes it in this format; by default the shortest text.
+template <class... Format>
+std::string written(double x, Format... format) {
   std::array<char, 64> text{};
-  char* const last = text.data() + text.size();
-  const auto end = std::to_chars(text.data(), last, x, std::chars_format::scientific, behind...);
-  return *decimal_in(std::string_view(text.data(), end.ptr - text.data()));
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, format...);
+  return {text.data(), end.ptr};
 }
 
 }  // namespace
 
 decimal shortest_decimal(double x) {
-  return printed(x);
+  return *decimal_in(written(x, std::chars_format::scientific));
 }
 
 int significant_digits(std::string_view literal) {
@@ -93,19 +80,16 @@ bool stands_for(std::string_view literal, double x) {
   // No two decimals of up to 15 digits read as the same normal double.
   constexpr int always_kept = 15;
   if (std::ranges::count_if(literal, is_digit) <= always_kept && std::isnormal(x)) return true;
-  const std::optional<decimal> written = decimal_in(literal);
-  return !written || *written == shortest_decimal(x) || *written == printed(x, most_digits - 1);
+  const std::optional<decimal> found = decimal_in(literal);
+  return !found || *found == shortest_decimal(x) ||
+         *found == decimal_in(written(x, std::chars_format::scientific, most_digits - 1));
 }
 
-std::string rounding_words(std::string_view literal, double x) {
+std::string rounding_words(std::string_view shown, double x) {
   // Without a format, to_chars may write all digits of a whole number beyond 2^53, not only the shortest.
-  std::array<char, 32> shortest{};
-  char* const last = shortest.data() + shortest.size();
-  const auto end = std::abs(x) < 1e16
-                       ? std::to_chars(shortest.data(), last, x)
-                       : std::to_chars(shortest.data(), last, x, std::chars_format::scientific);
-  return "found " + printable(literal) + "; the shortest decimal of its double, " +
-         std::string(shortest.data(), end.ptr) + ", is used everywhere";
+  const std::string shortest = std::abs(x) < 1e16 ? written(x) : written(x, std::chars_format::scientific);
+  return "found " + std::string(shown) + "; the shortest decimal of its double, " + shortest +
+         ", is used everywhere";
 }
 
 }  // namespace contct

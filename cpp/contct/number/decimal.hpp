@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,8 +30,8 @@ inline constexpr int most_digits = 17;
 /// The number of significant digits of `literal`, as written; 0 for the number 0, or if it is no decimal.
 [[nodiscard]] int significant_digits(std::string_view literal);
 
-/// The warning that `literal` is not the shortest decimal of `x`: "found 0.10000000000000000555; the shortest
-/// decimal of its double, 0.1, is used everywhere".
-[[nodiscard]] std::string rounding_words(std::string_view literal, double x);
+/// The warning that a literal, `shown` in printable letters, is not the shortest decimal of `x`: "found
+/// 0.10000000000000000555; the shortest decimal of its double, 0.1, is used everywhere".
+[[nodiscard]] std::string rounding_words(std::string_view shown, double x);
 
 }  // namespace contct

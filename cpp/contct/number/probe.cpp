@@ -22,7 +22,7 @@ bool contraction_happens() {
   return a * b + c != 0.0;
 }
 
-bool nearest_even() {
+bool rounds_to_nearest_even() {
   const double half_ulp = opaque(0x1p-53);
   const double one = opaque(1.0);
   const double odd = opaque(1.0 + 0x1p-52);
@@ -55,27 +55,17 @@ constexpr bool may_rearrange() {
 }  // namespace
 
 floating_point probe_floating_point() {
-  return {.contracts = contraction_happens(),
-          .rounds_to_nearest = nearest_even(),
-          .flushes_results = results_are_flushed(),
-          .flushes_operands = operands_are_flushed(),
-          .extra_precision = FLT_EVAL_METHOD != 0,
-          .rearranges = may_rearrange()};
-}
-
-std::string describe(const floating_point& found) {
-  if (found.strict()) return "strict";
   const std::pair<bool, const char*> faults[] = {
-      {found.contracts, "products and sums are contracted into one rounding"},
-      {!found.rounds_to_nearest, "the rounding mode is not to nearest, ties to even"},
-      {found.flushes_results, "subnormal results are flushed to zero"},
-      {found.flushes_operands, "subnormal operands count as zero"},
-      {found.extra_precision, "intermediate results carry extra precision"},
-      {found.rearranges, "the compiler was allowed to rearrange sums and to ignore NaN"}};
-  std::string what;
+      {contraction_happens(), "products and sums are contracted into one rounding"},
+      {!rounds_to_nearest_even(), "the rounding mode is not to nearest, ties to even"},
+      {results_are_flushed(), "subnormal results are flushed to zero"},      // FTZ
+      {operands_are_flushed(), "subnormal operands count as zero"},          // DAZ
+      {FLT_EVAL_METHOD != 0, "intermediate results carry extra precision"},  // x87
+      {may_rearrange(), "the compiler was allowed to rearrange sums and to ignore NaN"}};
+  floating_point found;
   for (const auto& [wrong, words] : faults)
-    if (wrong) what += (what.empty() ? "" : "; ") + std::string(words);
-  return what;
+    if (wrong) found.faults.append(found.strict() ? "" : "; ").append(words);
+  return found;
 }
 
 }  // namespace contct

@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 #include "contct/number/decimal.hpp"
@@ -44,26 +45,19 @@ std::string decimal_words(std::string digits, int exponent) {
 }
 
 #ifdef CONTCT_HAS_GMP
-/// Returns `got`, unless it is null: then calls the new handler, or aborts if there is none.
-void* or_end(void* got) {
-  if (got != nullptr) return got;
-  if (const std::new_handler handler = std::get_new_handler(); handler != nullptr) handler();
-  std::abort();
-}
-
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): GMP needs a function like realloc
 void* allocate(std::size_t bytes) {
-  return or_end(std::malloc(bytes));
-}
-
-void* reallocate(void* block, std::size_t /*before*/, std::size_t bytes) {
-  return or_end(std::realloc(block, bytes));
+  return ::operator new(bytes);
 }
 
 void release(void* block, std::size_t /*bytes*/) {
-  std::free(block);
+  ::operator delete(block);
 }
-// NOLINTEND(cppcoreguidelines-no-malloc)
+
+void* reallocate(void* block, std::size_t before, std::size_t bytes) {
+  void* const moved = std::memcpy(allocate(bytes), block, std::min(before, bytes));
+  release(block, before);
+  return moved;
+}
 #endif
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #endif
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <type_traits>

@@ -13,10 +13,11 @@
 #include <vector>
 
 #include "contct/kernel/kernel.hpp"
-#include "contct/model/structure.hpp"
+#include "contct/linear/engine.hpp"
 #include "contct/path/observer.hpp"
-#include "contct/path/path.hpp"
-#include "contct/solve/engine.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/path/structure_state.hpp"
+#include "contct/structure/structure.hpp"
 
 namespace contct {
 
@@ -68,7 +69,7 @@ class cycle_detector {
 };
 
 /// R*, D, d* and the data of pairs. Pairs and dofs count from 0; ID counts from 1.
-/// D, d* and other displacements are relative to moving faces (count_from_faces), but observers receive
+/// D, d* and other displacements are relative to moving faces (right_hand_side), but observers receive
 /// absolute displacements at the end of a step. For the listing, a pair between two dofs has an additional
 /// row of DD and DTEST, after the structure's rows, with the difference of the two dofs.
 struct path_state {
@@ -76,8 +77,8 @@ struct path_state {
   /// address the pairs, as in the listing; spring forces are summed over increments. Otherwise the kernel
   /// receives only the D and d* of the pairs, and ID is the number of the pair, so that the cost of a call
   /// does not grow with the structure. All arguments must outlive this object.
-  path_state(const linear_structure& structure_of_path, stiffness_engine& e, std::span<observer* const> o,
-             bool as_listed)
+  path_state(const linear_structure& structure_of_path, const load_history& loads, stiffness_engine& e,
+             std::span<observer* const> o, bool as_listed)
       : structure(structure_of_path),
         engine(e),
         total(structure.fixed.size()),
@@ -86,24 +87,25 @@ struct path_state {
         d(structure.pairs.size()),
         d_star(structure.pairs.size()),
         s(structure.pairs.size()),
+        status(statuses_at_start(structure.pairs)),
+        sprung(status),
         pair_force(structure.pairs.size()),
+        loads_(loads),
         observers_(o),
         as_listed_(as_listed) {
     int own_rows = 0;
-    for (const contact_pair& p : structure.pairs) {
+    for (const pair_in<double>& p : structure.pairs) {
       c.push_back(p.face);
       const bool has_own_row = !as_listed || p.other >= 0;  // after the structure's rows
       const int before = as_listed ? structure.dofs() : 0;
-      id.push_back(has_own_row ? before + ++own_rows : p.node + 1);
+      id.push_back(has_own_row ? before + ++own_rows : p.dof / structure.dofs_per_node + 1);
       surface.push_back(p.surface);
-      status.push_back(p.closed ? in_contact : separated);
     }
-    for (std::size_t i = 0; i < pairs(); ++i) at_dof.push_back(structure.dof_of_pair(i));
+    for (std::size_t i = 0; i < pairs(); ++i) at_dof.push_back(structure.pairs[i].dof);
     if (as_listed) {
       dd_.resize(structure.dofs() + own_rows);
       dtest_.resize(dd_.size());
     }
-    sprung = status;
   }
   path_state(const path_state&) = delete;
   path_state& operator=(const path_state&) = delete;
@@ -135,49 +137,44 @@ struct path_state {
   [[nodiscard]] double fraction() const { return 1.0 - residual.share; }
 
   /// Sets R* to the load of step `number` minus the previous load.
-  void begin_step(int number, const load_history& total_load) {
+  void begin_step(int number) {
     step = number;
     moved_.clear();
-    if (total_load.from_zero(step)) unload();
-    for (std::size_t i = 0; i < total.size(); ++i) increment[i] = -total[i];
-    std::fill(total.begin(), total.end(), 0.0);
-    total_load(step, total);
-    for (std::size_t i = 0; i < total.size(); ++i) increment[i] += total[i];
-    moved_before_ = total_load.moved_before(step, total.size());
-    moved_ = total_load.moved(step, total.size());
+    if (loads_.from_zero(step)) unload();
+    const std::vector<double> before = std::exchange(total, loads_.total(step));
+    for (std::size_t i = 0; i < total.size(); ++i) increment[i] = total[i] - before[i];
+    moved_before_ = loads_.moved_before(step);
+    moved_ = loads_.moved(step);
     residual = {increment, 1.0, residual.version + 1};
     last_opened.clear();
     cycles.reset();
-    loads_ = &total_load;
   }
 
   /// Resets D, ISEP and the spring forces to the state before any load.
   void unload() {
     for (std::vector<double>* const all : {&total, &shape, &pair_force}) std::ranges::fill(*all, 0.0);
-    std::vector<int> isep;
-    for (const contact_pair& p : structure.pairs) isep.push_back(p.closed ? in_contact : separated);
-    put_at(shape, isep);
+    put_at(shape, statuses_at_start(structure.pairs));
   }
 
   /// The rigid-body motion that supports and contacts leave free and on which the residual load does work;
   /// nothing if no such motion exists.
   [[nodiscard]] std::optional<free_motion> driven_motion() const {
-    const rigid_work work = loads_->work(step);
-    return structure.driven_motion(held_by(), increment,
-                                   loads_->from_zero(step) ? work : work.less(loads_->work(step - 1)));
+    const rigid_work work = loads_.work(step);
+    return structure.driven_motion(
+        held_by(), increment, loads_.from_zero(step) ? work : difference_of(work, loads_.work(step - 1)));
   }
 
   /// True if an equilibrium exists at the end of the step, and therefore throughout the step. Nothing if only
   /// rounding would decide.
   [[nodiscard]] std::optional<bool> has_equilibrium() const {
-    return structure.has_equilibrium(loads_->work(step));
+    return structure.has_equilibrium(loads_.work(step));
   }
 
   /// True if the step's total load does work on a rigid-body motion that supports and contacts leave free.
   /// Nothing if only rounding would decide.
   [[nodiscard]] std::optional<bool> total_drives_a_motion() const {
-    const rigid_work work = loads_->work(step);
-    if (!work.is_known()) return std::nullopt;
+    const rigid_work work = loads_.work(step);
+    if (!work) return std::nullopt;
     return structure.driven_motion(held_by(), total, work).has_value();
   }
 
@@ -197,7 +194,7 @@ struct path_state {
       }
       arguments.dd = dd_;
       arguments.dtest = dtest_;
-      arguments.dof = {structure.deflection + 1, structure.dofs_per_node};
+      arguments.dof = {1, structure.dofs_per_node};
     }
     leader.answer(arguments);
     find_events();
@@ -250,7 +247,7 @@ struct path_state {
 
   /// Sets D and ISEP to the state at the end of the step: displacements `u` [dofs], statuses `isep` [pairs].
   void put_at(std::span<const double> u, std::span<const int> isep) {
-    for (std::size_t i = 0; i < pairs(); ++i) d[i] = structure.seen_by_pair(i, u) - moved(at_dof[i], 0.0);
+    for (std::size_t i = 0; i < pairs(); ++i) d[i] = structure.pairs[i].seen_in(u) - moved(at_dof[i], 0.0);
     status.assign(isep.begin(), isep.end());
     find_events();
     switch_springs();
@@ -300,15 +297,15 @@ struct path_state {
     for (observer* o : observers_)
       o->incremented({step, number, s_min, fraction(), events, rigid, d, status, pair_force});
   }
-  void tell_end(const step_state& end) {
-    shape.assign(end.displacement.begin(), end.displacement.end());
+  /// Stores the displacements at the end of the step, relative to the faces.
+  void keep_shape(const structure_state& end) {
+    shape = end.displacement;
     const double share_left = end.fraction == 1.0 ? 0.0 : residual.share;
     for (std::size_t dof = 0; dof < shape.size(); ++dof) shape[dof] -= moved(dof, share_left);
-    for (observer* o : observers_) o->step_ended(end);
   }
 
  private:
-  const load_history* loads_ = nullptr;
+  const load_history& loads_;
   std::vector<double> moved_before_, moved_;  // movements of faces at the start and end of the step [dofs]
   std::span<observer* const> observers_;
   std::int64_t calls_ = 0;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "contct/solve/factored_stiffness.hpp"
+#include "contct/linear/factored_stiffness.hpp"
 
 namespace contct {
 
@@ -58,7 +58,7 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
     now.d_star[i] = 0.0;
     if (now.status[i] == in_contact) continue;
     now.d_star[i] = motion->at(static_cast<int>(now.at_dof[i]));
-    if (const int other = now.structure.other_of_pair(i); other >= 0)
+    if (const int other = now.structure.pairs[i].other; other >= 0)
       now.d_star[i] = difference(now.d_star[i], motion->at(other), now.structure.rigid_rounding);
     if (now.d_star[i] != 0.0) longest_way = std::max(longest_way, (now.c[i] - now.d[i]) / now.d_star[i]);
   }
@@ -70,11 +70,15 @@ bool rigid_snap(path_state& now, std::vector<double>& everywhere) {
   return true;
 }
 
-/// Inserts springs of separated pairs to hold the structure for a solve. The destructor removes them.
+/// Holds the structure for a solve: if supports and pairs in contact do not hold it, inserts springs of
+/// separated pairs, without force. The destructor removes them.
 class holding_springs {
  public:
-  holding_springs(stiffness_engine& engine, std::vector<int> separated_pairs)
-      : pairs(std::move(separated_pairs)), engine_(engine) {
+  explicit holding_springs(path_state& now) : engine_(now.engine) {
+    rigid_rank rank = now.held_by();
+    std::vector<int> separated_pairs = now.structure.pairs_that_hold(rank);
+    suffice = now.structure.is_held(rank);
+    if (suffice) pairs = std::move(separated_pairs);
     for (const int pair : pairs) engine_.switch_spring(pair, true);
   }
   ~holding_springs() {
@@ -83,7 +87,8 @@ class holding_springs {
   holding_springs(const holding_springs&) = delete;
   holding_springs& operator=(const holding_springs&) = delete;
 
-  const std::vector<int> pairs;
+  bool suffice = false;    ///< false: no springs are inserted
+  std::vector<int> pairs;  ///< the pairs whose springs are inserted
 
  private:
   stiffness_engine& engine_;
@@ -107,8 +112,8 @@ class corrected_policy final : public path_policy {
   response respond() override {
     rigid_ = !now_.held() && rigid_snap(now_, motion_);
     if (rigid_) return response::rigid;
-    const auto springs = hold();
-    if (!springs) return response::none;
+    const holding_springs springs(now_);
+    if (!springs.suffice) return response::none;
     now_.engine.respond(now_.residual, now_.d_star);
     return response::elastic;
   }
@@ -129,17 +134,17 @@ class corrected_policy final : public path_policy {
   [[nodiscard]] bool goes_on() const override { return true; }
 
   bool displace(std::span<double> u) override {
-    const auto springs = hold();
-    if (!springs) return false;
+    const holding_springs springs(now_);
+    if (!springs.suffice) return false;
     std::vector<double> load = now_.applied_load();
-    for (const int pair : springs->pairs)  // makes the spring's force 0 at the current D
-      add_at_pair(now_.structure, pair, now_.structure.pairs[pair].stiffness * now_.d[pair], load);
+    for (const int pair : springs.pairs)  // makes the spring's force 0 at the current D
+      now_.structure.pairs[pair].add_to(load, now_.structure.pairs[pair].stiffness * now_.d[pair]);
     now_.engine.recover(load, now_.spring_forces(), u);
     return true;
   }
 
   [[nodiscard]] double reciprocal_condition() override {
-    const auto springs = hold();
+    const holding_springs springs(now_);
     try {
       return now_.engine.reciprocal_condition();
     } catch (const no_factor&) {  // no error: the state was found without this stiffness
@@ -165,15 +170,6 @@ class corrected_policy final : public path_policy {
     const std::optional<bool> driven = now_.total_drives_a_motion();
     if (!driven) return reaches_full_load(s_min);
     return !*driven && now_.residual.share * (1.0 - s_min) <= rounding_at_most;
-  }
-
-  /// Holds the structure for a solve. If supports and pairs in contact do not hold it, inserts springs of
-  /// separated pairs, without force. Returns null if these springs do not suffice.
-  [[nodiscard]] std::unique_ptr<holding_springs> hold() {
-    rigid_rank rank = now_.held_by();
-    std::vector<int> pairs = now_.structure.pairs_that_hold(rank);
-    if (!now_.structure.is_held(rank)) return nullptr;
-    return std::make_unique<holding_springs>(now_.engine, std::move(pairs));
   }
 
   /// Keeps a pair in contact if it toggles twice in succession without progress; returns true in this case.

@@ -1,18 +1,16 @@
-// The structure, the loads and the path of a problem.
+// The structure and the loads of a problem.
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <set>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "contct/model/problem.hpp"
-#include "contct/model/structure.hpp"
-#include "contct/path/path.hpp"
+#include "contct/kernel/kernel.hpp"
+#include "contct/linear/engine.hpp"
+#include "contct/structure/problem.hpp"
+#include "contct/structure/statics.hpp"
 
 namespace contct {
 
@@ -28,26 +26,40 @@ namespace contct {
   return build(p.geometry, supports, p.pairs);
 }
 
-/// The loads of a problem's steps. Both arguments must outlive the result.
-[[nodiscard]] inline load_history loads_of(const problem& p, const linear_structure& s) {
-  const auto moved = [&p](int step, std::span<double> m) {
-    add_moves(p.steps[step - 1], dofs_per_node(p.geometry), m);
-  };
-  const auto total = [&p, &s, moved](int step, std::span<double> f) {
-    add_consistent_loads(p.geometry, p.steps[step - 1], f);
-    add_settlements(s, p.steps[step - 1], f);
-    if (p.steps[step - 1].moves.empty()) return;
-    std::vector<double> m(f.size());
-    moved(step, m);
-    count_from_faces(s, m, f);
-  };
-  const auto work = [&p, truth = s.truth](int step) {
-    return truth ? truth->work_of(p.steps[step - 1]) : rigid_work();
-  };
-  const bool any = std::ranges::any_of(p.steps, [](const load& l) { return !l.moves.empty(); });
-  return {total, work, [&p](int step) { return p.steps[step - 1].from_zero; },
-          any ? load_history::moves(moved) : nullptr};
-}
+/// The loads and face movements at the ends of a problem's steps, from 1.
+class load_history {
+ public:
+  /// Both arguments must outlive this object.
+  load_history(const problem& p, const linear_structure& s) : problem_(p), structure_(s) {}
+
+  /// The total load [dofs], as right_hand_side has it.
+  [[nodiscard]] std::vector<double> total(int step) const {
+    return right_hand_side(structure_, nodal_loads(problem_.geometry, at(step)));
+  }
+  /// The movement of faces [dofs]; empty if no step moves a face, or in step 0.
+  [[nodiscard]] std::vector<double> moved(int step) const {
+    if (step == 0 || std::ranges::all_of(problem_.steps, [](const load& l) { return l.moves.empty(); }))
+      return {};
+    return sums_at_dofs<double>(at(step).moves, structure_.dofs(), structure_.dofs_per_node);
+  }
+  /// The movement of faces at the beginning of a step [dofs]; empty as in `moved`.
+  [[nodiscard]] std::vector<double> moved_before(int step) const {
+    return moved(from_zero(step) ? 0 : step - 1);
+  }
+  /// The work of the total load on the rigid-body motions, without rounding; unknown for a matrix or in step
+  /// 0.
+  [[nodiscard]] rigid_work work(int step) const {
+    return structure_.truth && step > 0 ? structure_.truth->work_of(at(step)) : rigid_work();
+  }
+  /// True if a step starts from the unloaded structure.
+  [[nodiscard]] bool from_zero(int step) const { return step == 1 || at(step).from_zero; }
+
+ private:
+  [[nodiscard]] const load& at(int step) const { return problem_.steps[step - 1]; }
+
+  const problem& problem_;
+  const linear_structure& structure_;
+};
 
 /// The name of the engine for a path: the requested engine, or the fastest for "auto". The default is
 /// "refactor" (one factorisation per increment) for the 1989 rule, and the fastest engine for other rules.
@@ -55,31 +67,6 @@ namespace contct {
                                             const linear_structure& s) {
   if (asked.empty() && leader.rule == contact_rule::listing) return "refactor";
   return asked.empty() || asked == "auto" ? std::string(quickest_engine(s)) : asked;
-}
-
-/// Follows a problem's path with a new engine named `engine`. `s` is the structure of the problem.
-inline path_end follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
-                       const std::vector<observer*>& observers, const path_limits& limits = {}) {
-  const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
-  return follow_path(s, static_cast<int>(p.steps.size()), loads_of(p, s), *solves, leader, observers, limits);
-}
-
-/// The force or moment on the structure by each support of `p` [supports], for displacements `u` [dofs], load
-/// `l` and statuses `isep` [pairs]. The force of a pair on a fixed deflection is not part of a reaction.
-[[nodiscard]] inline std::vector<double> reactions(const problem& p, const load& l, std::span<const double> u,
-                                                   std::span<const int> isep) {
-  std::vector<double> all = reactions(p.geometry, l, p.supports, u);
-  const std::size_t stride = dofs_per_node(p.geometry);
-  std::vector<int> held_by(nodes(p.geometry), -1);  // the first support that fixes a node's deflection
-  for (int i = static_cast<int>(p.supports.size()) - 1; i >= 0; --i)
-    if (p.supports[i].fixed && p.supports[i].dof == 0) held_by[p.supports[i].node] = i;
-  const std::vector<contact_pair> pairs = pairs_under(p, l);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const contact_pair& at = pairs[i];
-    const double force = at.surface * force_of(at, at.seen_in(u, stride), isep[i] == in_contact);
-    if (held_by[at.node] >= 0 && force != 0.0) all[held_by[at.node]] += force;
-  }
-  return all;
 }
 
 }  // namespace contct

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
-#include "contct/model/line.hpp"
-#include "contct/number/rational.hpp"
 #include "contct/read/tables.hpp"
+#include "contct/structure/acting.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {
@@ -15,23 +15,16 @@ namespace {
 
 /// Adds factor * part to `sum`. Each load in `sum` keeps `factor`, for exact arithmetic.
 void add(load& sum, const load& part, double factor) {
-  for (const auto values : nodal_values) {
-    for (nodal_value v : part.*values) {
-      v.factor = factor;
-      (sum.*values).push_back(v);
-    }
-  }
+  for (const auto values : nodal_values)
+    for (const nodal_value& v : part.*values) (sum.*values).push_back({v.node, v.dof, v.value, factor});
   for (distributed_load d : part.distributed) {
     if (d.parts.empty()) d.parts = {{d.polynomial}};
     for (scaled_polynomial& p : d.parts) p.factor = factor;
-    const std::vector<rational> exactly = coefficients_of<rational>(d);
+    const std::vector<rational> exactly = coefficients_of(d);
     for (std::size_t i = 0; i < exactly.size() && factor != 1.0; ++i) d.polynomial[i] = rounded(exactly[i]);
     sum.distributed.push_back(std::move(d));
   }
-  for (placed_load p : part.placed) {
-    p.factor = factor;
-    sum.placed.push_back(std::move(p));
-  }
+  for (const placed_load& p : part.placed) sum.placed.emplace_back(p).factor = factor;
 }
 
 /// The name of a table. Refuses a table without a name, and a name that is already in `names`.
@@ -54,9 +47,8 @@ class combination_reader {
 
   void read_combination(const toml_value& t) {
     t.allow_only({"name", "terms"});
-    load l = begun(unique_name(t, names_));
-    add_terms(t, l);
-    put(t, std::move(l));
+    const std::string name = unique_name(t, names_);
+    put(t, read_terms(t, name));
   }
 
   void read_train(const toml_value& t) {
@@ -65,10 +57,15 @@ class combination_reader {
       t.refuse(!nodes_.on_matrix() ? "a train on a plate" : "a train with a matrix",
                "a train on a beam; for other structures, a [[combination]] for each place of a load");
     const std::string name = unique_name(t, names_);
-    const std::vector<point> axles = read_axles(t["axles"]);
+    std::vector<std::pair<rational, double>> axles;  // place from that of the train, force
+    for (const toml_value& axle : t["axles"].tables()) {
+      axle.allow_only({"at", "w"});
+      axles.emplace_back(decimal_of(axle["at"].real(any_real)), axle["w"].real(any_real));
+    }
     const double factor = t.has("factor") ? t["factor"].real(any_real) : 1.0;
-    load besides = begun(name);
-    if (t.has("terms")) add_terms(t, besides);
+    const load besides = t.has("terms")
+                             ? read_terms(t, name)
+                             : load{.points = {}, .distributed = {}, .name = name, .from_zero = true};
     const rational from = decimal_of(t["from"].real(any_real));
     const rational by = decimal_of(t["by"].real(positive_real));
     for (int k = 0, count = places_of(t, from, by); k < count; ++k) {
@@ -76,7 +73,7 @@ class combination_reader {
       load l = besides;
       l.name = fmt::format("{} at {}", name, rounded(at));
       l.terms.push_back({name, factor, rounded(at)});
-      for (const point& axle : axles) put_axle(at + decimal_of(axle.x), axle.w, factor, l);
+      for (const auto& [from_train, w] : axles) put_axle(at + from_train, w, factor, l);
       put(t, std::move(l));
     }
   }
@@ -84,51 +81,34 @@ class combination_reader {
   std::vector<load> steps;
 
  private:
-  struct point {
-    double x, w;
-  };
-
-  static load begun(std::string name) {
-    load l;
-    l.name = std::move(name);
-    l.from_zero = true;
-    return l;
-  }
-
   void put(const toml_value& t, load l) {
     refuse_endless_sums(t, nodes_.structure(), l);
     steps.push_back(std::move(l));
   }
 
-  void add_terms(const toml_value& t, load& l) const {
+  /// The sum of the cases that the key terms lists, each times its factor.
+  [[nodiscard]] load read_terms(const toml_value& t, const std::string& name) const {
     const toml_value terms = t["terms"].table();
-    std::vector<std::string> names;
-    for (const load& c : cases_) names.push_back(printable(c.name));
+    std::vector<std::string> known;
+    for (const load& c : cases_) known.push_back(printable(c.name));
     const toml::table& listed = *terms.required("").as_table();
     if (listed.empty()) terms.refuse("an empty table", "at least one case with its factor: { G = 1.35 }");
     for (const auto& [key, value] : listed) {
-      const std::string name = printable(key.str());
-      if (std::ranges::find(names, name) == names.end())
-        terms[key.str()].refuse(kinds_.contains(name)
-                                    ? fmt::format("a [[{}]], which has terms of its own", kinds_.at(name))
-                                    : "no [[case]] of this name" + did_you_mean(name, names),
-                                names.empty() ? "the name of a [[case]]; the file has no [[case]]"
-                                              : "the name of a [[case]]: " + joined(names, ", "));
+      const std::string term = printable(key.str());
+      if (std::ranges::find(known, term) == known.end())
+        terms[key.str()].refuse(kinds_.contains(term)
+                                    ? fmt::format("a [[{}]], which has terms of its own", kinds_.at(term))
+                                    : "no [[case]] of this name" + did_you_mean(term, known),
+                                known.empty() ? "the name of a [[case]]; the file has no [[case]]"
+                                              : "the name of a [[case]]: " + joined(known, ", "));
     }
-    for (const load& c : cases_)
-      if (terms.has(c.name)) {
-        l.terms.push_back({c.name, terms[c.name].real(any_real)});
-        add(l, c, l.terms.back().factor);
-      }
-  }
-
-  [[nodiscard]] static std::vector<point> read_axles(const toml_value& axles) {
-    std::vector<point> all;
-    for (const toml_value& axle : axles.tables()) {
-      axle.allow_only({"at", "w"});
-      all.push_back({axle["at"].real(any_real), axle["w"].real(any_real)});
+    load sum{.points = {}, .distributed = {}, .name = name, .from_zero = true};
+    for (const load& c : cases_) {
+      if (!terms.has(c.name)) continue;
+      sum.terms.push_back({c.name, terms[c.name].real(any_real)});
+      add(sum, c, sum.terms.back().factor);
     }
-    return all;
+    return sum;
   }
 
   /// The number of positions of a train from `from` to `to`.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -27,9 +26,6 @@ struct read_entry {
   std::int64_t line;
 };
 
-/// Matrix Market files contain the lower triangle, CalculiX files the upper triangle.
-enum class entry_format { matrix_market, calculix };
-
 /// True for a line that looks like a header, which a message may quote. Any other line may contain text that
 /// a message must not reveal.
 bool is_like_header(std::string_view line) {
@@ -48,7 +44,7 @@ class number_lines : public field_lines {
     const double value = real(i, what, fortran);
     if (!stands_for(field(i), value) && rounded_++ == 0)
       first_ = fmt::format("{}:{}: {}", printable(file(), std::string::npos), line(),
-                           rounding_words(field(i), value));
+                           rounding_words(printable(field(i)), value));
     return value;
   }
 
@@ -63,8 +59,8 @@ class number_lines : public field_lines {
   std::string first_;
 };
 
-/// Reads the first line, in any case: "%%MatrixMarket matrix coordinate real" and `symmetry`. True if it has
-/// "array" instead of "coordinate".
+/// Reads the first line, in any case: "%%MatrixMarket matrix coordinate real" and `symmetry`; then goes to
+/// the line with the size, after the comments. True if the first line has "array" instead of "coordinate".
 bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_array) {
   const std::string allowed = fmt::format("%%MatrixMarket matrix {} real {}",
                                           may_be_array ? "array (or coordinate)" : "coordinate", symmetry);
@@ -79,15 +75,12 @@ bool read_header(field_lines& lines, std::string_view symmetry, bool may_be_arra
   if (!sound || (!array && !has(2, "coordinate")))
     lines.refuse(is_like_header(lines.here()) ? in_quotes(lines.here()) : field_words(lines.here(), "a line"),
                  allowed + (may_be_array ? "" : way_out));
-  return array;
-}
-
-/// Goes to the line with the size of the matrix or vector, after the comments.
-void go_to_size(field_lines& lines, std::size_t fields, std::string_view allowed) {
+  const char* const size = array ? "rows and columns" : "rows, columns and the number of entries";
   do {
-    if (!lines.next()) lines.refuse("the end of the file", allowed);
+    if (!lines.next()) lines.refuse("the end of the file", size);
   } while (lines.field(0).front() == '%');
-  lines.expect(fields, allowed);
+  lines.expect(array ? 2 : 3, size);
+  return array;
 }
 
 /// Reads a line "row column value". Rows and columns are from 1 in the file, from 0 in the result. `what`
@@ -98,23 +91,22 @@ read_entry entry_in(number_lines& lines, int rows, int columns, std::string_view
           lines.number(2, what, fortran), lines.line()};
 }
 
-/// Reads an entry of a stiffness matrix in the triangle of its format, and returns it in the lower triangle.
-read_entry parse_entry(number_lines& lines, int rows, entry_format format) {
-  const bool is_upper = format == entry_format::calculix;
+/// Reads an entry of the lower triangle of a stiffness matrix; or of the upper triangle, as CalculiX writes
+/// it, and returns it in the lower triangle.
+read_entry entry_of_triangle(number_lines& lines, int rows, bool is_upper) {
   read_entry e = entry_in(lines, rows, rows, "an entry", is_upper);
-  if (is_upper ? e.row > e.column : e.row < e.column)
-    lines.refuse(fmt::format("row {} and column {}, {} the diagonal", e.row + 1, e.column + 1,
-                             is_upper ? "below" : "above"),
+  if (is_upper) std::swap(e.row, e.column);
+  if (e.row < e.column)
+    lines.refuse(is_upper ? fmt::format("row {} and column {}, below the diagonal", e.column + 1, e.row + 1)
+                          : fmt::format("row {} and column {}, above the diagonal", e.row + 1, e.column + 1),
                  is_upper ? "the upper triangle, row <= column, as CalculiX writes it"
                           : "the lower triangle, row >= column, as \"symmetric\" requires in this format");
-  if (is_upper) std::swap(e.row, e.column);
   return e;
 }
 
 void refuse_repeated(std::span<const read_entry> entries, std::string_view file) {
-  const auto same = std::adjacent_find(
-      entries.begin(), entries.end(),
-      [](const read_entry& a, const read_entry& b) { return a.row == b.row && a.column == b.column; });
+  const auto same =
+      std::ranges::adjacent_find(entries, {}, [](const read_entry& e) { return std::pair(e.row, e.column); });
   if (same == entries.end()) return;
   refuse_line(file, std::next(same)->line,
               fmt::format("row {} and column {} a second time, after line {}", same->row + 1,
@@ -197,7 +189,6 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
                               std::vector<std::string>* warnings) {
   number_lines lines(text, file);
   (void)read_header(lines, "symmetric", false);
-  go_to_size(lines, 3, "rows, columns and the number of entries");
   const int rows = lines.whole(0, 1, most_rows, "the rows");
   const int columns = lines.whole(1, 1, most_rows, "the columns");
   if (rows != columns) lines.refuse(fmt::format("{} rows and {} columns", rows, columns), "a square matrix");
@@ -205,8 +196,7 @@ sparse_matrix parse_symmetric(std::string_view text, std::string_view file,
   std::vector<read_entry> entries;
   // The declared entry count alone is not used to allocate memory.
   entries.reserve(std::min<std::size_t>(count, lines.rest().size() / least_bytes_of_entry + 1));
-  read_lines(lines, count, "entries",
-             [&](int) { entries.push_back(parse_entry(lines, rows, entry_format::matrix_market)); });
+  read_lines(lines, count, "entries", [&](int) { entries.push_back(entry_of_triangle(lines, rows, false)); });
   lines.warn(warnings);
   return matrix_of(std::move(entries), rows, file);
 }
@@ -215,7 +205,7 @@ sparse_matrix parse_calculix_stiffness(std::string_view text, std::string_view f
                                        std::vector<std::string>* warnings) {
   number_lines lines(text, file);
   std::vector<read_entry> entries;
-  while (lines.next()) entries.push_back(parse_entry(lines, rows, entry_format::calculix));
+  while (lines.next()) entries.push_back(entry_of_triangle(lines, rows, true));
   lines.warn(warnings);
   return matrix_of(std::move(entries), rows, file);
 }
@@ -224,7 +214,6 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
                                  std::vector<std::string>* warnings) {
   number_lines lines(text, file);
   const bool array = read_header(lines, "general", true);
-  go_to_size(lines, array ? 2 : 3, array ? "rows and columns" : "rows, columns and the number of entries");
   if (lines.whole(0, 1, most_rows, "the rows") != rows)
     lines.refuse(fmt::format("{} rows", lines.field(0)), fmt::format("{}, as in the matrix", rows));
   (void)lines.whole(1, 1, 1, "the columns");
@@ -232,12 +221,9 @@ std::vector<double> parse_vector(std::string_view text, std::string_view file, i
   std::vector<double> values(rows, 0.0);
   std::vector<std::int64_t> line_of(rows, 0);
   read_lines(lines, count, array ? "numbers" : "entries", [&](int row) {
-    if (array) {
-      lines.expect(1, "one number a line");
-      values[row] = lines.number(0, "a load");
-      return;
-    }
-    const read_entry e = entry_in(lines, rows, 1, "a load");
+    if (array) lines.expect(1, "one number a line");
+    const read_entry e = array ? read_entry{row, 0, lines.number(0, "a load"), lines.line()}
+                               : entry_in(lines, rows, 1, "a load");
     if (line_of[e.row] != 0)
       lines.refuse(fmt::format("row {} a second time, after line {}", e.row + 1, line_of[e.row]),
                    "each row once");

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/model/problem.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct {
 

@@ -37,15 +37,13 @@ placed_dof place_of_label(std::string_view label, const std::unordered_map<std::
 
 void say_what_is_not_drawn(const assembled& a, placed_nodes& places) {
   const auto lost = std::ranges::count(places.dofs, -1, &placed_dof::node);
-  const auto turns = std::ranges::count_if(
-      places.dofs, [](const placed_dof& at) { return at.node >= 0 && !at.is_length(); });
-  if (lost > 0) {
-    const auto first = std::ranges::find(places.dofs, -1, &placed_dof::node) - places.dofs.begin();
+  const auto first = std::ranges::find(places.dofs, -1, &placed_dof::node) - places.dofs.begin();
+  if (lost > 0)
     places.notes.push_back(fmt::format(
         "{} of {} dofs are not drawn: their labels, such as {}, name no known node and direction.", lost,
         a.dofs(), in_quotes(a.label_of(static_cast<int>(first)))));
-  }
-  if (turns > 0)
+  const auto lengths = std::ranges::count_if(places.dofs, &placed_dof::is_length);
+  if (const auto turns = a.dofs() - lost - lengths; turns > 0)
     places.notes.push_back(fmt::format("Rotations ({} of {} dofs) are not drawn.", turns, a.dofs()));
 }
 
@@ -100,36 +98,31 @@ void add_coupling_edges(const assembled& a, placed_nodes& places) {
 
 /// Removes the nodes that have neither a dof nor an edge.
 void drop_idle_nodes(placed_nodes& places) {
-  std::vector<int> now(places.nodes.size(), -1);
-  for (const placed_dof& d : places.dofs)
-    if (d.node >= 0) now[d.node] = 0;
-  for (const mesh_edge& e : places.edges) now[e.from] = now[e.to] = 0;
-  std::vector<placed_node> kept;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i] < 0) continue;
-    now[i] = static_cast<int>(kept.size());
-    kept.push_back(std::move(places.nodes[i]));
-  }
-  places.nodes = std::move(kept);
+  std::vector<int*> uses;
   for (placed_dof& d : places.dofs)
-    if (d.node >= 0) d.node = now[d.node];
-  for (mesh_edge& e : places.edges) e = {now[e.from], now[e.to], e.elements};
+    if (d.node >= 0) uses.push_back(&d.node);
+  for (mesh_edge& e : places.edges) uses.insert(uses.end(), {&e.from, &e.to});
+  std::vector<int> now(places.nodes.size(), -1);  // [nodes] the node's new number; -1: idle
+  for (const int* const node : uses) now[*node] = 0;
+  int kept = 0;
+  for (int& number : now)
+    if (number == 0) number = kept++;
+  // erase_if calls the predicate for each node at its old place.
+  std::erase_if(places.nodes, [&](const placed_node& n) { return now[&n - places.nodes.data()] < 0; });
+  for (int* const node : uses) *node = now[*node];
 }
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t from = text.find_first_not_of(blanks);
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(blanks) - from + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
 /// The fields between the commas of a line, without an empty last field.
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) break;
-    line.remove_prefix(comma + 1);
+  for (std::size_t from = 0, end = 0; end < line.size(); from = end + 1) {
+    end = std::min(line.find(',', from), line.size());
+    fields.push_back(trimmed(line.substr(from, end - from)));
   }
   if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
   return fields;
@@ -137,11 +130,10 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 
 /// In upper case and without blanks, because CalculiX ignores case and blanks in the line of a keyword.
 std::string without_case_and_blanks(std::string_view text) {
-  std::string plain;
-  for (const char c : text) {
-    if (blanks.find(c) != std::string_view::npos) continue;
-    plain += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  }
+  std::string plain(text);
+  std::erase_if(plain, [](char c) { return blanks.find(c) != std::string_view::npos; });
+  for (char& c : plain)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   return plain;
 }
 
@@ -167,12 +159,11 @@ constexpr solid known_solids[] = {{"C3D4", 4, false, tetrahedron}, {"C3D6", 6, f
 
 /// The solid of an element type, which may have letters after the number; null for other types.
 const solid* solid_of(std::string_view type) {
-  for (const solid& s : known_solids) {
-    if (type.substr(0, s.type.size()) != s.type) continue;
-    const std::string_view letters = type.substr(s.type.size());
-    if (std::all_of(letters.begin(), letters.end(), [](char c) { return c >= 'A' && c <= 'Z'; })) return &s;
-  }
-  return nullptr;
+  const auto* const found = std::ranges::find_if(known_solids, [type](const solid& s) {
+    return type.starts_with(s.type) &&
+           type.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ", s.type.size()) == std::string::npos;
+  });
+  return found == std::end(known_solids) ? nullptr : found;
 }
 
 /// Reads an input file of CalculiX. Nodes may come after the elements that name them.
@@ -283,22 +274,17 @@ class inp_reader {
                   fmt::format("{} nodes for type {}", solid_->nodes(), solid_->type));
   }
 
-  [[nodiscard]] int index_of(int number, std::int64_t line_of_element) const {
-    const auto at = index_.find(number);
-    if (at == index_.end())
-      refuse_line(lines_.file(), line_of_element, fmt::format("node {} in an element", number),
-                  includes_ ? "nodes that *NODE in this file defines; *INCLUDE is not followed"
-                            : "nodes that *NODE defines");
-    return at->second;
-  }
-
   /// The two nodes of each side, by index.
   [[nodiscard]] std::vector<std::pair<int, int>> indexed_sides() const {
     std::vector<std::pair<int, int>> sides;
     for (const side& s : sides_) {
-      const int from = index_of(s.from, s.line_of_element);
-      const int to = index_of(s.to, s.line_of_element);
-      if (from != to) sides.emplace_back(std::min(from, to), std::max(from, to));
+      for (const int number : {s.from, s.to})
+        if (!index_.contains(number))
+          refuse_line(lines_.file(), s.line_of_element, fmt::format("node {} in an element", number),
+                      includes_ ? "nodes that *NODE in this file defines; *INCLUDE is not followed"
+                                : "nodes that *NODE defines");
+      const auto& [first, second] = std::minmax(index_.at(s.from), index_.at(s.to));
+      if (first != second) sides.emplace_back(first, second);
     }
     return sides;
   }
@@ -308,12 +294,12 @@ class inp_reader {
     if (includes_)
       notes.push_back(fmt::format(
           "*INCLUDE in {} is not followed: the contents of included files are not drawn.", lines_.file()));
-    std::string types;
+    std::vector<std::string> types;
     for (const auto& [type, count] : others_)
-      types += fmt::format("{}{} of type {}", types.empty() ? "" : ", ", count, in_quotes(type));
+      types.push_back(fmt::format("{} of type {}", count, in_quotes(type)));
     if (!types.empty())
-      notes.push_back(
-          fmt::format("Elements of {} whose edges are not known are not drawn: {}.", lines_.file(), types));
+      notes.push_back(fmt::format("Elements of {} whose edges are not known are not drawn: {}.",
+                                  lines_.file(), joined(types, ", ")));
     return notes;
   }
 

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <set>
+#include <tuple>
 #include <utility>
 
-#include "contct/matrix/sparse_factor.hpp"
-#include "contct/model/line.hpp"
+#include "contct/linear/sparse_factor.hpp"
 #include "contct/read/matrix_files.hpp"
 #include "contct/read/tables.hpp"
+#include "contct/structure/line.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/memory.hpp"
 #include "contct/text/sha256.hpp"
@@ -34,8 +36,8 @@ std::vector<double> read_coordinates(const toml_value& t, const char* key, const
   return x;
 }
 
-/// Reads EI or section in pieces: each piece extends from the end of the piece before it to the node at its
-/// `to`. read(piece, elements) reads the other `keys` of a piece.
+/// Reads a stiffness or section in pieces: each piece extends from the end of the piece before it to the node
+/// at its `to`. read(piece, elements) reads the other `keys` of a piece.
 template <class Read>
 void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::string_view> keys,
                  const Read& read) {
@@ -56,19 +58,12 @@ void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::strin
                   fmt::format("a last piece to {}, where the beam ends", b.x.back()));
 }
 
-struct section_key {
-  const char* name;
-  double beam_section::*value;
-};
-/// The optional keys of a section. All pieces must have such a key or none may, because stresses and
-/// self-weight are computed for the whole beam.
-constexpr section_key more_of_sections[] = {
-    {"W", &beam_section::W}, {"A", &beam_section::A}, {"weight", &beam_section::weight}};
-
+/// All pieces must have an optional key or none may, because stresses and self-weight are those of the whole
+/// beam.
 void add_section(const toml_value& t, int elements, beam& b) {
-  beam_section s{t["E"].real(positive_real), t["I"].real(positive_real)};
-  for (const auto& [key, value] : more_of_sections) {
-    if (t.has(key)) s.*value = t[key].real(positive_real);
+  beam_section s;
+  for (const auto& [key, value, required] : section_keys) {
+    if (required || t.has(key)) s.*value = t[key].real(positive_real);
     if (!b.sections.empty() && (b.sections.front().*value > 0.0) != t.has(key))
       t.refuse(fmt::format("{} in some pieces and not in others", key),
                fmt::format("{} in every piece, or in no piece", key));
@@ -78,26 +73,39 @@ void add_section(const toml_value& t, int elements, beam& b) {
 }
 
 void read_sections(const toml_value& t, beam& b) {
-  const std::vector<std::string_view> keys = {"E", "I", "W", "A", "weight"};
-  t.refuse_beside({"EI"}, "section", "either EI, or section with E and I");
+  std::vector<std::string_view> keys;
+  for (const section_key& key : section_keys) keys.push_back(key.name);
+  for (const element_key& key : element_keys)
+    t.refuse_beside({key.name}, "section", "either EI, or section with E and I");
   const toml_value section = t["section"];
   if (section.is_array())
     return read_pieces(section, b, keys, [&b](const auto& piece, int n) { add_section(piece, n, b); });
   section.table().allow_only(keys);
-  add_section(section.table(), b.elements(), b);
+  add_section(section, b.elements(), b);
+}
+
+/// Reads the number of each element: one for all, one for each, or pieces.
+std::vector<double> read_along(const toml_value& t, const char* key, const beam& b) {
+  std::vector<double> all;
+  if (has_pieces(t, key)) {
+    read_pieces(t[key], b, {"value"}, [&all](const toml_value& piece, int n) {
+      all.insert(all.end(), n, piece["value"].real(positive_real));
+    });
+    return all;
+  }
+  if (t.has("element_size") && t[key].is_array())
+    t[key].refuse("one number, or pieces { to = .., value = .. }, because element_size sets the elements");
+  return t[key].reals_for(positive_real, b.elements(), "element");
 }
 
 void read_stiffness(const toml_value& t, beam& b) {
   if (t.has("section")) return read_sections(t, b);
-  if (has_pieces(t, "EI"))
-    return read_pieces(t["EI"], b, {"value"}, [&b](const toml_value& piece, int n) {
-      b.EI.insert(b.EI.end(), n, piece["value"].real(positive_real));
-    });
-  const std::size_t elements = b.elements();
-  if (t.has("element_size") && t["EI"].is_array())
-    t["EI"].refuse("one number, or pieces { to = .., value = .. }, because element_size sets the elements");
-  b.EI = t["EI"].reals_for(positive_real, elements, "element");
-  b.EI.resize(elements, b.EI.front());
+  for (const auto& [key, values, required] : element_keys)
+    if (required || t.has(key)) b.*values = read_along(t, key, b);
+}
+
+bool are_normal(std::initializer_list<double> numbers) {
+  return std::ranges::all_of(numbers, [](double x) { return std::isnormal(x); });
 }
 
 /// Refuses an element whose stiffness is out of the range of doubles, although its length and EI are finite.
@@ -107,11 +115,9 @@ void check_elements(const toml_value& t, const beam& b) {
     const double EI = b.EI[e];
     const double largest = 12 * EI / h / h / h;
     const double smallest = EI / h;
-    if (!std::isnormal(h) || !std::isnormal(largest) || !std::isnormal(smallest) ||
-        !std::isfinite(largest * h) || !std::isfinite(12 * smallest)) {
+    if (!are_normal({h, largest, smallest}) || !std::isfinite(largest * h) || !std::isfinite(12 * smallest))
       t.refuse(fmt::format("element {} of length {:g} and EI = {:g}", e + 1, h, EI),
                "elements whose stiffness 12 EI / h^3 is within the range of double precision");
-    }
   }
 }
 
@@ -127,15 +133,16 @@ mesh_line read_nodes(const toml_value& t, const toml_value& top) {
   std::vector<double> given = t.has("x") ? read_coordinates(t, "x", "node")
                                          : std::vector<double>{0.0, t["length"].real(positive_real)};
   if (t.has("element_size")) return sized_mesh(t, top, given);
-  return {std::move(given), {}};
+  return {std::move(given), std::vector<even_run>{}};
 }
 
 beam read_beam(const toml_value& t, const toml_value& top) {
-  t.allow_only({"x", "length", "elements", "element_size", "EI", "section"});
+  std::vector<std::string_view> keys = {"x", "length", "elements", "element_size"};
+  for (const element_key& key : element_keys) keys.emplace_back(key.name);
+  keys.emplace_back("section");
+  t.allow_only(keys);
   beam b;
-  mesh_line line = read_nodes(t, top);
-  b.x = std::move(line.x);
-  b.runs = std::move(line.runs);
+  std::tie(b.x, b.runs) = read_nodes(t, top);
   read_stiffness(t, b);
   check_elements(t, b);
   return b;
@@ -171,12 +178,8 @@ void read_grid(const toml_value& t, plate& p) {
   const int columns = counts[0].integer(1, most_elements);
   const int rows = counts[1].integer(1, most_elements);
   check_size(t, columns, rows);
-  mesh_line along_x = even_line(size[0], columns);
-  mesh_line along_y = even_line(size[1], rows);
-  p.x = std::move(along_x.x);
-  p.y = std::move(along_y.x);
-  p.x_runs = std::move(along_x.runs);
-  p.y_runs = std::move(along_y.runs);
+  std::tie(p.x, p.x_runs) = even_line(size[0], columns);
+  std::tie(p.y, p.y_runs) = even_line(size[1], rows);
 }
 
 void read_material(const toml_value& t, plate& p) {
@@ -201,9 +204,8 @@ void read_material(const toml_value& t, plate& p) {
 void check_elements(const toml_value& t, const plate& p) {
   const auto sound = [&](double a, double b) {
     const double along = p.D * b / a / a / a;
-    return std::isnormal(a) && std::isnormal(along) && std::isfinite(1000 * along) &&
-           std::isfinite(1000 * along * a) && std::isnormal(p.D * b / a) &&
-           std::isfinite(1000 * p.D * b / a) && std::isnormal(p.D / a / b);
+    return are_normal({a, along, p.D * b / a, p.D / a / b}) && std::isfinite(1000 * along) &&
+           std::isfinite(1000 * along * a) && std::isfinite(1000 * p.D * b / a);
   };
   for (int e = 0; e < p.elements(); ++e) {
     const double width = p.width_of(e);
@@ -252,25 +254,19 @@ void choose_storage(const toml_value& t, assembled& a) {
   const std::string storage = read_storage(t);
   const std::int64_t limit = memory_limit();
   const std::int64_t band = bytes_of_run(a);
-  std::string takes = fmt::format("a half bandwidth of {}, which take {}",
-                                  subdiagonals_of(a.stiffness, a.rows), bytes_words(band));
-  std::string remedy;
-  std::int64_t needed = band;
-  if (storage == "sparse" ||
-      (storage.empty() && sparse_factor::available() && band > std::min(small_band, limit))) {
-    a.as_band = false;
-    needed = bytes_of_run(a);
-    a.as_band = storage.empty() && band <= limit && band <= far_less * needed;
-    if (a.as_band) return;
-    takes += fmt::format(", or {} in CHOLMOD's sparse factors", bytes_words(needed));
-  } else {
-    remedy = sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ";
-  }
-  if (needed > limit)
-    t.refuse(fmt::format("{} dofs with {}", a.dofs(), takes),
-             fmt::format("{}, three quarters of this machine's memory; {}condense the matrix onto the dofs "
-                         "that have pairs and loads, or use a coarser model",
-                         bytes_words(limit), remedy));
+  a.as_band = storage == "band" ||
+              (storage.empty() && (!sparse_factor::available() || band <= std::min(small_band, limit)));
+  const std::int64_t needed = a.as_band ? band : bytes_of_run(a);
+  a.as_band = a.as_band || (storage.empty() && band <= limit && band <= far_less * needed);
+  if ((a.as_band ? band : needed) <= limit) return;
+  const char* const remedy = sparse_factor::available() ? "storage = \"sparse\"; " : "build with CHOLMOD; ";
+  t.refuse(
+      fmt::format("{} dofs with a half bandwidth of {}, which take {}{}", a.dofs(),
+                  subdiagonals_of(a.stiffness, a.rows), bytes_words(band),
+                  a.as_band ? "" : fmt::format(", or {} in CHOLMOD's sparse factors", bytes_words(needed))),
+      fmt::format("{}, three quarters of this machine's memory; {}condense the matrix onto the dofs "
+                  "that have pairs and loads, or use a coarser model",
+                  bytes_words(limit), a.as_band ? remedy : ""));
 }
 
 std::string shown_name(const std::string& path) {
@@ -282,35 +278,17 @@ void read_labels(const std::string& path, assembled& a) {
   a.labels = parse_labels(read_input(path, "list of labels", largest_matrix_file), path);
 }
 
-/// Reads the keys that [matrix] and [calculix] have in common, and orders the rows.
-void finish(const toml_value& t, assembled& a) {
-  if (t.has("free_motions")) a.free_motions = t["free_motions"].integer(0, most_rigid_motions);
-  a.rows = rows_for_small_band(a.stiffness);
-  choose_storage(t, a);
-}
-
-/// Refuses a file of nodes if no label names one of its nodes: the file is of another structure.
-void refuse_unknown_nodes(const toml_value& named, const std::string& path, const assembled& a) {
-  if (a.places.known()) return;
-  named.refuse(fmt::format("no node of {} that a label names; the first label is {}", shown_name(path),
+/// Reads the positions of dofs by `parse` from the file at `path`. If the key `named` names the file, refuses
+/// it if no label names one of its nodes: the file is of another structure.
+template <class Parse>
+void read_places(const toml_value& named, const std::string& path, const char* kind, const Parse& parse,
+                 assembled& a) {
+  a.places = parse(read_input(path, kind, largest_mesh_file), path, a);
+  a.places.from = shown_name(path);
+  if (a.places.known() || !named.is_there()) return;
+  named.refuse(fmt::format("no node of {} that a label names; the first label is {}", a.places.from,
                            in_quotes(a.label_of(0))),
                "labels NODE.DIRECTION: the name of a node, a dot, and x, y, z, r, rx, ry, rz or 1 to 6");
-}
-
-/// Reads the mesh that the table names; without the key mesh, the .inp file of the job if there is one.
-void find_mesh(const toml_value& t, const named_files& files, assembled& a) {
-  const std::string path = t.has("mesh") ? files.path_of(t["mesh"]) : files.path_of(t["job"], ".inp");
-  if (!t.has("mesh") && !std::filesystem::exists(path)) return;
-  a.places = places_by_mesh(read_input(path, "input file of CalculiX", largest_mesh_file), path, a);
-  a.places.from = shown_name(path);
-  if (t.has("mesh")) refuse_unknown_nodes(t["mesh"], path, a);
-}
-
-/// Returns the text of the matrix's file, and sets a.sha256.
-std::string stiffness_text(const std::string& path, const std::string& kind, assembled& a) {
-  std::string text = read_input(path, kind, largest_matrix_file);
-  a.sha256 = sha256(text);
-  return text;
 }
 
 assembled read_matrix(const toml_value& t, const named_files& files, std::vector<std::string>& warnings) {
@@ -318,21 +296,18 @@ assembled read_matrix(const toml_value& t, const named_files& files, std::vector
   assembled a;
   const std::string path = files.path_of(t["stiffness"]);
   a.name = shown_name(path);
-  a.stiffness = parse_symmetric(stiffness_text(path, "stiffness matrix", a), a.name, &warnings);
+  const std::string text = read_input(path, "stiffness matrix", largest_matrix_file);
+  a.sha256 = sha256(text);
+  a.stiffness = parse_symmetric(text, a.name, &warnings);
   if (t.has("dofs")) {
     read_labels(files.path_of(t["dofs"]), a);
     if (a.labels.size() != static_cast<std::size_t>(a.dofs()))
       t["dofs"].refuse(fmt::format("{} labels in {}", a.labels.size(), a.labels_from),
                        fmt::format("{}, one for each row of {}", a.dofs(), a.name));
   }
-  finish(t, a);
-  if (t.has("coordinates")) {
-    const std::string of_places = files.path_of(t["coordinates"]);
-    a.places =
-        places_by_coordinates(read_input(of_places, "file of coordinates", largest_mesh_file), of_places, a);
-    a.places.from = shown_name(of_places);
-    refuse_unknown_nodes(t["coordinates"], of_places, a);
-  }
+  if (t.has("coordinates"))
+    read_places(t["coordinates"], files.path_of(t["coordinates"]), "file of coordinates",
+                places_by_coordinates, a);
   return a;
 }
 
@@ -342,24 +317,29 @@ assembled read_calculix(const toml_value& t, const named_files& files, std::vect
   const std::string path = files.path_of(t["job"], ".sti");
   a.name = shown_name(path);
   read_labels(files.path_of(t["job"], ".dof"), a);
-  const auto rows = static_cast<int>(a.labels.size());
-  a.stiffness = parse_calculix_stiffness(stiffness_text(path, "stiffness matrix of CalculiX", a), a.name,
-                                         rows, &warnings);
-  finish(t, a);
-  find_mesh(t, files, a);
+  const std::string text = read_input(path, "stiffness matrix of CalculiX", largest_matrix_file);
+  a.sha256 = sha256(text);
+  a.stiffness = parse_calculix_stiffness(text, a.name, static_cast<int>(a.labels.size()), &warnings);
+  // Without the key mesh, the mesh is the .inp file of the job if there is one.
+  const toml_value named = t["mesh"];
+  const std::string mesh = named.is_there() ? files.path_of(named) : files.path_of(t["job"], ".inp");
+  if (named.is_there() || std::filesystem::exists(mesh))
+    read_places(named, mesh, "input file of CalculiX", places_by_mesh, a);
   return a;
 }
 
 }  // namespace
 
-void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pairs, assembled& a) {
+void store_matrix(const toml_value& top, std::span<const contact_pair> pairs, assembled& a) {
   std::set<std::pair<int, int>> missing;  // row and column
   for (const contact_pair& c : pairs)
     if (c.other >= 0) missing.emplace(std::max(c.node, c.other), std::min(c.node, c.other));
-  if (missing.empty()) return;
   for (const matrix_entry& e : a.stiffness.entries) missing.erase({e.row, e.column});
   for (const auto& [row, column] : missing) a.stiffness.entries.push_back({row, column, 0.0});
-  finish(top.has("matrix") ? top["matrix"].table() : top["calculix"].table(), a);
+  const toml_value t = top[top.has("matrix") ? "matrix" : "calculix"];
+  if (t.has("free_motions")) a.free_motions = t["free_motions"].integer(0, most_rigid_motions);
+  a.rows = rows_for_small_band(a.stiffness);
+  choose_storage(t, a);
 }
 
 model read_model(const toml_value& top, const named_files& files, std::vector<std::string>& warnings) {

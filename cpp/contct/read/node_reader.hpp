@@ -2,16 +2,18 @@
 // beam from its key element_size.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
-#include "contct/model/line.hpp"
 #include "contct/number/rational.hpp"
 #include "contct/read/toml_reader.hpp"
+#include "contct/structure/line.hpp"
 
 namespace contct {
 
@@ -54,10 +56,7 @@ class coordinate_row {
 [[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
 
 /// Coordinates, and the runs of equal parts that the line consists of.
-struct mesh_line {
-  std::vector<double> x;
-  std::vector<even_run> runs;
-};
+using mesh_line = std::pair<std::vector<double>, std::vector<even_run>>;
 
 /// A line from 0 to `length` with `elements` equal elements.
 [[nodiscard]] mesh_line even_line(double length, int elements);
@@ -68,11 +67,27 @@ struct mesh_line {
 [[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
+/// A node, or a place between two nodes of a beam.
+struct named_place {
+  std::optional<int> node;  ///< from 0
+  double x = 0.0;           ///< if there is no node
+};
+
+/// Kinds of structures: sums of the numbers of single kinds.
+enum structure_kinds : unsigned { beams = 1, plates = 2, matrices = 4, all_structures = 7 };
+
 /// Reads the keys that name nodes: node, nodes, and x (beams) or at (plates); dof and dofs on a matrix.
 class node_reader {
  public:
   /// `m` must outlive this object.
   explicit node_reader(const model& m);
+
+  [[nodiscard]] const model& structure() const { return structure_; }
+  [[nodiscard]] bool on(unsigned kinds) const { return (kinds >> structure_.kind.index() & 1U) != 0; }
+  [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
+  /// The nodes along x of a beam; the grid lines along x and y of a plate; empty for a matrix.
+  [[nodiscard]] const std::vector<coordinate_row>& axes() const { return axes_; }
+  [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }
 
   /// Returns the keys that name nodes, followed by `others`, for toml_value::allow_only.
   [[nodiscard]] std::vector<std::string_view> keys_with(std::vector<std::string_view> others) const;
@@ -81,22 +96,20 @@ class node_reader {
 
   /// The nodes that a table names, from 0, in its order; at least one. Refuses a node that is named twice.
   [[nodiscard]] std::vector<int> read(const toml_value& t) const;
+  /// As `read`; with `between_nodes`, the key x of a beam may also name places between nodes.
+  [[nodiscard]] std::vector<named_place> places(const toml_value& t, bool between_nodes) const;
 
-  [[nodiscard]] const model& structure() const { return structure_; }
-  [[nodiscard]] bool on_matrix() const { return matrix_ != nullptr; }
-  /// The nodes along x of a beam; the grid lines along x and y of a plate; empty for a matrix.
-  [[nodiscard]] const std::vector<coordinate_row>& axes() const { return axes_; }
-
-  /// The dofs of a matrix, from 0, that `named` lists by label [count]: one for all pairs, or one for each.
+  /// Reads labels of dofs of a matrix, from 0: [count] one label for all pairs, or one for each pair.
   [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;
 
-  /// The dofs of a node, from 0, whose names are keys of a table. Refuses a table without such a key.
-  [[nodiscard]] std::vector<int> dofs_in(const toml_value& t, std::string_view found) const;
+  /// Calls `take` for every dof, from 0, whose name is a key of `t`, and every place of `at`; `named` is the
+  /// value of this key. Refuses a table without such a key, which `found` describes, and theta at a hinge.
+  using taker = std::function<void(const toml_value& named, const named_place& at, int dof, double value)>;
+  void read_values(const toml_value& t, std::string_view found, const real_range& range,
+                   const std::vector<named_place>& at, const taker& take) const;
 
   /// Refuses the value `named` if `dof` of `node` is theta at a hinge, where the beam has two slopes.
   void refuse_hinge(const toml_value& named, int node, int dof) const;
-
-  [[nodiscard]] const std::vector<std::string_view>& dof_names() const { return dof_names_; }
 
  private:
   [[nodiscard]] std::string_view key_in(const toml_value& t) const;

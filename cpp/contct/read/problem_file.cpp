@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "contct/kernel/call.hpp"
-#include "contct/model/exact_shares.hpp"
-#include "contct/model/line.hpp"
 #include "contct/read/node_reader.hpp"
 #include "contct/read/tables.hpp"
+#include "contct/structure/line.hpp"
 
 namespace contct {
 namespace {
@@ -53,15 +53,15 @@ class problem_reader {
     if (top_.has("units")) read_units(top_["units"].table());
     problem_.geometry = read_model(top_, files_, problem_.warnings);
     nodes_.emplace(problem_.geometry);
-    fixed_.assign(dofs(problem_.geometry), 0);
     if (nodes_->on_matrix() && top_.has("bed"))
       top_["bed"].refuse("a bed with a matrix",
                          "a [[contact]] at each dof, because a matrix has no lengths or areas");
     for (const toml_value& t : top_["hinge"].optional_tables()) read_hinge(t);
     for (const toml_value& t : top_["support"].optional_tables()) read_support(t);
+    for (const support& held : problem_.supports)
+      if (held.fixed) fixed_.insert({held.node, held.dof});
     for (const toml_value& t : top_["contact"].optional_tables()) read_contact(t);
-    if (auto* a = std::get_if<assembled>(&problem_.geometry.kind))
-      make_room_for_pairs(top_, problem_.pairs, *a);
+    if (auto* a = std::get_if<assembled>(&problem_.geometry.kind)) store_matrix(top_, problem_.pairs, *a);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
     problem_.steps = read_steps(top_, *nodes_, files_, problem_);
     problem_.files = files_.all();
@@ -69,20 +69,14 @@ class problem_reader {
   }
 
  private:
-  [[nodiscard]] std::size_t dof_of(int node, int dof) const {
-    return node * nodes_->dof_names().size() + dof;
-  }
-
-  [[nodiscard]] bool fixed_in_w(int node) const { return fixed_[dof_of(node, 0)] != 0; }
+  [[nodiscard]] bool fixed_in_w(int node) const { return fixed_.contains({node, 0}); }
 
   void read_units(const toml_value& t) {
     t.allow_only({"length", "force"});
-    const auto label = [&t](const char* key) {
-      std::string text = t[key].text();
+    problem_.units = {t["length"].text(), t["force"].text()};
+    for (const auto& [key, text] :
+         {std::pair("length", problem_.units.length), {"force", problem_.units.force}})
       if (text.find_first_not_of(blanks) == std::string::npos) t[key].refuse("the name of a unit");
-      return text;
-    };
-    problem_.units = {label("length"), label("force")};
   }
 
   /// Reads a hinge. Refuses a hinge at an end of the beam: no moment acts there unless a support holds theta.
@@ -100,33 +94,32 @@ class problem_reader {
     }
   }
 
-  void add_support(const support& s) {
-    problem_.supports.push_back(s);
-    if (s.fixed) fixed_[dof_of(s.node, s.dof)] = 1;
-  }
-
   void read_support(const toml_value& t) {
-    if (nodes_->on_matrix()) return read_support_on_matrix(t);
-    t.allow_only(nodes_->keys_with({"fix", "spring"}));
-    const std::vector<int> at = nodes_->read(t);
-    if (!t.has("fix") && !t.has("spring")) t.refuse("neither fix nor spring", "at least one of them");
-    if (t.has("fix"))
-      for (const int dof : read_fix(t))
-        for (const int node : at) {
-          nodes_->refuse_hinge(t["fix"], node, dof);
-          add_support({node, dof, true});
-        }
-    if (t.has("spring")) read_springs(t["spring"].table(), at);
-  }
-
-  void read_support_on_matrix(const toml_value& t) {
     t.allow_only(nodes_->keys_with({"fix", "spring"}));
     const bool fixed = t.has("fix");
-    if (fixed == t.has("spring"))
-      t.refuse(fixed ? "both fix and spring" : "neither fix nor spring", "one of them");
-    if (fixed && t["fix"].required("true").value_exact<bool>() != true) t["fix"].refuse("true");
-    const double spring = fixed ? 0.0 : t["spring"].real(positive_real);
-    for (const int dof : nodes_->read(t)) add_support({dof, 0, fixed, spring});
+    const bool sprung = t.has("spring");
+    if (nodes_->on_matrix()) {
+      if (fixed == sprung) t.refuse(fixed ? "both fix and spring" : "neither fix nor spring", "one of them");
+      if (fixed && t["fix"].required("true").value_exact<bool>() != true) t["fix"].refuse("true");
+      const double spring = fixed ? 0.0 : t["spring"].real(positive_real);
+      for (const int dof : nodes_->read(t)) problem_.supports.push_back({dof, 0, fixed, spring});
+      return;
+    }
+    const std::vector<named_place> at = nodes_->places(t, false);
+    if (!fixed && !sprung) t.refuse("neither fix nor spring", "at least one of them");
+    if (fixed)
+      for (const int dof : read_fix(t))
+        for (const named_place& place : at) {
+          nodes_->refuse_hinge(t["fix"], *place.node, dof);
+          problem_.supports.push_back({*place.node, dof, true});
+        }
+    if (!sprung) return;
+    const toml_value springs = t["spring"].table();
+    springs.allow_only(nodes_->dof_names());
+    nodes_->read_values(springs, "an empty table", positive_real, at,
+                        [this](const toml_value&, const named_place& place, int dof, double stiffness) {
+                          problem_.supports.push_back({*place.node, dof, false, stiffness});
+                        });
   }
 
   [[nodiscard]] std::vector<int> read_fix(const toml_value& t) const {
@@ -141,17 +134,6 @@ class problem_reader {
       fixed.push_back(dof);
     }
     return fixed;
-  }
-
-  void read_springs(const toml_value& t, const std::vector<int>& at) {
-    t.allow_only(nodes_->dof_names());
-    for (const int dof : nodes_->dofs_in(t, "an empty table")) {
-      const double stiffness = t[nodes_->dof_names()[dof]].real(positive_real);
-      for (const int node : at) {
-        nodes_->refuse_hinge(t[nodes_->dof_names()[dof]], node, dof);
-        add_support({node, dof, false, stiffness});
-      }
-    }
   }
 
   /// Makes a pair of the table `t` at `node` with face `face`, face number `i` (from 0) of the table. Refuses
@@ -185,7 +167,7 @@ class problem_reader {
       if (others[i] == at[i])
         other.refuse(place_words(problem_.geometry, at[i]) + ", which is also the pair's dof", "another dof");
       for (const int dof : {at[i], others[i]})
-        if (fixed_[dof] != 0)
+        if (fixed_in_w(dof))
           other.refuse(
               place_words(problem_.geometry, dof) + ", which a support fixes, in a pair of two dofs",
               "dofs that no support fixes; for contact with a fixed dof, omit the key other, and if that dof "
@@ -206,15 +188,14 @@ class problem_reader {
     const std::vector<double> faces = face.reals_for(any_real, at.size(), "pair");
     const std::vector<double> springs = stiffness.reals_for(positive_real, at.size(), "pair");
     for (std::size_t i = 0; i < at.size(); ++i) {
-      problem_.pairs.push_back(pair_at(t, common, at[i], faces[faces.size() == 1 ? 0 : i], i));
-      problem_.pairs.back().other = others[i];
-      problem_.pairs.back().stiffness = springs[springs.size() == 1 ? 0 : i];
+      contact_pair& pair = problem_.pairs.emplace_back(pair_at(t, common, at[i], faces[i], i));
+      pair.other = others[i];
+      pair.stiffness = springs[i];
       problem_.keys.push_back({face.name_of(i), stiffness.name_of(i)});
       if (fixed_in_w(at[i]))
         problem_.warnings.push_back(fmt::format(
             "{}: {} is fixed{}; the pair cannot change the deflections, and the support carries its force, "
-            "but "
-            "the 1989 rule may change its status",
+            "but the 1989 rule may change its status",
             t.where(), place_words(problem_.geometry, at[i]), nodes_->on_matrix() ? "" : " in w"));
     }
   }
@@ -239,22 +220,17 @@ class problem_reader {
     t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
     const double modulus = t["modulus"].real(positive_real);
     const facing common = read_facing(t, face_below);
-    std::vector<int> at;
-    if (nodes_->named_in(t)) {
-      at = nodes_->read(t);
-    } else {
-      at.resize(nodes(problem_.geometry));
-      std::iota(at.begin(), at.end(), 0);
-    }
-    bed made{modulus, {}, problem_.pairs.size()};
-    made.closed = common.closed;
+    std::vector<int> at(nodes(problem_.geometry));
+    std::iota(at.begin(), at.end(), 0);
+    if (nodes_->named_in(t)) at = nodes_->read(t);
+    bed made{modulus, {}, problem_.pairs.size(), {}, common.closed};
     const std::vector<double> faces = read_faces(t, at, made.face);
     if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
     if (exact_shares_.empty()) exact_shares_ = exact_shares(problem_.geometry);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const int node = at[i];
       if (fixed_in_w(node)) continue;
-      contact_pair p = pair_at(t, common, node, faces[faces.size() == 1 ? 0 : i], i);
+      contact_pair p = pair_at(t, common, node, faces[i], i);
       p.stiffness = modulus * shares_[node];
       if (!std::isnormal(p.stiffness))
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
@@ -290,10 +266,10 @@ class problem_reader {
   named_files files_;
   toml_value top_;
   problem problem_;
-  std::optional<node_reader> nodes_;  // set once the structure is known
-  std::vector<char> fixed_;           // [dofs]
-  std::vector<double> shares_;        // [nodes] tributary lengths or areas; empty until a bed needs them
-  std::vector<double> exact_shares_;  // likewise
+  std::optional<node_reader> nodes_;     // set once the structure is known
+  std::set<std::pair<int, int>> fixed_;  // nodes and dofs
+  std::vector<double> shares_;           // [nodes] tributary lengths or areas; empty until a bed needs them
+  std::vector<double> exact_shares_;     // likewise
 };
 
 }  // namespace

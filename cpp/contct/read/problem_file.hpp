@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "contct/model/problem.hpp"
 #include "contct/read/toml_reader.hpp"
+#include "contct/structure/problem.hpp"
 #include "contct/text/input_text.hpp"
 
 namespace contct {

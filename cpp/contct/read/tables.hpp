@@ -16,8 +16,8 @@ namespace contct {
                                std::vector<std::string>& warnings);
 
 /// Adds entries of 0 to the stiffness of `a` where pairs between two dofs need entries; then orders the rows
-/// and chooses the storage again, by the table [matrix] or [calculix] in `top`.
-void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pairs, assembled& a);
+/// and chooses the storage, by the table [matrix] or [calculix] in `top`.
+void store_matrix(const toml_value& top, std::span<const contact_pair> pairs, assembled& a);
 
 /// Reads the key "polynomial", for a load or for faces along a beam: coefficients in x, constant first.
 /// Refuses the key for other structures; `elsewhere` tells in the message what is allowed.
@@ -27,13 +27,13 @@ void make_room_for_pairs(const toml_value& top, std::span<const contact_pair> pa
 /// Refuses the loads of the table `t` if a sum of loads, or a settlement, is beyond the range of doubles.
 void refuse_endless_sums(const toml_value& t, const model& m, const load& l);
 
-/// Reads the load of each table. `p` already has its supports and pairs. `files` finds the files that a table
-/// names; `p` receives warnings about the numbers in these files.
+/// Reads the loads of all [[step]]s or [[case]]s. See read_steps.
 [[nodiscard]] std::vector<load> read_loads(const std::vector<toml_value>& tables, const node_reader& nodes,
                                            const named_files& files, problem& p);
 
-/// Reads the steps of the document `top`; arguments as for read_loads. Each [[step]] continues from the step
-/// before it. Each combination, and each place of a train, starts from the unloaded structure.
+/// Reads the steps of the document `top`. Each [[step]] continues from the step before it. Each combination,
+/// and each place of a train, starts from the unloaded structure. `p` already has its supports and pairs.
+/// `files` finds the files that a table names; `p` receives the cases, and warnings about numbers of files.
 [[nodiscard]] std::vector<load> read_steps(const toml_value& top, const node_reader& nodes,
                                            const named_files& files, problem& p);
 

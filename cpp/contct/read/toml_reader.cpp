@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
+#include <numeric>
 #include <unordered_set>
 
 #include "contct/number/decimal.hpp"
@@ -21,24 +21,15 @@ std::string position(std::string_view file, const toml::source_position& at) {
   return at.line == 0 ? std::string(file) : fmt::format("{}:{}:{}", file, at.line, at.column);
 }
 
-[[noreturn]] void refuse_at(std::string_view file, const toml::source_position& at, std::string_view name,
-                            std::string_view found, std::string_view allowed) {
-  throw input_error(fmt::format("{}: {}: found {}; allowed: {}", position(file, at), name, found, allowed));
-}
-
 /// Refuses more than a thousand dots without a separator, which no valid file has. toml++ reads a dotted key
 /// by recursion, and thousands of parts would overflow the stack.
 void refuse_endless_keys(std::string_view text, std::string_view file) {
   constexpr int most_dots = 1000;
-  int dots = 0;
-  for (const char ch : text) {
-    if (ch == '.') {
-      if (++dots > most_dots)
-        throw input_error(fmt::format("{0}: found a key of more than {1} parts; allowed: at most {1} parts",
-                                      file, most_dots));
-    } else if (ch == ',' || ch == '=' || ch == '\n' || ch == '[' || ch == '{') {
-      dots = 0;
-    }
+  for (std::size_t from = 0, end = 0; end < text.size(); from = end + 1) {
+    end = std::min(text.find_first_of(",=\n[{", from), text.size());
+    if (std::ranges::count(text.substr(from, end - from), '.') > most_dots)
+      refuse_line(file, 0, fmt::format("a key of more than {} parts", most_dots),
+                  fmt::format("at most {} parts", most_dots));
   }
 }
 
@@ -54,18 +45,18 @@ std::string_view comma_hint(const toml::node& node, std::size_t meant) {
 /// True if a line that is not TOML has a decimal comma: "= 4,0" or "= 10.000,5"; or "0,05" anywhere, because
 /// 05 is not a whole number in TOML.
 bool has_decimal_comma(std::string_view line) {
-  const auto digits_from = [line](std::size_t at) {
-    const std::size_t end = line.find_first_not_of("0123456789", at);
-    return (end == std::string_view::npos ? line.size() : end) - std::min(at, line.size());
+  const auto is_digit = [line](std::size_t at) {
+    return at < line.size() && line[at] >= '0' && line[at] <= '9';
+  };
+  const auto without = [](std::string_view text, std::string_view end) {
+    return text.substr(0, text.find_last_not_of(end) + 1);
   };
   for (std::size_t at = line.find(','); at != std::string_view::npos; at = line.find(',', at + 1)) {
-    const std::size_t before = line.find_last_not_of("0123456789", at == 0 ? 0 : at - 1);
-    if (before == std::string_view::npos || before + 1 >= at || digits_from(at + 1) == 0) continue;
-    const std::size_t first = line.find_last_not_of("0123456789.", before);  // dots between thousands
-    const std::size_t equals =
-        first == std::string_view::npos ? first : line.find_last_not_of(" \t+-", first);
-    if (equals != std::string_view::npos && line[equals] == '=') return true;
-    if (line[at + 1] == '0' && digits_from(at + 1) > 1) return true;
+    const std::string_view before = without(line.substr(0, at), "0123456789");
+    if (before.empty() || before.size() == at || !is_digit(at + 1)) continue;
+    if (line[at + 1] == '0' && is_digit(at + 2)) return true;
+    // There may be dots between thousands.
+    if (without(without(before, "0123456789."), " \t+-").ends_with('=')) return true;
   }
   return false;
 }
@@ -149,15 +140,6 @@ std::string_view quotes_hint(std::string_view line, std::size_t column, std::str
   return is_text ? " (write text in quotes)" : "";
 }
 
-/// The first and the last number in "a..b", or 1 and `count` for "all"; 0 for a number that cannot be read.
-std::pair<int, int> range_in(std::string_view text, int count) {
-  if (text == "all") return {1, count};
-  const std::size_t dots = text.find("..");
-  if (dots == std::string_view::npos) return {};
-  return {number_in<int>(text.substr(0, dots)).value_or(0),
-          number_in<int>(text.substr(dots + 2)).value_or(0)};
-}
-
 std::pair<int, int> position_of(const written_number& n) {
   return {n.line, n.column};
 }
@@ -166,6 +148,10 @@ std::pair<int, int> position_of(const written_number& n) {
 
 std::string indexed(std::string_view key, std::size_t from_zero) {
   return fmt::format("{}[{}]", key, from_zero + 1);
+}
+
+std::string joined_key(std::string_view table, std::string_view key) {
+  return fmt::format("{}{}{}", table, table.empty() ? "" : ".", key);
 }
 
 toml::table parse_toml(std::string_view text, std::string_view file) {
@@ -211,7 +197,8 @@ std::string toml_value::where() const {
 }
 
 void toml_value::refuse(std::string_view found, std::string_view allowed) const {
-  refuse_at(file_, at_, name_.empty() ? "the file" : name_, found, allowed);
+  throw input_error(fmt::format("{}: {}: found {}; allowed: {}", position(file_, at_),
+                                name_.empty() ? "the file" : name_, found, allowed));
 }
 
 const toml::node& toml_value::required(std::string_view allowed) const {
@@ -283,8 +270,8 @@ std::vector<double> toml_value::reals(const real_range& range, std::size_t least
 std::vector<double> toml_value::reals_for(const real_range& range, std::size_t count,
                                           std::string_view things) const {
   const toml::node& node = required(range.words);
-  if (!node.is_array() || (count == 1 && !comma_hint(node, 1).empty())) return {real(range)};
-  std::vector<double> values = reals(range, 1);
+  const bool is_one = !node.is_array() || (count == 1 && !comma_hint(node, 1).empty());
+  std::vector<double> values = is_one ? std::vector<double>(count, real(range)) : reals(range, 1);
   if (values.size() != count)
     refuse(
         found().append(comma_hint(node, count)),
@@ -297,9 +284,14 @@ std::vector<int> toml_value::numbers(int count) const {
       fmt::format(R"(a list of whole numbers from 1 to {}, each once, "a..b" or "all")", count);
   std::vector<int> list;
   if (const auto* text = required(allowed).as_string()) {
-    const auto [first, last] = range_in(text->get(), count);
+    const std::string_view range = text->get();
+    const std::size_t dots = std::min(range.find(".."), range.size());
+    const bool all = range == "all";
+    const int first = all ? 1 : number_in<int>(range.substr(0, dots)).value_or(0);
+    const int last = all ? count : number_in<int>(range.substr(std::min(dots + 2, range.size()))).value_or(0);
     if (first < 1 || first > last || last > count) refuse(allowed);
-    for (int number = first; number <= last; ++number) list.push_back(number - 1);
+    list.resize(last - first + 1);
+    std::iota(list.begin(), list.end(), first - 1);
     return list;
   }
   std::unordered_set<int> seen;  // not `count` flags: there may be thousands of short lists
@@ -341,62 +333,50 @@ void toml_value::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, node] : *node_->as_table()) {
     if (std::ranges::find(keys, key.str()) != keys.end()) continue;
     const std::vector<std::string> known(keys.begin(), keys.end());
-    refuse_at(file_, key.source().begin, name_of_key(printable(key.str())),
-              "an unknown key" + did_you_mean(key.str(), known), fmt::format("{}", fmt::join(keys, ", ")));
+    toml_value unknown = inner(nullptr, name_of_key(printable(key.str())));
+    unknown.at_ = key.source().begin;
+    unknown.refuse("an unknown key" + did_you_mean(key.str(), known), joined(known, ", "));
   }
 }
 
 named_files::named_files(std::string_view problem_file, reach allowed)
-    : folder_(fs::path(problem_file).parent_path().string()), allowed_(allowed) {}
+    : folder_(fs::path(problem_file).parent_path()), allowed_(allowed) {}
 
 std::string named_files::path_of(const toml_value& named, std::string_view ending) const {
   const std::string name = named.text().append(ending);
   if (name.find('\0') != std::string::npos)  // system functions would end the name there
     named.refuse(in_quotes(name), "a file name without the character \\u0000");
-  const std::string path = (fs::path(folder_) / name).string();
-  if (allowed_ == reach::own_folder && !is_below(path))
+  const std::string path = (folder_ / name).string();
+  std::error_code wrong;
+  const fs::path here = fs::current_path(wrong);
+  const fs::path way = wrong ? fs::path() : fs::relative(here / path, here / folder_, wrong);
+  const bool is_below = !wrong && !way.empty() && *way.begin() != "..";
+  if (allowed_ == reach::own_folder && !is_below)
     named.refuse(
         in_quotes(name) + ", which is not below the folder of the problem file",
         "a file below this folder; with --allow-outside (\"allow_outside\" in the library) any file");
   // The file "-" gets the path "./-", because the path "-" means standard input.
-  return all_->emplace_back(path == "-" ? "./-" : path);
-}
-
-/// True if the file is below the problem's folder; false if the path cannot be resolved.
-bool named_files::is_below(const std::string& path) const {
-  std::error_code wrong;
-  const auto resolved = [&wrong](const fs::path& p) {
-    const fs::path absolute = wrong ? p : fs::absolute(p, wrong);
-    return wrong ? p : fs::weakly_canonical(absolute, wrong);
-  };
-  const fs::path folder = resolved(folder_.empty() ? "." : folder_);
-  const fs::path file = resolved(path);
-  return !wrong &&
-         std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  return all_.emplace_back(path == "-" ? "./-" : path);
 }
 
 namespace {
 
-/// Appends every finite number under `node`, whose key is `key`. A whole number may be hexadecimal, so its
-/// value in decimal, not its literal, is compared with the shortest decimal.
+/// Appends every finite number under `node`, whose key is `key`.
 void append_numbers(const toml::node& node, const std::string& key, std::vector<written_number>& numbers) {
-  const auto append = [&](double value, const std::string& whole) {
-    const toml::source_position& at = node.source().begin;
-    numbers.push_back({key, value, node.is_integer(), static_cast<int>(at.line), static_cast<int>(at.column),
-                       0, "", stands_for(whole, value), significant_digits(whole)});
-  };
-  if (const toml::table* const table = node.as_table()) {
-    for (const auto& [name, entry] : *table)
-      append_numbers(entry, key.empty() ? std::string(name.str()) : fmt::format("{}.{}", key, name.str()),
-                     numbers);
-  } else if (const toml::array* const array = node.as_array()) {
-    for (std::size_t i = 0; i < array->size(); ++i) append_numbers(*array->get(i), indexed(key, i), numbers);
-  } else if (const auto* const whole = node.as_integer()) {
-    const auto value = static_cast<double>(whole->get());
-    append(value, std::to_string(whole->get()));
-  } else if (const auto* const real = node.as_floating_point()) {
-    if (std::isfinite(real->get())) append(real->get(), "");
-  }
+  if (const toml::table* const table = node.as_table())
+    for (const auto& [name, entry] : *table) append_numbers(entry, joined_key(key, name.str()), numbers);
+  std::size_t count = 0;
+  if (const toml::array* const array = node.as_array())
+    for (const toml::node& entry : *array) append_numbers(entry, indexed(key, count++), numbers);
+  const auto* const whole = node.as_integer();
+  const auto* const real = node.as_floating_point();
+  if (whole == nullptr && (real == nullptr || !std::isfinite(real->get()))) return;
+  const double value = whole != nullptr ? static_cast<double>(whole->get()) : real->get();
+  // A whole number may be hexadecimal, so it is compared as a decimal, not as its literal.
+  const std::string decimal = whole != nullptr ? std::to_string(whole->get()) : "";
+  const toml::source_position& at = node.source().begin;
+  numbers.push_back({key, value, whole != nullptr, static_cast<int>(at.line), static_cast<int>(at.column),
+                     stands_for(decimal, value)});
 }
 
 }  // namespace
@@ -410,10 +390,7 @@ std::vector<written_number> numbers_in(const toml::table& document, std::string_
   for (written_number& n : numbers) {
     const std::string_view here = walk.at(n.line, n.column);
     n.literal = here.substr(0, here.find_first_not_of(of_numbers));
-    n.length = static_cast<int>(n.literal.size());
-    if (n.is_whole) continue;
-    n.stands_for_value = stands_for(n.literal, n.value);
-    n.digits = significant_digits(n.literal);
+    if (!n.is_whole) n.stands_for_value = stands_for(n.literal, n.value);
   }
   return numbers;
 }
@@ -426,7 +403,7 @@ std::vector<std::string> rounding_warnings(const std::vector<written_number>& nu
   for (const written_number& n : numbers) {
     if ((n.stands_for_value && n.taken_as.empty()) || count++ >= most) continue;
     const std::string words =
-        n.stands_for_value ? "found " + printable(n.literal) : rounding_words(n.literal, n.value);
+        n.stands_for_value ? "found " + printable(n.literal) : rounding_words(printable(n.literal), n.value);
     warnings.push_back(fmt::format("{}:{}:{}: {}: {}{}", file, n.line, n.column, n.key, words, n.taken_as));
   }
   if (count > most)

@@ -4,8 +4,8 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <initializer_list>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,19 +29,19 @@ struct real_range {
 inline constexpr real_range any_real{-1.7976931348623157e308, true, "a finite number"};
 inline constexpr real_range positive_real{0.0, false, "a finite number greater than 0"};
 
-/// "key[3]", with the index from 1.
+/// "key[3]", with the index from 1; "table.key", or "key" if `table` is empty.
 [[nodiscard]] std::string indexed(std::string_view key, std::size_t from_zero);
+[[nodiscard]] std::string joined_key(std::string_view table, std::string_view key);
 
 /// A number in a file, and its position.
 struct written_number {
   std::string key;  ///< "step[1].point[2].w"
   double value = 0;
   bool is_whole = false;
-  int line = 0, column = 0, length = 0;  ///< line and column from 1; column in code points
-  std::string_view literal = {};         ///< as written
-  bool stands_for_value = true;          ///< see stands_for
-  int digits = 0;                        ///< see significant_digits
-  std::string taken_as = {};             ///< the place that the number means; empty: the number itself
+  int line = 0, column = 0;       ///< from 1; column in code points
+  bool stands_for_value = true;   ///< see stands_for
+  std::string_view literal = {};  ///< as written
+  std::string taken_as = {};      ///< the place that the number means; empty: the number itself
 };
 
 /// A value of a TOML file, and its name: "contact[2].face", or "" for the file itself. For a missing key
@@ -69,7 +69,7 @@ class toml_value {
   [[nodiscard]] std::vector<toml_value> each(std::string_view allowed) const;
   /// An array of numbers in `range`, at least `least` of them.
   [[nodiscard]] std::vector<double> reals(const real_range& range, std::size_t least) const;
-  /// One number for all `things`, or an array of `count` numbers, one for each thing.
+  /// [count] one number for all `things`, or an array of `count` numbers, one for each thing.
   [[nodiscard]] std::vector<double> reals_for(const real_range& range, std::size_t count,
                                               std::string_view things) const;
   /// Numbers of nodes or elements: [1, 3, 5], "2..20" or "all". In the file, the numbers are from 1 to
@@ -94,6 +94,7 @@ class toml_value {
 
   /// The node of toml++. Refuses a missing value.
   [[nodiscard]] const toml::node& required(std::string_view allowed) const;
+  [[nodiscard]] bool is_there() const { return node_ != nullptr; }
   [[nodiscard]] bool is_table() const { return node_ != nullptr && node_->is_table(); }
   [[nodiscard]] bool is_array() const { return node_ != nullptr && node_->is_array(); }
 
@@ -123,9 +124,7 @@ class toml_value {
     return inner(&entry, indexed(name_, i));
   }
   [[nodiscard]] bool is_top_level() const { return name_.find_first_of(".[") == std::string::npos; }
-  [[nodiscard]] std::string name_of_key(std::string_view key) const {
-    return std::string(name_).append(name_.empty() ? "" : ".").append(key);
-  }
+  [[nodiscard]] std::string name_of_key(std::string_view key) const { return joined_key(name_, key); }
 
   const toml::node* node_;      // null: missing
   toml::source_position at_{};  // if the value is missing: position of its table
@@ -151,15 +150,13 @@ class named_files {
   /// not below the folder once symbolic links are followed.
   [[nodiscard]] std::string path_of(const toml_value& named, std::string_view ending = "") const;
 
-  /// All paths that path_of of this object and of its copies has returned.
-  [[nodiscard]] const std::vector<std::string>& all() const { return *all_; }
+  /// All paths that path_of has returned.
+  [[nodiscard]] const std::vector<std::string>& all() const { return all_; }
 
  private:
-  [[nodiscard]] bool is_below(const std::string& path) const;
-
-  std::string folder_;
+  std::filesystem::path folder_;
   reach allowed_;
-  std::shared_ptr<std::vector<std::string>> all_ = std::make_shared<std::vector<std::string>>();
+  mutable std::vector<std::string> all_;
 };
 
 /// All finite numbers of a document, in the order of the file. `text`: the text of the document.

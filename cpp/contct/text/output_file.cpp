@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -70,6 +69,15 @@ int copy_all(int from, int to) {
   return got < 0 ? errno : 0;
 }
 
+/// Throws output_error for the file at `path`, or reader_gone for standard output, "-", without a reader.
+[[noreturn]] void fail(const std::string& path, int error) {
+  const bool standard = path == "-";
+  const std::string words = (standard ? "standard output" : path) + ": cannot be written: " +
+                            (error != 0 ? std::strerror(error) : "earlier output is lost");
+  if (standard && error == EPIPE) throw reader_gone(words);
+  throw output_error(words);
+}
+
 }  // namespace
 
 /// Opens a file without a name in the target's folder, so that an unwritable folder is refused at once.
@@ -80,20 +88,20 @@ output_file::output_file(std::string path) : path_(std::move(path)) {
   }
   std::error_code error;
   const fs::file_type kind = fs::status(path_, error).type();
-  if (kind == fs::file_type::none) fail(error.value());
-  if (kind == fs::file_type::directory) fail(EISDIR);
+  if (kind == fs::file_type::none) fail(path_, error.value());
+  if (kind == fs::file_type::directory) fail(path_, EISDIR);
   if (kind == fs::file_type::regular || kind == fs::file_type::not_found) {
     target_ = followed(path_).string();
     const signals_wait until_unlinked;
     std::string name;
     const int descriptor = open_beside(target_, name);
-    if (descriptor < 0) fail(errno);
+    if (descriptor < 0) fail(path_, errno);
     unlink(name.c_str());
     file_ = fdopen(descriptor, "w+b");
   } else {
     file_ = std::fopen(path_.c_str(), "wb");
   }
-  if (file_ == nullptr) fail(errno);
+  if (file_ == nullptr) fail(path_, errno);
 }
 
 output_file::~output_file() {
@@ -104,16 +112,16 @@ void output_file::write(std::string_view text) {
   if (kept_ != nullptr) {
     kept_->append(text);
   } else if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) {
-    fail(errno);
+    fail(path_, errno);
   }
 }
 
 void output_file::finish() {
   if (kept_ != nullptr) return;
   if (is_standard_output()) return flush_standard_output();
-  if (std::fflush(file_) != 0) fail(errno);
+  if (std::fflush(file_) != 0) fail(path_, errno);
   if (!target_.empty()) give_name();
-  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(errno);
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail(path_, errno);
 }
 
 /// Copies the file to a temporary name, then renames the copy to the target. Before the copy replaces another
@@ -124,21 +132,14 @@ void output_file::give_name() const {
   const bool replaces = fs::exists(target_, ignored);  // before the copy exists, since this may throw
   std::string name;
   const int copy = open_beside(target_, name);
-  if (copy < 0) fail(errno);
+  if (copy < 0) fail(path_, errno);
   int error = copy_all(fileno(file_), copy);
   if (error == 0 && replaces) error = sync_to_disk(copy);
   if (close(copy) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(name.c_str(), target_.c_str()) != 0) error = errno;
   if (error == 0) return;
   unlink(name.c_str());
-  fail(error);
-}
-
-void output_file::fail(int error) const {
-  if (is_standard_output() && error == EPIPE)
-    throw reader_gone("standard output: cannot be written: the program that reads it has ended");
-  throw output_error((is_standard_output() ? std::string("standard output") : path_) +
-                     ": cannot be written: " + std::strerror(error));
+  fail(path_, error);
 }
 
 void print_text(std::string_view raw) {
@@ -149,11 +150,7 @@ void print_text(std::string_view raw) {
 void flush_standard_output() {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  const int error = errno != 0 ? errno : why_lost;
-  const std::string words = std::string("standard output: cannot be written: ") +
-                            (error != 0 ? std::strerror(error) : "earlier output is lost");
-  if (error == EPIPE) throw reader_gone(words);
-  throw output_error(words);
+  fail("-", errno != 0 ? errno : why_lost);
 }
 
 bool same_file(const std::string& a, const std::string& b) {

@@ -50,7 +50,6 @@ class output_file {
  private:
   [[nodiscard]] bool is_standard_output() const { return path_ == "-"; }
   void give_name() const;
-  [[noreturn]] void fail(int error) const;
 
   std::string path_;
   std::string target_;  // path_ with links followed; empty: path_ is written directly

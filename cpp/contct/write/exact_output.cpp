@@ -146,7 +146,7 @@ std::string exact_text(const exact_run& r, int digits, const terminal& t) {
 
 void write_exact_json(const exact_run& r, output_file& out) {
   json_document document(
-      out, {{"format", "contct-exact-1"}, {"title", r.what.title}, {"status", status_name(r.path.status)}},
+      out, {{"format", "contct-exact-1"}, {"title", r.what.title}, {"status", status_name(r.path.status())}},
       "steps");
   for (std::size_t step = 0; step < r.path.steps.size(); ++step) {
     const exact_step_end& s = r.path.steps[step];

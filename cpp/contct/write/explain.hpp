@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "contct/path/path_observers.hpp"
+#include "contct/results/path_observers.hpp"
 #include "contct/text/terminal.hpp"
 #include "contct/write/result_json.hpp"
 
@@ -37,10 +36,10 @@ inline constexpr listing_line no_line{0, {}};
 [[nodiscard]] std::string text_of(const terminal& screen, const sentence& t, bool loud = false);
 
 /// "advancing", "receding", "stationary" or "no response".
-[[nodiscard]] std::string_view kind_name(listing_branch way, bool is_separated);
-[[nodiscard]] inline std::string_view kind_name(const explained_pair& p) {
-  return kind_name(p.way, p.isep_before == separated);
-}
+[[nodiscard]] std::string_view kind_name(const explained_pair& p);
+
+/// For example "Pair 1, node 3, face below, separated: advancing".
+[[nodiscard]] std::string heading_of(const explained_pair& p, const std::string& place);
 [[nodiscard]] std::string_view name_of(why_toggled why);
 
 /// Explains how the listing computes the s of a pair: the body of its DO 10 loop.

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "contct/number/bits.hpp"
@@ -24,11 +23,11 @@ json story_json(const std::vector<sentence>& story) {
 /// The IFs of the listing that the call reached for this pair, in order, each with its margin in ULP.
 json branches_json(const explained_pair& p) {
   json list = json::array();
-  for (std::size_t b = 0; b < branch_names.size(); ++b) {
-    const taken_branch& t = p.taken[b];
-    if (!t.reached) continue;
-    json& entry = list.emplace_back(json{{"if", branch_conditions[b]}, {"outcome", t.outcome}});
-    if (static_cast<branch>(b) != branch::was_separated) entry["ulps"] = t.ulps;
+  for (const std::optional<decision>& d : p.taken) {
+    if (!d) continue;
+    json& entry =
+        list.emplace_back(json{{"if", branch_conditions[index_of(d->what)]}, {"outcome", d->outcome}});
+    if (d->what != branch::was_separated) entry["ulps"] = d->ulps;
   }
   return list;
 }
@@ -52,8 +51,8 @@ json explained_json(const explained_kernels& of, const explained_increment& i, c
               {"d_star", p.d_star},
               {"gap", p.gap},
               {"s", p.s}});
-  if (p.at(branch::check_positive).reached) out["s_chk"] = p.s_chk;
-  if (p.at(branch::within_epsmul).reached) out["diff"] = p.diff;
+  if (p.reached(branch::check_positive)) out["s_chk"] = p.s_chk;
+  if (p.reached(branch::within_epsmul)) out["diff"] = p.diff;
   out.update({{"leads", p.took_the_lead()}, {"toggled", p.toggled()}, {"why", name_of(p.why)}});
   if (p.toggled()) out["distance_from_face"] = p.distance;
   out["branches"] = branches_json(p);
@@ -97,7 +96,7 @@ void explain_json::write(const explained_increment& i) {
               {"fraction_before", i.fraction_before},
               {"fraction", i.what.fraction},
               {"s", i.what.s},
-              {"load", load_json(of_.what.geometry, of_.loads, i.what.step, i.what.fraction)},
+              {"load", load_json(of_.what, of_.loads, i.what.step, i.what.fraction)},
               {"smin", both_json(of_, i.call.smin, i.other == nullptr ? nullptr : &i.other->smin)},
               {"winner", winner_json(i.call)},
               {"narrowest", narrowest_json(i.call.narrowest)},

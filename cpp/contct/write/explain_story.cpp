@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "contct/write/explain.hpp"
+#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
@@ -25,7 +26,7 @@ bool is_separated(const explained_pair& p) {
 /// The effect of the load on a pair at its face, from the sign of SSCHK.
 sentence check_of_sign(const explained_pair& p) {
   const bool open = is_separated(p);
-  if (p.way == listing_branch::stationary_event)
+  if (p.set_s == listing::if_check_positive)
     return {
         listing::if_check_positive,
         fmt::format("SSCHK > 0: the load {}. s = SSCHK * DELTA = {}, so small that it wins over every "
@@ -52,7 +53,7 @@ std::string meaning_of_s(const explained_pair& p) {
 
 /// Whether the s of the pair becomes SMIN.
 sentence competition(const explained_pair& p) {
-  if (!p.at(branch::s_positive).outcome)
+  if (!p.is_true(branch::s_positive))
     return {listing::smallest, "s is not greater than 0: not a candidate.", "(6)"};
   const std::string beaten = number(p.smin_before);
   return {listing::smallest,
@@ -93,10 +94,15 @@ std::string reason_for_toggle(const explained_pair& p) {
 
 }  // namespace
 
-std::string_view kind_name(listing_branch way, bool is_separated) {
-  if (way == listing_branch::no_response) return "no response";
-  if (way != listing_branch::moving) return "stationary";
-  return is_separated ? "advancing" : "receding";
+std::string_view kind_name(const explained_pair& p) {
+  if (p.set_s == listing::no_response) return "no response";
+  if (p.set_s != listing::moving) return "stationary";
+  return is_separated(p) ? "advancing" : "receding";
+}
+
+std::string heading_of(const explained_pair& p, const std::string& place) {
+  return fmt::format("Pair {}, {}, face {}, {}: {}", p.pair + 1, place, surface_name(p.surface),
+                     is_separated(p) ? "separated" : "in contact", kind_name(p));
 }
 
 std::string_view name_of(why_toggled why) {
@@ -110,12 +116,12 @@ std::vector<sentence> scale_factor_story(const explained_pair& p) {
                      "(5)"};
   const sentence responds{listing::if_no_response,
                           fmt::format("d* = {}, not 0: the pair responds.", number(p.d_star))};
-  if (p.way == listing_branch::no_response)
+  if (p.set_s == listing::no_response)
     return {gap,
             {listing::if_no_response, "d* = 0: the pair does not respond to the residual load."},
             {listing::no_response, "s = 1: the mark for \"no event\"."},
             competition(p)};
-  if (p.way == listing_branch::moving)
+  if (p.set_s == listing::moving)
     return {gap,
             responds,
             {listing::if_stationary, "|GAP| is not less than EPSGAP = 1E-10: not stationary."},
@@ -147,7 +153,7 @@ std::vector<sentence> toggle_story(const explained_call& c, const explained_pair
   std::vector<sentence> story = {
       {listing::diff, p.pair == c.winner ? "DIFF = 0: s is SMIN."
                                          : fmt::format("DIFF = |s - SMIN| / SMIN = {:.4g}.", p.diff)}};
-  if (!p.at(branch::within_epsmul).outcome) {
+  if (!p.is_true(branch::within_epsmul)) {
     story.push_back({listing::if_within, "DIFF is not less than EPSMUL = 1/256: not toggled."});
     return story;
   }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "contct/results/quantities.hpp"
 #include "contct/write/result_json.hpp"
 #include "contct/write/words.hpp"
 
@@ -27,16 +28,16 @@ json number_of(int from_0) {
 
 void put_kind(json& out, const beam& b) {
   out["kind"] = "beam";
-  out["EI"] = b.EI;
+  for (const auto& [key, values, required] : element_keys)
+    if (!(b.*values).empty()) out[key] = b.*values;
   if (!b.hinges.empty()) out["hinges"] = numbered(b.hinges);
   for (std::size_t e = 0; e < b.sections.size(); ++e) {
     const beam_section& s = b.sections[e];
     if (e > 0 && s == b.sections[e - 1]) continue;
     json& entry = out["sections"].emplace_back();
-    entry = {{"element", e + 1}, {"E", s.E}, {"I", s.I}};
-    for (const auto& [name, value] :
-         {std::pair("W", s.W), std::pair("A", s.A), std::pair("weight", s.weight)})
-      if (value > 0.0) entry[name] = value;
+    entry = {{"element", e + 1}};
+    for (const section_key& key : section_keys)
+      if (s.*key.value > 0.0) entry[std::string(key.name)] = s.*key.value;
   }
 }
 
@@ -111,34 +112,45 @@ json units_json(const unit_labels& units) {
   return {{"length", units.length}, {"force", units.force}};
 }
 
-json certificate_json(const std::optional<certificate>& c) {
+json certificate_json(const solved_step& s) {
+  const std::optional<certificate>& c = s.judged;
   if (!c) return nullptr;
-  json out = {{"exact", c->certified},         {"displacement_error", c->displacement_error},
-              {"equilibrium", c->equilibrium}, {"penetration", c->penetration},
-              {"tension", c->tension},         {"rcond", c->rcond},
-              {"tolerance", certified_share},  {"shape_error", c->shape_error},
-              {"unique", c->unique},           {"independent", c->independent},
+  const auto proved = [&](double x, bool known = true) {
+    return c->proved && known ? json(x) : json(nullptr);
+  };
+  json out = {{"certified", c->certified},
+              {"displacement_error", proved(c->displacement_error, c->unique)},
+              {"equilibrium", proved(c->equilibrium)},
+              {"penetration", proved(c->penetration)},
+              {"tension", proved(c->tension)},
+              {"rcond", s.rcond},
+              {"tolerance", certified_share},
+              {"shape_error", proved(c->worst_share, c->unique)},
+              {"unique", c->unique},
+              {"independent", s.from != origin::reference},
               {"digits", digits_of(*c)}};
-  if (!c->unique) out["displacement_error"] = out["shape_error"] = nullptr;
   if (!c->problem.empty()) out["problem"] = c->problem;
   return out;
 }
 
+json quantities_json(const problem& p) {
+  json out = json::array();
+  for (const quantity_row* row : quantities_of(p))
+    out.push_back({{"key", row->key},
+                   {"words", row->words},
+                   {"unit", unit_name(p, row->in)},
+                   {"on", list_name(row->where)}});
+  return out;
+}
+
 json error_json(const problem& p, const std::optional<certificate>& c) {
-  const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
-  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
   json out = json::object();
-  const auto put = [&](quantity q, bool is_there) {
-    const std::optional<double> bound = c && c->proved ? c->error[q] : std::nullopt;
-    if (is_there) out[quantity_names[static_cast<std::size_t>(q)]] = bound ? json(*bound) : json(nullptr);
-  };
-  put(quantity::w, true);
-  put(quantity::slope, !of_matrix);
-  put(quantity::force, !p.pairs.empty());
-  put(quantity::gap, !p.pairs.empty());
-  put(quantity::reaction, !p.supports.empty());
-  put(quantity::moment, !of_matrix);
-  put(quantity::shear, of_beam);
+  for (std::size_t i = 0; i < quantity_names.size(); ++i) {
+    const auto kind = static_cast<quantity>(i);
+    if (!has_kind(p, kind)) continue;
+    json& bound = out[quantity_names[i].key];  // null
+    if (c && c->proved && c->error[kind]) bound = *c->error[kind];
+  }
   return out;
 }
 
@@ -157,7 +169,7 @@ void put_values(json& entry, const std::vector<double>& polynomial) {
 void put_placed(json& out, const model& m, const placed_load& p) {
   const std::vector<double> values = values_of(p);
   if (p.what == load_kind::point || p.what == load_kind::moment) {
-    out["point"].push_back({{"x", p.from.x}, {p.what == load_kind::point ? "w" : "theta", values[0]}});
+    out["point"].push_back({{"x", p.from.x}, {dof_names(m)[p.what == load_kind::point ? 0 : 1], values[0]}});
     return;
   }
   json& entry = out[p.what == load_kind::force ? "uniform" : "curvature"].emplace_back();
@@ -173,7 +185,8 @@ json load_json(const model& m, const resultant& r, const load* parts) {
   const auto names = dof_names(m);
   json out = {{std::holds_alternative<assembled>(m.kind) ? "sum" : "force", r.force}};
   for (std::size_t i = 0; i < r.moments.size(); ++i)
-    out[r.moments.size() == 1 ? "moment" : fmt::format("moment_{}", names[i + 1])] = r.moments[i];
+    out[fmt::format("moment{}", r.moments.size() == 1 ? "" : fmt::format("_{}", names[i + 1]))] =
+        r.moments[i];
   if (parts == nullptr) return out;
   for (const distributed_load& d : parts->distributed) {
     json& entry = out["uniform"].emplace_back();
@@ -195,11 +208,11 @@ json load_json(const model& m, const resultant& r, const load* parts) {
   return out;
 }
 
-json load_json(const model& m, const load_path& loads, int step, double fraction, bool whole) {
+json load_json(const problem& p, const load_path& loads, int step, double fraction, bool whole) {
   const resultant r = loads.resultant_at(step, fraction);
-  if (!whole && loads.has_many_parts(step)) return load_json(m, r, nullptr);
-  const load l = loads.at(step, fraction);
-  return load_json(m, r, &l);
+  if (!whole && loads.has_many_parts(step)) return load_json(p.geometry, r, nullptr);
+  const load l = load_at(p, step, fraction);
+  return load_json(p.geometry, r, &l);
 }
 
 void put_place(json& entry, const model& m, int node, int other) {
@@ -243,7 +256,7 @@ json support_json(const model& m, const support& at) {
   return entry;
 }
 
-std::size_t placed_nodes_of(const model& m) {
+std::size_t count_of_places(const model& m) {
   const auto* a = std::get_if<assembled>(&m.kind);
   return a != nullptr ? a->places.nodes.size() : nodes(m);
 }
@@ -263,7 +276,7 @@ json structure_json(const problem& p) {
   json out = json::object();
   std::visit([&out](const auto& kind) { put_kind(out, kind); }, p.geometry.kind);
   json& all = out["nodes"] = json::array();
-  for (std::size_t node = 0; node < placed_nodes_of(p.geometry); ++node)
+  for (std::size_t node = 0; node < count_of_places(p.geometry); ++node)
     all.push_back(node_json(p.geometry, node));
   out["supports"] = list_of(p.supports, [&p](const support& s) {
     json entry = support_json(p.geometry, s);
@@ -312,12 +325,12 @@ void put_stiffness(json& step, const stiffness_proof& s) {
 }
 
 json step_json(const step_proof& s) {
-  json step = {{"force", s.numbers.pair_forces},
-               {"reactions", s.numbers.reactions},
-               {"elements", s.numbers.element_values}};
+  json step = {{"force", s.told.numbers.pair_forces},
+               {"reactions", s.told.numbers.reactions},
+               {"elements", s.told.numbers.element_values}};
   if (!s.of_stiffness) return step;  // neither displacements nor statuses are proved
-  step["displacement"] = s.displacement;
-  step["state"] = list_of(s.isep, state_name);
+  step["displacement"] = s.told.displacement;
+  step["state"] = list_of(s.told.isep, state_name);
   step["u"] = sums(s.state);
   step["closed"] = numbered(s.closed);
   step["z"] = sums(s.z);
@@ -336,13 +349,13 @@ std::string reason_without_proof(const std::optional<certificate>& c) {
 
 }  // namespace
 
-std::string proof_json(const problem& p, const certifier& judged) {
+std::string proof_json(const run_result& r) {
   json steps = json::array();
-  for (std::size_t i = 0; i < judged.steps().size(); ++i) {
-    const auto& c = judged.steps()[i];
+  for (std::size_t i = 0; i < r.record.steps.size(); ++i) {
+    const std::optional<certificate>& c = r.record.steps[i].judged;
     json step = {{"step", i + 1}, {"certified", c && c->certified}, {"error", nullptr}};
     if (c && c->proof) {
-      step["error"] = error_json(p, c);
+      step["error"] = error_json(r.what, c);
       step.update(step_json(*c->proof));
     } else {
       step["because"] = reason_without_proof(c);

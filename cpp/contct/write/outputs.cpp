@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "contct/text/strings.hpp"
@@ -66,14 +65,15 @@ void write_outputs(const run& r) {
   if (to.result != nullptr) write_result(r.result, *to.result, to.parts);
   for (output_file* const file : {to.log, to.trace})
     if (file != nullptr) file->finish();
-  if (to.table != nullptr) write_csv(r.result, r.wanted.watched, *to.table, to.pairs);
+  if (to.increments != nullptr) write_csv(r.result, r.wanted.watched, *to.increments, to.pairs);
   if (to.states != nullptr) write_states_csv(r.result, *to.states);
+  if (to.supports != nullptr) write_supports_csv(r.result, *to.supports);
   if (to.envelope != nullptr) write_envelope_csv(r.result, *to.envelope);
   const auto write_all = [](output_file& file, const std::string& text) {
     file.write(text);
     file.finish();
   };
-  if (to.proof != nullptr) write_all(*to.proof, proof_json(r.result.what, r.result.judged));
+  if (to.proof != nullptr) write_all(*to.proof, proof_json(r.result));
   if (to.page != nullptr) write_all(*to.page, run_page(r.result));
 }
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/session/exact_run.hpp"
-#include "contct/session/run.hpp"
+#include "contct/results/exact_run.hpp"
+#include "contct/results/run.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/text/terminal.hpp"
 
@@ -35,17 +35,21 @@ namespace contct {
 
 /// Writes the increments of a run whose recorder keeps states, as CSV (RFC 4180) with all digits, and
 /// finishes the files. `watched` is a node from 0, or -1 for the node with the largest deflection at the ends
-/// of steps. A row of kind "end" is a step that ended without an increment, one of kind "rescue" the state of
-/// a fallback. `pairs` may be null.
+/// of steps. A row of kind "end" is a step that ended without an increment, one of kind "exact" or
+/// "reference" a state of the exact path or of the reference solution. `pairs` may be null.
 void write_csv(const run_result& r, int watched, output_file& increments, output_file* pairs);
 
 /// Writes the states at the ends of steps in the format of write_csv. Beams: the ends of each element, and
-/// the places inside where w, moment or shear is extreme; stress, if section moduli are known. Plates: nodes;
-/// if the thickness is known, the largest von Mises stress of the elements at a node. Matrices: dofs.
+/// the places inside where w, moment or shear is extreme; stress, if section moduli are known. Plates: nodes,
+/// with the moments and stresses that are largest in the elements at the node. Matrices: dofs.
 void write_states_csv(const run_result& r, output_file& out);
 
+/// Writes the numbers of supports, pairs of [[contact]], beds and of the whole structure at the ends of
+/// steps: a row for each entry of these lists and a column for each quantity, with six digits.
+void write_supports_csv(const run_result& r, output_file& out);
+
 /// Writes the least and the largest w, moment and shear along a beam over the states of the envelope, with
-/// their steps: x, w_min, w_min_step, w_max, w_max_step, .. For plates and matrices writes only the headings.
+/// their steps: x, w_min, w_min_step, w_max, w_max_step, .. For plates and matrices writes only "x".
 void write_envelope_csv(const run_result& r, output_file& out);
 
 /// Writes and finishes all requested outputs of a run.

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "contct/number/decimal.hpp"
-#include "contct/session/path_states.hpp"
-#include "contct/session/rule_1989.hpp"
-#include "contct/session/step_results.hpp"
+#include "contct/results/envelope.hpp"
+#include "contct/results/path_states.hpp"
+#include "contct/results/quantities.hpp"
+#include "contct/results/rule_1989.hpp"
 #include "contct/text/strings.hpp"
-#include "contct/write/words.hpp"
 
 namespace contct {
 namespace {
@@ -71,52 +71,87 @@ json envelope_json(const problem& p, const envelope& e, const envelope_curves& a
   json out = {{"states", e.states}};
   for (std::size_t i = 0; i < e.names.size(); ++i)
     out[std::string(e.names[i])] = {{"min", place(e.values[i].least)}, {"max", place(e.values[i].most)}};
-  out["pairs"] = list_of(e.pairs, [i = 0](const auto& force) mutable {
-    return timed({{"pair", ++i}, {"force_max", force.value}}, force);
-  });
-  out["reactions"] = list_of(e.reactions, [&, i = 0](const auto& r) mutable {
-    json entry = support_json(p.geometry, p.supports[i++]);
-    entry.update({{"min", value(r.least)}, {"max", value(r.most)}});
-    return entry;
-  });
+  const auto range = [&value](const envelope::range<double>& r) -> json {
+    return {{"min", value(r.least)}, {"max", value(r.most)}};
+  };
+  json pairs = json::array();
+  json reactions = json::array();
+  json beds = json::array();
+  if (e.states > 0) {
+    reactions = list_of(p.supports, [&p](const support& at) { return support_json(p.geometry, at); });
+    for (std::size_t i = 0; i < p.beds.size(); ++i) beds.push_back({{"bed", i + 1}});
+  }
+  for (const auto& [row, at] : e.lists)
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (row->where == on::pairs)
+        pairs.push_back(timed({{"pair", i + 1}, {"force_max", at[i].most.value}}, at[i].most));
+      if (row->where == on::beds) beds[i][key_in_list(*row)] = range(at[i]);
+      if (row->where == on::supports && at[i].most.step > 0) reactions[i].update(range(at[i]));
+    }
+  out.update({{"pairs", pairs}, {"reactions", reactions}});
+  if (!beds.empty()) out["beds"] = beds;
   if (!along.x.empty()) out["curves"] = curves_json(along);
   return out;
 }
 
+/// The lines of a piece as polynomials in t, the share of the piece's length.
 json piece_json(const element_line& line) {
-  const auto ends = [](const line_polynomial<double>& p) -> json {
-    return {p.front(), polynomial_at(p, 1.0)};
+  const auto polynomial = [](const line_polynomial<double>& p) {
+    return json(std::vector(p.begin(), p.end()));
   };
-  return {{"x", {line.left, line.right}}, {"w", ends(line.w)},         {"theta", ends(line.slope)},
-          {"moment", ends(line.moment)},  {"shear", ends(line.shear)}, {"curvature", line.curvature}};
+  json piece = {{"x", {line.left, line.right}}};
+  for (const line_row& row : along_beam) piece[row.key] = polynomial(line.*row.polynomial);
+  return piece;
 }
 
-/// An element with its results and, unless `m` is null, the coordinates of its nodes.
-json element_json(const model* m, const step_results& results, std::size_t e) {
+/// An element and, unless `m` is null, the coordinates of its nodes.
+json element_json(const model* m, std::size_t e) {
   json entry = {{"element", e + 1}};
-  if (m != nullptr) {
-    for (const int node : nodes_of_element(*m, static_cast<int>(e))) {
-      const place at = place_of_node(*m, node);
-      entry["x"].push_back(at.x);
-      if (std::holds_alternative<plate>(m->kind)) entry["y"].push_back(at.y);
-    }
+  if (m == nullptr) return entry;
+  for (const int node : nodes_of_element(*m, static_cast<int>(e))) {
+    const place at = place_of_node(*m, node);
+    entry["x"].push_back(at.x);
+    if (std::holds_alternative<plate>(m->kind)) entry["y"].push_back(at.y);
   }
-  for (const element_results* const all : {&results.elements, &results.stresses})
-    for (std::size_t i = 0; i < all->names.size(); ++i) entry[std::string(all->names[i])] = all->at(e, i);
-  if (const auto pieces = results.pieces.find(e); pieces != results.pieces.end())
-    entry["pieces"] = list_of(pieces->second, piece_json);
   return entry;
 }
 
+/// The numbers on a list of a state, by their keys.
+class columns {
+ public:
+  columns(const step_results& r, on list) {
+    for (const quantity_row* row : quantities_of(r.what, list))
+      all_.emplace_back(key_in_list(*row), row->values(r));
+  }
+  /// Adds the numbers of entry `i` of `count`; an element has a list of each.
+  void put(json& entry, std::size_t i, std::size_t count) const {
+    for (const auto& [key, values] : all_) {
+      const std::size_t places = values.size() / count;
+      if (places == 1)
+        entry[key] = values[i];
+      else
+        entry[key] = std::vector(values.begin() + i * places, values.begin() + (i + 1) * places);
+    }
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::vector<double>>> all_;
+};
+
 /// The bounds on the errors of a state, including those of pressures and stresses if there are any.
-json errors_json(const problem& p, const std::optional<certificate>& c, const step_results& read) {
+json errors_json(const std::optional<certificate>& c, const step_results& read) {
+  const problem& p = read.what;
   json out = error_json(p, c);
-  if (!p.beds.empty()) out["pressure"] = c && c->proved && c->pressure ? json(*c->pressure) : json(nullptr);
-  if (read.stresses.names.empty()) return out;
+  for (const quantity_row* row : quantities_of(p, on::nodes))
+    if (!row->kind) out[row->key] = c && c->proved && c->pressure ? json(*c->pressure) : json(nullptr);
   double largest = 0.0;
-  for (const value_range& r : read.ranges)
-    if (r.name == "stress" || r.name == "von_mises" || r.name == "s1" || r.name == "s2")
+  bool has_stress = false;
+  for (const value_range& r : read.ranges())
+    if (row_named(p, r.name).in == unit::stress) {
+      has_stress = true;
       largest = std::max(largest, std::abs(r.largest().value));
+    }
+  if (!has_stress) return out;
   const std::optional<double> moment = c && c->proved ? c->error[quantity::moment] : std::nullopt;
   const auto bound = moment ? stress_error(p.geometry, *moment, largest) : std::nullopt;
   out["stress"] = bound ? json(*bound) : json(nullptr);
@@ -139,7 +174,7 @@ json rule_1989_json(const run_result& r) {
   for (const state_difference& d : beside.differences)
     if (d.is_wrong())
       wrong.push_back({{"step", d.step},
-                       {"quantity", quantity_names[static_cast<std::size_t>(d.what)]},
+                       {"quantity", name_of(d.what).key},
                        {"at", d.at},
                        {"value", d.value},
                        {"right", d.right}});
@@ -150,10 +185,23 @@ json rule_1989_json(const run_result& r) {
           {"wrong_steps", wrong}};
 }
 
+json beds_json(const step_results& r) {
+  const columns all(r, on::beds);
+  const std::vector<bed_reading> beds = beds_in(r);
+  json out = json::array();
+  for (std::size_t i = 0; i < beds.size(); ++i) {
+    json& entry = out.emplace_back(json{{"bed", i + 1}});
+    all.put(entry, i, beds.size());
+    entry.back() = range_json(  // the largest pressure with its place, and the least one
+        r.what.geometry, beds[i].pressure);
+  }
+  return out;
+}
+
 /// The combinations, from 0, whose states the page leaves out; empty if the page has room for all. The page
 /// keeps the combinations with an extreme of the envelope, those that failed, and every n-th of the others.
 std::set<std::size_t> ends_left_out(const run_result& r) {
-  const std::vector<step_record>& steps = r.record.steps;
+  const std::vector<solved_step>& steps = r.record.steps;
   const std::size_t room = std::clamp<std::size_t>(2'000'000 / bytes_of_state(r.what), 4, most_pictures);
   if (!starts_from_zero(r.what) || steps.size() <= room) return {};
   std::set<int> named;
@@ -163,14 +211,15 @@ std::set<std::size_t> ends_left_out(const run_result& r) {
     name(v.least);
     name(v.most);
   }
-  const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
-  if (force != e.pairs.end()) name(*force);
-  for (const step_record& s : steps)
-    if (s.end.fraction < 1.0) named.insert(s.end.step);
+  for (const envelope::listed& l : e.lists)
+    if (l.row->where == on::pairs)
+      name(std::ranges::max_element(l.at, {}, [](const auto& at) { return at.most.value; })->most);
+  for (const solved_step& s : steps)
+    if (s.fraction < 1.0) named.insert(s.step);
   std::set<std::size_t> out;
   const std::size_t stride = (steps.size() + room - 1) / room;
   for (std::size_t i = 0; i < steps.size(); ++i)
-    if (i % stride != 0 && !named.contains(steps[i].end.step)) out.insert(i);
+    if (i % stride != 0 && !named.contains(steps[i].step)) out.insert(i);
   return out;
 }
 
@@ -200,7 +249,7 @@ class result_writer {
     for (std::size_t step = 0; step < r_.record.steps.size(); ++step) add_step(step);
     const model& m = r_.what.geometry;
     document_.finish(foot(),
-                     {{"nodes", placed_nodes_of(m), [&m](auto i) { return node_json(m, i); }},
+                     {{"nodes", count_of_places(m), [&m](auto i) { return node_json(m, i); }},
                       {"free_run", r_.free_runs.size(), [this](auto i) { return free_run(r_.free_runs[i]); }},
                       {"calls", r_.record_of_calls().calls.size(),
                        [this](auto i) { return call(r_.record_of_calls().calls[i]); }}});
@@ -208,11 +257,9 @@ class result_writer {
 
  private:
   [[nodiscard]] json head() const {
-    json members = {{"format", "contct-result-1"},
-                    {"title", r_.what.title},
-                    {"units", units_json(r_.what.units)},
-                    {"kernels", r_.kernels},
-                    {"engine", r_.engine}};
+    json members = {
+        {"format", "contct-result-2"}, {"title", r_.what.title}, {"units", units_json(r_.what.units)},
+        {"kernels", r_.kernels},       {"engine", r_.engine},    {"quantities", quantities_json(r_.what)}};
     if (parts_ == result_parts::ends) return members;
     members.update(
         {{"file", r_.file}, {"date", r_.date}, {"words", words()}, {"structure", structure_json(r_.what)}});
@@ -224,7 +271,7 @@ class result_writer {
 
   /// The words that a terminal prints at the end of the run.
   [[nodiscard]] json words() const {
-    return {{"end", joined(end_lines(r_.what, r_.end), ". ")},
+    return {{"end", joined(words_of_ends(r_.what, r_.end), ". ")},
             {"comparison", r_.comparison},
             {"certificate", certificate_summary(r_, r_.status() == "solved")},
             {"complaints", complaints_of(r_)},
@@ -235,20 +282,21 @@ class result_writer {
 
   [[nodiscard]] json load_in(int step, double fraction, bool whole = false) const {
     constexpr int width = 60;
-    json out = load_json(r_.what.geometry, loads_, step, fraction, whole);
+    json out = load_json(r_.what, loads_, step, fraction, whole);
     if (parts_ != result_parts::ends) out["words"] = loads_.words_at(step, fraction, width);
     return out;
   }
 
   /// The pair with the largest contact force, and for each dof of a node (or direction of a matrix's dofs)
   /// the largest reaction.
-  [[nodiscard]] json largest_json(const step_results& read, const structure_state& s) const {
+  [[nodiscard]] json largest_json(const step_results& read) const {
     const problem& p = r_.what;
     json out = {{"reactions", json::array()}};
     const auto size = [](const pair_reading& r) { return std::abs(r.force); };
     if (const auto most = std::ranges::max_element(read.pairs, {}, size); most != read.pairs.end()) {
       const auto i = static_cast<std::size_t>(most - read.pairs.begin());
-      out["pair"] = pair_state_json(p, i, s.isep[i], most->gap, most->force);
+      out["pair"] = pair_state_json(p, i, read.state.isep[i], most->gap, most->force);
+      out["pair"]["face"] = most->face;
     }
     const auto* const a = std::get_if<assembled>(&p.geometry.kind);
     const bool placed = a != nullptr && a->places.known();
@@ -263,76 +311,68 @@ class result_writer {
     return out;
   }
 
-  [[nodiscard]] step_results read(const structure_state& s) const {
-    return results_of(r_.what, loads_.at(s.step, s.fraction), s);
-  }
-
-  /// The lists of a state; `read` and `s` must outlive the lists. Elements have coordinates only if `is_end`.
-  [[nodiscard]] std::vector<json_document::list> lists(const step_results& read, const structure_state& s,
-                                                       bool is_end = false) const {
+  /// The lists of a state; `read` must outlive the lists. Elements have coordinates only if `is_end`. For
+  /// pictures, every element of a beam has its pieces.
+  [[nodiscard]] std::vector<json_document::list> lists(const step_results& read, bool is_end = false) const {
     const problem& p = r_.what;
+    const bool for_pictures = parts_ != result_parts::ends;
+    const std::size_t elements = read.elements.elements();
     return {{"pairs", p.pairs.size(),
-             [&](auto i) {
-               const pair_reading& r = read.pairs[i];
-               json entry = pair_state_json(p, i, s.isep[i], r.gap, r.force);
-               if (r.face != p.pairs[i].face) entry["face"] = r.face;
+             [&, all = columns(read, on::pairs)](auto i) {
+               json entry = pair_json(p, i);
+               entry["state"] = state_name(read.state.isep[i]);
+               all.put(entry, i, p.pairs.size());
                return entry;
              }},
             {"reactions", p.supports.size(), [&](auto i) { return reaction_json(p, i, read.reactions[i]); }},
-            {"elements", read.elements.elements(),
-             [&, m = is_end ? &p.geometry : nullptr](auto i) { return element_json(m, read, i); }}};
+            {"elements", elements,
+             [=, lines = read.lines(), m = is_end ? &p.geometry : nullptr,
+              all = columns(read, on::element_ends)](auto i) {
+               json entry = element_json(m, i);
+               all.put(entry, i, elements);
+               const int e = static_cast<int>(i);
+               if (lines && (for_pictures || lines->is_broken(e)))
+                 entry["pieces"] = list_of(lines->pieces(e), piece_json);
+               return entry;
+             }}};
   }
 
   void add_step(std::size_t number) {
-    const step_record& s = r_.record.steps[number];
+    const solved_step& s = r_.record.steps[number];
     const model& m = r_.what.geometry;
-    const load acting = loads_.at(s.end.step, s.end.fraction);
-    const step_results at_end = results_of(r_.what, acting, s.end);
-    std::vector<double> w(nodes(m));
-    for (int node = 0; node < nodes(m); ++node) w[node] = deflection_of(r_.what, s.end.displacement, node);
-    json members = {
-        {"step", s.end.step}, {"name", r_.what.steps[s.end.step - 1].name}, {"fraction", s.end.fraction}};
-    if (r_.what.steps[s.end.step - 1].from_zero) members["start"] = "zero";
-    for (const load_term& t : r_.what.steps[s.end.step - 1].terms) {
+    const step_results at_end(r_.what, s);
+    json members = {{"step", s.step}, {"name", r_.what.steps[s.step - 1].name}, {"fraction", s.fraction}};
+    if (r_.what.steps[s.step - 1].from_zero) members["start"] = "zero";
+    for (const load_term& t : r_.what.steps[s.step - 1].terms) {
       if (t.at)
         members["train"] = {{"name", t.name}, {"at", *t.at}, {"factor", t.factor}};
       else
         members["terms"][t.name] = t.factor;
     }
     const bool whole = !left_out_.contains(number);
-    if (whole)
-      members.update({{"increments", nullptr},
-                      {"w", w},
-                      {"displacement", s.end.displacement},
+    members["increments"] = whole ? json(nullptr) : json::array();
+    if (whole) {
+      for (const quantity_row* row : quantities_of(r_.what, on::nodes))
+        members[row->key] = row->values(at_end);
+      members.update({{"displacement", s.displacement},
                       {"pairs", nullptr},
                       {"reactions", nullptr},
                       {"elements", nullptr}});
-    else
-      members["increments"] = json::array();
-    members.update(
-        {{"extremes", extremes_json(m, at_end.ranges)},
-         {"extremes_at", ranges_are_at(m)},
-         {"beds", list_of(beds_in(r_.what, at_end, s.end), [&m, i = 0](const bed_reading& b) mutable -> json {
-            return {{"bed", ++i},
-                    {"force", b.force},
-                    {"pressure", range_json(m, b.pressure)},
-                    {"contact", b.contact}};
-          })}});
-    if (const auto sums = balance_of(r_.what, acting, at_end))
-      members["balance"] = {
-          {"loads", sums->loads}, {"reactions", sums->reactions}, {"contact", sums->contact}};
+    }
+    members.update({{"extremes", extremes_json(m, at_end.ranges())},
+                    {"extremes_at", places_of_extremes(m)},
+                    {"beds", beds_json(at_end)}});
+    if (!std::holds_alternative<assembled>(m.kind))
+      columns(at_end, on::structure).put(members["balance"], 0, 1);
     if (parts_ != result_parts::ends)
-      members.update(
-          {{"load", load_in(s.end.step, s.end.fraction, true)}, {"largest", largest_json(at_end, s.end)}});
-    if (s.from_fallback) members["ended_by"] = "oracle";
-    if (s.from_exact_path) members["ended_by"] = "exact";
-    const std::optional<certificate>& judged = r_.judged.steps()[number];
+      members.update({{"load", load_in(s.step, s.fraction, true)}, {"largest", largest_json(at_end)}});
+    if (s.from != origin::path) members["ended_by"] = s.from == origin::reference ? "reference" : "exact";
     members.update({{"rcond", s.rcond},
-                    {"digits", judged ? json(digits_of(*judged)) : json(nullptr)},
-                    {"error", errors_json(r_.what, judged, at_end)},
-                    {"certificate", certificate_json(judged)}});
+                    {"digits", s.judged ? json(digits_of(*s.judged)) : json(nullptr)},
+                    {"error", errors_json(s.judged, at_end)},
+                    {"certificate", certificate_json(s)}});
     std::vector<json_document::list> all;
-    if (whole) all = lists(at_end, s.end, true);
+    if (whole) all = lists(at_end, true);
     if (whole)
       all.push_back(
           {"increments", s.increments.size(), [&](auto i) { return increment_of(s.increments[i]); }});
@@ -353,13 +393,15 @@ class result_writer {
 
   void put_state(json& entry, const structure_state& s) const {
     if (s.displacement.empty()) return;
-    const step_results within = read(s);
+    const step_results within(r_.what, s);
     entry["displacement"] = s.displacement;
-    for (const json_document::list& l : lists(within, s)) {
+    for (const quantity_row* row : quantities_of(r_.what, on::nodes))
+      if (!row->kind) entry[row->key] = row->values(within);  // the others are displacements
+    for (const json_document::list& l : lists(within)) {
       json& list = entry[std::string(l.name)] = json::array();
       for (std::size_t i = 0; i < l.count; ++i) list.push_back(l.entry(i));
     }
-    entry["extremes"] = extremes_json(r_.what.geometry, within.ranges);
+    entry["extremes"] = extremes_json(r_.what.geometry, within.ranges());
   }
 
   [[nodiscard]] json foot() const {
@@ -377,7 +419,7 @@ class result_writer {
                       {"updates", end.work.updates},
                       {"checks", end.work.checks}}}};
     if (!end.others.empty()) members["end"]["others"] = list_of(end.others, end_json);
-    if (placed_nodes_of(r_.what.geometry) > 0) members["nodes"] = nullptr;
+    if (count_of_places(r_.what.geometry) > 0) members["nodes"] = nullptr;
     if (!r_.free_runs.empty()) members["free_run"] = nullptr;
     const lockstep_on_path* const calls = r_.compared_calls();
     members["lockstep"] = calls != nullptr ? lockstep_json(*calls) : json(nullptr);
@@ -386,7 +428,7 @@ class result_writer {
     for (const mesh_change& c : r_.refined)
       members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
-    members["certified"] = end.status == path_status::solved && r_.judged.all_certified();
+    members["certified"] = end.status == path_status::solved && r_.all_certified();
     members["warnings"] = warnings_of(r_);
     if (parts_ != result_parts::report) return members;
     members.update({{"calls", nullptr},

@@ -1,4 +1,4 @@
-// Writes the result of a run as JSON, format "contct-result-1", and parts for other JSON outputs.
+// Writes the result of a run as JSON, format "contct-result-2", and parts for other JSON outputs.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "contct/session/run.hpp"
-#include "contct/session/step_results.hpp"
+#include "contct/results/run.hpp"
+#include "contct/results/step_results.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/words.hpp"
 
@@ -61,27 +61,30 @@ class json_document {
 /// The unit labels of a problem; null if it has none.
 [[nodiscard]] nlohmann::ordered_json units_json(const unit_labels& units);
 
+/// The rows of the table of quantities that a problem has: key, words, unit and list.
+[[nodiscard]] nlohmann::ordered_json quantities_json(const problem& p);
+
 /// The proved bounds on the errors at the end of a step, { "w": .., .. }; null for a kind without a proof.
 [[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
 
 /// The certificate of a step in result files; null if there is none.
-[[nodiscard]] nlohmann::ordered_json certificate_json(const std::optional<certificate>& c);
+[[nodiscard]] nlohmann::ordered_json certificate_json(const solved_step& s);
 
 /// The numbers of compared calls, compared values and mismatches.
 [[nodiscard]] nlohmann::ordered_json agreement_json(std::int64_t calls, const tally& compared);
 
 /// A load in absolute terms: its resultant `r` and, unless `parts` is null, `uniform` and `point` as in a
-/// problem file. The resultant of a beam has "force" and "moment", that of a plate "force", "moment_wx" and
+/// problem file. The resultant of a beam has a force and a moment, that of a plate a force, "moment_wx" and
 /// "moment_wy", that of a matrix the "sum" of all its loads.
 [[nodiscard]] nlohmann::ordered_json load_json(const model& m, const resultant& r, const load* parts);
 
 /// The load at share `fraction` of step `step` (from 1). Without `whole`, a load of many parts
 /// (load_path::has_many_parts) has only its resultant.
-[[nodiscard]] nlohmann::ordered_json load_json(const model& m, const load_path& loads, int step,
+[[nodiscard]] nlohmann::ordered_json load_json(const problem& p, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 
 /// The number of nodes whose positions are known; and such a node, from 0, with name and coordinates.
-[[nodiscard]] std::size_t placed_nodes_of(const model& m);
+[[nodiscard]] std::size_t count_of_places(const model& m);
 [[nodiscard]] nlohmann::ordered_json node_json(const model& m, std::size_t node);
 
 /// The structure: positions of nodes, stiffnesses, supports and pairs, each in the order of the numbers.
@@ -105,8 +108,8 @@ class json_document {
 void put_place(nlohmann::ordered_json& entry, const model& m, int node, int other = -1);
 
 /// The proof of the error bounds of a run, for independent checkers (--proof): format "contct-proof-2" of
-/// reference/proof-format.md. `judged` must have observed the run, with keep_proofs.
-[[nodiscard]] std::string proof_json(const problem& p, const certifier& judged);
+/// reference/proof-format.md.
+[[nodiscard]] std::string proof_json(const run_result& r);
 
 /// Writes a whole result, and finishes the file.
 void write_result(const run_result& r, output_file& out, result_parts parts = result_parts::ends);

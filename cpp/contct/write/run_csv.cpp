@@ -5,8 +5,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "contct/session/path_states.hpp"
-#include "contct/session/step_results.hpp"
+#include "contct/results/envelope.hpp"
+#include "contct/results/path_states.hpp"
+#include "contct/results/quantities.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
@@ -39,15 +40,16 @@ std::string row_of(const Fields&... fields) {
 std::string csv_row(const run_result& r, const load_path& loads, const path_moment& m,
                     const std::vector<pair_reading>& pairs, int watched, std::optional<double> w) {
   const increment_record* const i = m.increment;
-  const std::string_view kind = i == nullptr ? m.step->from_fallback ? "rescue" : "end"
+  const std::string_view of_end[] = {"end", "exact", "reference"};  // in the order of `origin`
+  const std::string_view kind = i == nullptr ? of_end[static_cast<std::size_t>(m.step->from)]
                                 : i->snaps   ? "snap"
                                              : "load";
   const auto count = [&pairs](pair_state look) {
     return std::ranges::count(pairs, look, &pair_reading::look);
   };
   const auto number = [](const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; };
-  const int step = m.step->end.step;
-  const double fraction = i == nullptr ? m.step->end.fraction : i->fraction;
+  const int step = m.step->step;
+  const double fraction = i == nullptr ? m.step->fraction : i->fraction;
   const bool is_compared = i != nullptr && i->smin && r.compared;
   const std::string_view kernels = !is_compared ? "" : i->equal ? "equal" : "differ";
   return row_of(step, i == nullptr ? 0 : i->number, kind, i == nullptr ? "" : number(i->s), fraction,
@@ -60,16 +62,15 @@ std::string csv_row(const run_result& r, const load_path& loads, const path_mome
 
 /// The readings of all pairs, from the displacements at the end of a step, or from the D of an increment.
 std::vector<pair_reading> readings_at(const problem& p, const load& l, const path_moment& m) {
-  const std::vector<contact_pair> now = pairs_under(p, l);
+  const std::vector<pair_in<double>> now = pairs_under(p, l);
   std::vector<pair_reading> all;
   for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const contact_pair& at = now[i];
+    const pair_in<double>& at = now[i];
     // The D of an increment is relative to moved faces.
-    all.push_back(m.is_end ? reading_of(at, at.seen_in(m.step->end.displacement, dofs_per_node(p.geometry)),
-                                        m.step->end.closed(i))
+    all.push_back(m.is_end ? reading_of(at, at.seen_in(m.step->displacement), m.step->closed(i))
                            : reading_of(at, m.increment->d[i] + (at.face - p.pairs[i].face),
                                         m.increment->isep[i] == in_contact));
-    if (m.is_end && m.step->end.numbers) all.back().force = m.step->end.numbers->pair_forces[i];
+    if (m.is_end && !m.step->numbers.pair_forces.empty()) all.back().force = m.step->numbers.pair_forces[i];
   }
   return all;
 }
@@ -78,9 +79,9 @@ std::vector<pair_reading> readings_at(const problem& p, const load& l, const pat
 int node_that_deflects_most(const run_result& r) {
   double most = 0.0;
   int at = 0;
-  for (const step_record& s : r.record.steps) {
+  for (const solved_step& s : r.record.steps) {
     for (const int node : deflecting_nodes(r.what)) {
-      const double size = std::abs(deflection_of(r.what, s.end.displacement, node));
+      const double size = std::abs(deflection_of(r.what, s.displacement, node));
       if (size > most) at = node;
       most = std::max(most, size);
     }
@@ -88,33 +89,25 @@ int node_that_deflects_most(const run_result& r) {
   return at;
 }
 
-struct end_of_step {
-  const problem& what;
-  const structure_state& state;
-  load acting = load_path(what).at(state.step, state.fraction);
-  step_results read = results_of(what, acting, state);
-  std::string step = fmt::format("{},{}", state.step, csv_field(what.steps[state.step - 1].name));
-  std::vector<double> pressure = bed_pressure(what, read.pairs);
+/// The beginning of each row: number and name of the step.
+std::string step_of(const step_results& r) {
+  return fmt::format("{},{}", r.state.step, csv_field(r.what.steps[r.state.step - 1].name));
+}
 
-  [[nodiscard]] double u(int dof) const { return state.displacement[dof]; }
-  [[nodiscard]] std::string pressure_at(int node) const {
-    return what.beds.empty() ? "" : fmt::format("{}", pressure[node]);
-  }
-};
-
-std::string rows_of(const beam& b, const end_of_step& s) {
-  const beam_lines lines(b, s.acting, s.state.displacement, s.read.elements.values);
+std::string rows_of(const beam& b, const step_results& r) {
+  const beam_lines lines = r.lines().value();
+  const std::vector<double> pressure = bed_pressure(r);
+  const std::span<const double> u = r.state.displacement;
   std::string rows;
   const auto add = [&](int e, const std::string& node, double x, double w, double slope, double moment,
-                       double shear, const std::string& pressure) {
-    const std::string stress =
-        s.read.stresses.names.empty() ? "" : fmt::format(",{}", moment / b.sections[e].W);
-    rows += row_of(s.step, e + 1, node, x, w, slope, moment, shear, pressure + stress);
+                       double shear, const std::string& pressure_here) {
+    const std::string stress = r.stresses().names.empty() ? "" : fmt::format(",{}", moment / b.sections[e].W);
+    rows += row_of(step_of(r), e + 1, node, x, w, slope, moment, shear, pressure_here + stress);
   };
-  const auto add_end = [&](int e, int right, double slope) {
-    const int node = e + right;
-    add(e, std::to_string(node + 1), b.x[node], s.u(2 * node), slope, lines.ends().at(e, 1)[right],
-        lines.ends().at(e, 0)[right], s.pressure_at(node));
+  const auto add_end = [&](int e, std::size_t right, double slope) {
+    const auto node = static_cast<std::size_t>(e) + right;
+    add(e, std::to_string(node + 1), b.x[node], u[2 * node], slope, lines.ends().at(e, 1)[right],
+        lines.ends().at(e, 0)[right], r.what.beds.empty() ? "" : fmt::format("{}", pressure[node]));
   };
   const auto add_inside = [&](int e, const element_line& at, double x, double t) {
     add(e, "", x, polynomial_at(at.w, t), polynomial_at(at.slope, t), polynomial_at(at.moment, t),
@@ -122,56 +115,76 @@ std::string rows_of(const beam& b, const end_of_step& s) {
   };
   for (int e = 0; e < b.elements(); ++e) {
     const std::vector<element_line> pieces = lines.pieces(e);
-    add_end(e, 0, s.u(2 * e + 1));
+    add_end(e, 0, u[2 * e + 1]);
     for (const element_line& at : pieces) {
       if (&at != &pieces.front()) add_inside(e, at, at.left, 0.0);
       for (const double t : extreme_places(at)) add_inside(e, at, at.left + t * at.h, t);
       if (&at != &pieces.back()) add_inside(e, at, at.right, 1.0);
     }
-    // At a hinge, s.u has the slope on the right of the node; here the slope on the left is needed.
-    add_end(e, 1, b.has_hinge(e + 1) ? polynomial_at(pieces.back().slope, 1.0) : s.u(2 * e + 3));
+    // At a hinge, u has the slope on the right of the node; here the slope on the left is needed.
+    add_end(e, 1, b.has_hinge(e + 1) ? polynomial_at(pieces.back().slope, 1.0) : u[2 * e + 3]);
   }
   return rows;
 }
 
-/// The largest von Mises stress at each node, because the elements at a node have different stresses there.
-std::vector<double> von_mises_at_nodes(const model& m, const element_results& stresses) {
+/// [nodes] of the values in the elements at a node, which differ there, the one with the largest magnitude.
+std::vector<double> largest_at_nodes(const model& m, const std::vector<double>& in_elements) {
   std::vector<double> most(nodes(m));
-  for (std::size_t e = 0; e < stresses.elements(); ++e)
-    for (std::size_t corner = 0; const int node : nodes_of_element(m, static_cast<int>(e)))
-      most[node] = std::max(most[node], stresses.at(e, stresses.names.size() - 1)[corner++]);
+  auto value = in_elements.begin();
+  for (int e = 0; e < elements(m); ++e)
+    for (const int node : nodes_of_element(m, e)) {
+      if (std::abs(*value) > std::abs(most[node])) most[node] = *value;
+      ++value;
+    }
   return most;
 }
 
-std::string rows_of(const plate& p, const end_of_step& s) {
-  const std::vector<double> stresses = von_mises_at_nodes(s.what.geometry, s.read.stresses);
+std::string rows_of(const plate& p, const step_results& r) {
+  std::vector<std::vector<double>> columns;
+  for (const quantity_row* row : quantities_of(r.what, on::nodes)) columns.push_back(row->values(r));
+  for (const quantity_row* row : quantities_of(r.what, on::element_ends))
+    columns.push_back(largest_at_nodes(r.what.geometry, row->values(r)));
   std::string rows;
   for (int node = 0; node < p.nodes(); ++node) {
-    const place at = place_of_node(s.what.geometry, node);
-    const std::string stress = s.read.stresses.names.empty() ? "" : fmt::format(",{}", stresses[node]);
-    rows += row_of(s.step, node + 1, at.x, at.y, s.u(3 * node), s.u(3 * node + 1), s.u(3 * node + 2),
-                   s.pressure_at(node) + stress);
+    const place at = place_of_node(r.what.geometry, node);
+    std::string numbers = fmt::format("{}", at.y);
+    for (const std::vector<double>& of : columns) numbers += fmt::format(",{}", of[node]);
+    rows += row_of(step_of(r), node + 1, at.x, numbers);
   }
   return rows;
 }
 
-std::string rows_of(const assembled& a, const end_of_step& s) {
+std::string rows_of(const assembled& a, const step_results& r) {
   std::string rows;
-  for (int dof = 0; dof < a.dofs(); ++dof) rows += row_of(s.step, csv_field(a.label_of(dof)), s.u(dof));
+  for (int dof = 0; dof < a.dofs(); ++dof)
+    rows += row_of(step_of(r), csv_field(a.label_of(dof)), r.state.displacement[dof]);
   return rows;
 }
 
-std::string columns_of(const beam& b) {
-  const bool has_stress = !b.sections.empty() && b.sections.front().W > 0.0;
-  return std::string("element,node,x,w,slope,moment,shear,pressure") + (has_stress ? ",stress" : "");
+/// The node of a support or pair, its dof or surface, and its coordinates; empty fields for other lists.
+std::string place_fields(const problem& p, on list, std::size_t i) {
+  if (list == on::beds || list == on::structure) return ",,,";
+  const bool of_pair = list == on::pairs;
+  const int node = of_pair ? p.pairs[i].node : p.supports[i].node;
+  const std::string_view what =
+      of_pair ? surface_name(p.pairs[i].surface) : std::string_view(dof_names(p.geometry)[p.supports[i].dof]);
+  const std::string name = csv_field(place_name(p.geometry, node));
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return fmt::format("{},{},,", name, what);
+  const place at = place_of_node(p.geometry, node);
+  return fmt::format("{},{},{:.6g},{:.6g}", name, what, at.x, at.y);
 }
 
-std::string columns_of(const plate& p) {
-  return std::string("node,x,y,w,wx,wy,pressure") + (p.thickness > 0.0 ? ",von_mises" : "");
-}
-
-std::string columns_of(const assembled& /*a*/) {
-  return "dof,value";
+std::string columns_of(const problem& p) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return "dof,value";
+  const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
+  std::string columns = of_beam ? "element,node,x,w,slope,moment,shear,pressure" : "node,x,y";
+  const auto add = [&](on list) {
+    for (const quantity_row* row : quantities_of(p, list))
+      if (!of_beam || row->in == unit::stress) columns += "," + std::string(row->key);
+  };
+  add(on::nodes);
+  add(on::element_ends);
+  return columns;
 }
 
 }  // namespace
@@ -186,7 +199,7 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
   if (pairs != nullptr) pairs->write("step,increment,pair,node,surface,state,look,w,gap,force,face\r\n");
   for (const path_moment& m : moments_of(r)) {
     const structure_state s = states.at(m);
-    const std::vector<pair_reading> readings = readings_at(p, loads.at(s.step, s.fraction), m);
+    const std::vector<pair_reading> readings = readings_at(p, load_at(p, s.step, s.fraction), m);
     std::optional<double> w;
     if (!s.displacement.empty()) w = deflection_of(p, s.displacement, watched);
     increments.write(csv_row(r, loads, m, readings, watched, w));
@@ -205,18 +218,50 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
 void write_states_csv(const run_result& r, output_file& out) {
   std::visit(
       [&](const auto& kind) {
-        out.write(row_of("step", "name", columns_of(kind)));
-        for (const step_record& s : r.record.steps) out.write(rows_of(kind, end_of_step{r.what, s.end}));
+        out.write(row_of("step", "name", columns_of(r.what)));
+        for (const solved_step& s : r.record.steps) out.write(rows_of(kind, step_results(r.what, s)));
       },
       r.what.geometry.kind);
+  out.finish();
+}
+
+void write_supports_csv(const run_result& r, output_file& out) {
+  const problem& p = r.what;
+  std::vector<const quantity_row*> columns;
+  std::string heading = "step,name,on,number,place,what,x,y";
+  for (const on list : {on::supports, on::pairs, on::beds, on::structure})
+    for (const quantity_row* row : quantities_of(p, list)) {
+      columns.push_back(row);
+      heading += "," + std::string(row->key);
+    }
+  out.write(row_of(heading));
+  for (const solved_step& s : r.record.steps) {
+    const step_results read(p, s);
+    std::vector<std::vector<double>> numbers;
+    numbers.reserve(columns.size());
+    for (const quantity_row* row : columns) numbers.push_back(row->values(read));
+    for (std::size_t first = 0; first < columns.size(); ++first) {
+      const on list = columns[first]->where;
+      if (first > 0 && columns[first - 1]->where == list) continue;
+      const std::size_t count = list == on::pairs ? contacts_of(p) : numbers[first].size();
+      for (std::size_t i = 0; i < count; ++i) {
+        std::string fields = place_fields(p, list, i);
+        for (std::size_t c = 0; c < columns.size(); ++c)
+          fields += columns[c]->where == list && !std::isnan(numbers[c][i])
+                        ? fmt::format(",{:.6g}", numbers[c][i])
+                        : ",";
+        out.write(row_of(step_of(read), list_name(list), i + 1, fields));
+      }
+    }
+  }
   out.finish();
 }
 
 void write_envelope_csv(const run_result& r, output_file& out) {
   const envelope_curves all = curves_of(r);
   std::string row = "x";
-  for (const std::string_view name : {"w", "moment", "shear"})
-    row += fmt::format(",{0}_min,{0}_min_step,{0}_max,{0}_max_step", name);
+  for (const envelope_curves::curve& c : all.curves)
+    row += fmt::format(",{0}_min,{0}_min_step,{0}_max,{0}_max_step", c.name);
   out.write(row_of(row));
   for (std::size_t i = 0; i < all.x.size(); ++i) {
     row = fmt::format("{}", all.x[i]);

@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
 
-#include "contct/session/step_results.hpp"
+#include "contct/results/quantities.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
 
@@ -38,12 +37,6 @@ std::string data_array(std::string_view name, std::size_t components, const std:
       "</DataArray>\n",
       type, markup_text(name), components, fmt::join(values, " "));
 }
-
-struct read_state {
-  const problem& what;
-  const structure_state& state;
-  step_results read = results_of(what, load_path(what).at(state.step, state.fraction), state);
-};
 
 /// A pair (from 0) that has a cell, the position of its dof, and the node of its other dof (-1: none).
 struct pair_cell {
@@ -80,11 +73,11 @@ std::vector<double> points_of(const problem& p) {
 }
 
 /// The reaction at each dof; 0 at dofs without support.
-std::vector<double> reactions_at_dofs(const read_state& r) {
+std::vector<double> reactions_at_dofs(const step_results& r) {
   std::vector<double> at(r.state.displacement.size());
-  for (std::size_t i = 0; i < r.read.reactions.size(); ++i) {
+  for (std::size_t i = 0; i < r.reactions.size(); ++i) {
     const support& by = r.what.supports[i];
-    at[by.node * dofs_per_node(r.what.geometry) + by.dof] += r.read.reactions[i];
+    at[by.node * dofs_per_node(r.what.geometry) + by.dof] += r.reactions[i];
   }
   return at;
 }
@@ -96,7 +89,7 @@ struct point_arrays {
 };
 
 /// Displacements, reactions and, if there are any, rotations. Components without a dof are 0.
-point_arrays mesh_point_data(const placed_nodes& places, const read_state& r) {
+point_arrays mesh_point_data(const placed_nodes& places, const step_results& r) {
   const std::vector<double> reacting = reactions_at_dofs(r);
   std::vector<double> displacement(3 * places.nodes.size());
   std::vector<double> rotation(displacement.size());
@@ -115,53 +108,39 @@ point_arrays mesh_point_data(const placed_nodes& places, const read_state& r) {
                                             data_array("reaction", 3, reaction)};
 }
 
-point_arrays point_data(const read_state& r) {
+point_arrays point_data(const step_results& r) {
   const model& m = r.what.geometry;
   if (const auto* a = std::get_if<assembled>(&m.kind)) return mesh_point_data(a->places, r);
-  const auto names = dof_names(m);
-  const std::vector<double>& u = r.state.displacement;
   std::vector<double> displacement;
-  std::vector<std::vector<double>> by_dof(names.size());
-  for (std::size_t i = 0; i < u.size(); i += names.size()) {
-    displacement.insert(displacement.end(), {0.0, 0.0, u[i]});
-    for (std::size_t dof = 0; dof < names.size(); ++dof) by_dof[dof].push_back(u[i + dof]);
-  }
+  for (int node = 0; node < nodes(m); ++node)
+    displacement.insert(displacement.end(), {0.0, 0.0, deflection_of(r.what, r.state.displacement, node)});
   std::string arrays = data_array("displacement", 3, displacement);
-  for (std::size_t dof = 0; dof < names.size(); ++dof) arrays += data_array(names[dof], 1, by_dof[dof]);
-  arrays += data_array("reaction", names.size(), reactions_at_dofs(r));
-  if (!r.what.beds.empty()) arrays += data_array("pressure", 1, bed_pressure(r.what, r.read.pairs));
+  for (const quantity_row* row : quantities_of(r.what, on::nodes))
+    arrays += data_array(row->key, 1, row->values(r));
+  arrays += data_array("reaction", dofs_per_node(m), reactions_at_dofs(r));
   return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
 
 /// The arrays at cells: first elements, then pairs. Arrays about pairs have one constant for all elements;
 /// arrays of element results have zeros for pairs.
-std::string cell_data(const read_state& r, std::size_t elements, const std::vector<pair_cell>& cells) {
-  const auto column = [&](const char* name, auto of_elements, auto of_pair) {
+std::string cell_data(const step_results& r, std::size_t elements, const std::vector<pair_cell>& cells) {
+  const auto column = [&](std::string_view name, auto of_elements, auto of_pair) {
     std::vector<decltype(of_elements)> values(elements, of_elements);
     for (const pair_cell& c : cells) values.push_back(of_pair(c));
     return data_array(name, 1, values);
   };
-  const std::vector<contact_pair>& pairs = r.what.pairs;
-  const std::vector<pair_reading>& now = r.read.pairs;
   std::string arrays =
       column("pair", 0, [](const pair_cell& c) { return static_cast<int>(c.pair) + 1; }) +
-      column("state", -1, [&](const pair_cell& c) { return static_cast<int>(now[c.pair].look); }) +
-      column("surface", 0, [&](const pair_cell& c) { return pairs[c.pair].surface; }) +
-      column("direction", 0, [](const pair_cell& c) { return c.at.direction; }) +
-      column("face", 0.0, [&](const pair_cell& c) { return now[c.pair].face; }) +
-      column("gap", 0.0, [&](const pair_cell& c) { return now[c.pair].gap; }) +
-      column("force", 0.0, [&](const pair_cell& c) { return now[c.pair].force; });
-  for (const element_results* const all : {&r.read.elements, &r.read.stresses}) {
-    const auto places = static_cast<std::size_t>(all->places);
-    for (std::size_t name = 0; name < all->names.size(); ++name) {
-      std::vector<double> values;
-      for (std::size_t e = 0; e < elements; ++e) {
-        const auto at = all->at(e, name);
-        values.insert(values.end(), at.begin(), at.end());
-      }
-      values.resize((elements + cells.size()) * places);
-      arrays += data_array(all->names[name], places, values);
-    }
+      column("state", -1, [&](const pair_cell& c) { return static_cast<int>(r.pairs[c.pair].look); }) +
+      column("surface", 0, [&](const pair_cell& c) { return r.what.pairs[c.pair].surface; }) +
+      column("direction", 0, [](const pair_cell& c) { return c.at.direction; });
+  for (const quantity_row* row : quantities_of(r.what, on::pairs))
+    arrays += column(row->key, 0.0, [of = row->values(r)](const pair_cell& c) { return of[c.pair]; });
+  for (const quantity_row* row : quantities_of(r.what, on::element_ends)) {
+    std::vector<double> values = row->values(r);
+    const std::size_t places = values.size() / elements;
+    values.resize((elements + cells.size()) * places);
+    arrays += data_array(row->key, places, values);
   }
   return arrays;
 }
@@ -208,7 +187,7 @@ std::string file_of(std::string_view type, std::string_view content) {
 }  // namespace
 
 std::string vtu_of_state(const problem& p, const structure_state& s) {
-  const read_state r{p, s};
+  const step_results r(p, s);
   const std::vector<pair_cell> pairs = pair_cells(p);
   std::vector<std::vector<int>> cells = elements_of(p.geometry);
   const std::size_t elements = cells.size();

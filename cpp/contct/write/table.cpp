@@ -6,9 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "contct/session/path_states.hpp"
-#include "contct/session/rule_1989.hpp"
-#include "contct/session/step_results.hpp"
+#include "contct/results/envelope.hpp"
+#include "contct/results/path_states.hpp"
+#include "contct/results/quantities.hpp"
+#include "contct/results/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/outputs.hpp"
 #include "contct/write/words.hpp"
@@ -50,11 +51,10 @@ int widest_event(const problem& p) {
 }
 
 /// The range of the moment (mx, my or mxy of a plate) with the largest magnitude; null without moments.
-const value_range* bending(const std::vector<value_range>& ranges) {
+const value_range* bending(const problem& p, const std::vector<value_range>& ranges) {
   const value_range* most = nullptr;
   for (const value_range& r : ranges) {
-    const bool is_moment = r.name == "moment" || r.name == "mx" || r.name == "my" || r.name == "mxy";
-    if (is_moment &&
+    if (row_named(p, r.name).kind == quantity::moment &&
         (most == nullptr || std::abs(r.largest().value) > (1 + 1e-9) * std::abs(most->largest().value)))
       most = &r;
   }
@@ -63,7 +63,8 @@ const value_range* bending(const std::vector<value_range>& ranges) {
 
 /// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
 /// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and the other extremes.
-std::vector<std::string> largest_lines(const problem& p, const step_results& r, int width, bool all) {
+std::vector<std::string> largest_lines(const step_results& r, int width, bool all) {
+  const problem& p = r.what;
   std::vector<std::string> lines;
   const auto add = [&](std::string_view name, double value, const std::string& unit, const std::string& at) {
     const std::string with_unit = fmt::format("{:.6g}{}", value + 0.0, unit);  // never -0
@@ -76,107 +77,60 @@ std::vector<std::string> largest_lines(const problem& p, const step_results& r, 
     const placed_value& first = v.largest();
     const placed_value& other = &first == &v.least ? v.most : v.least;
     const double size = std::abs(first.value);
-    add(name, first.value, unit_words(p, v.name, first.node),
+    add(name, first.value, unit_words(p, row_named(p, v.name).in, first.node),
         size == 0.0 ? "" : place_words(p.geometry, first));
     // If there is only rounding beside the largest value, there is no second extreme.
     if (all && std::abs(other.value) > tie_of(0.0, size) &&
         std::abs(other.value - first.value) > tie_of(size, size))
-      add("and", other.value, unit_words(p, v.name, other.node), place_words(p.geometry, other));
+      add("and", other.value, unit_words(p, row_named(p, v.name).in, other.node),
+          place_words(p.geometry, other));
   };
   const auto add_force = [&](std::string_view name, double force, int node, const std::string& at) {
-    add(name, force, unit_words(p, "force", node), force == 0.0 ? "" : at);
+    add(name, force, unit_words(p, unit::force, node), force == 0.0 ? "" : at);
   };
   const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
-  if (!r.ranges.empty()) add_range(of_matrix ? "u" : "w", r.ranges.front());
-  if (const value_range* const m = bending(r.ranges)) add_range(m->name, *m);
-  for (const value_range& v : r.ranges) {
-    if ((all && v.name == "shear") || v.name == "stress") add_range(v.name, v);
-    if (v.name == "von_mises")
-      add("von Mises", v.most.value, unit_words(p, v.name), place_words(p.geometry, v.most));
+  const std::vector<value_range>& ranges = r.ranges();
+  if (!ranges.empty()) add_range(of_matrix ? "u" : "w", ranges.front());
+  if (const value_range* const m = bending(p, ranges)) add_range(m->name, *m);
+  for (const value_range& v : ranges) {
+    const quantity_row& row = row_named(p, v.name);
+    const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
+    if ((all && row.kind == quantity::shear) || (of_beam && row.in == unit::stress)) add_range(v.name, v);
+    if (!of_beam && row.in == unit::stress && &v == &ranges.back())
+      add("von Mises", v.most.value, unit_words(p, row.in), place_words(p.geometry, v.most));
   }
   if (const auto pair = r.hardest_pair())
     add_force("contact force", r.pairs[*pair].force, p.pairs[*pair].node,
               fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
   std::string_view name = "reaction";
-  for (const std::size_t i : r.hardest_supports(p))
+  for (const std::size_t i : r.hardest_supports())
     add_force(std::exchange(name, "and"), r.reactions[i], p.supports[i].node,
               place_words(p.geometry, p.supports[i].node));
   constexpr std::size_t most_faces = 4;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < r.pairs.size() && all; ++i)
     if (r.pairs[i].face != p.pairs[i].face && ++moved <= most_faces)
-      add("moved face", r.pairs[i].face, unit_words(p, "w", p.pairs[i].node),
+      add("moved face", r.pairs[i].face, unit_words(p, unit::length, p.pairs[i].node),
           fmt::format("pair {}, {}", i + 1, face_words(p, i)));
   if (moved > most_faces) lines.push_back(fmt::format("{} more moved faces in --json", moved - most_faces));
   return lines;
 }
 
 /// The sums of loads, reactions and contact forces, and the results of each bed.
-std::vector<std::string> sum_lines(const problem& p, const load& acting, const structure_state& s,
-                                   const step_results& r) {
+std::vector<std::string> sum_lines(const step_results& r) {
+  const problem& p = r.what;
   std::vector<std::string> lines;
-  const auto words = [&](std::string_view name, double sum) {
-    return fmt::format("{} {:.6g}{}", name, sum + 0.0, unit_words(p, "force"));
-  };
-  if (const auto sums = balance_of(p, acting, r))
-    lines.push_back(fmt::format("{:<14}{}, {}, {}", "sums", words("loads", sums->loads),
-                                words("reactions", sums->reactions), words("contact", sums->contact)));
-  for (int number = 0; const bed_reading& b : beds_in(p, r, s))
-    lines.push_back(fmt::format("{:<14}pressure {:.6g} to {:.6g}{}, largest at {}; {:.6g}{} in contact",
-                                fmt::format("bed {}", ++number), b.pressure.least.value,
-                                b.pressure.most.value, unit_words(p, "pressure"),
-                                place_words(p.geometry, b.pressure.most), b.contact,
-                                unit_words(p, "contact")));
+  const auto number = [&p](double x, unit in) { return fmt::format("{:.6g}{}", x + 0.0, unit_words(p, in)); };
+  std::vector<std::string> sums;
+  for (const quantity_row* row : quantities_of(p, on::structure))
+    sums.push_back(fmt::format("{} {}", key_in_list(*row), number(row->values(r)[0], row->in)));
+  if (!sums.empty()) lines.push_back(fmt::format("{:<14}{}", "sums", joined(sums, ", ")));
+  for (int count = 0; const bed_reading& b : beds_in(r))
+    lines.push_back(fmt::format("{:<14}force {}, pressure {:.6g} to {}, largest at {}; {} in contact",
+                                fmt::format("bed {}", ++count), number(b.force, unit::force),
+                                b.pressure.least.value, number(b.pressure.most.value, unit::pressure),
+                                place_words(p.geometry, b.pressure.most), number(b.contact, unit::extent)));
   return lines;
-}
-
-/// Returns the coordinates of a node of a beam or plate for the end of a row: " 2.5" or " 2.5, 1".
-std::string place_column(const model& m, int node) {
-  if (std::holds_alternative<assembled>(m.kind)) return "";
-  const place at = place_of_node(m, node);
-  return fmt::format(" {:.6g}", at.x) +
-         (std::holds_alternative<plate>(m.kind) ? fmt::format(", {:.6g}", at.y) : "");
-}
-
-/// Tables of all pairs, reactions and ends of elements, 80 columns wide.
-std::string detail_tables(const problem& p, const structure_state& s, const step_results& r) {
-  std::string text;
-  const auto line = [&text]<class... A>(fmt::format_string<A...> words, A&&... all) {
-    text += fmt::format(words, std::forward<A>(all)...) + '\n';
-  };
-  const model& m = p.geometry;
-  const std::string_view node = node_name(m);
-  const std::string_view where = std::holds_alternative<beam>(m.kind) ? " x"
-                                 : r.elements.places > 0              ? " x, y"
-                                                                      : "";
-  if (!r.pairs.empty())
-    line("{:>8} {:>10}  {:<8} {:<10} {:>14} {:>14}{}", "pair", node, "surface", "state", "gap", "force",
-         where);
-  for (std::size_t i = 0; i < r.pairs.size(); ++i)
-    line("{:>8} {:>10}  {:<8} {:<10} {:>14.7g} {:>14.7g}{}", i + 1,
-         on_one_line(place_name(p.geometry, p.pairs[i].node)), surface_name(p.pairs[i].surface),
-         state_name(s.isep[i]), r.pairs[i].gap, r.pairs[i].force, place_column(m, p.pairs[i].node));
-  if (!r.reactions.empty()) line("{:>19}  {:<8} {:>25}{}", node, "dof", "reaction", where);
-  for (std::size_t i = 0; i < r.reactions.size(); ++i)
-    line("{:>19}  {:<8} {:>25.7g}{}", on_one_line(place_name(p.geometry, p.supports[i].node)),
-         dof_names(p.geometry)[p.supports[i].dof], r.reactions[i], place_column(m, p.supports[i].node));
-  if (r.elements.elements() == 0) return text;
-  line("{:>8}  {:<8} {}", "element", "at its",
-       r.elements.places == 2 ? "left and right end" : "four corners");
-  for (std::size_t e = 0; e < r.elements.elements(); ++e) {
-    const auto corners = nodes_of_element(m, static_cast<int>(e));
-    text += fmt::format("{:>8}  {:<9}", e + 1, where.substr(1));
-    for (const int corner : corners) text += fmt::format(" {:>14}", place_column(m, corner).substr(1));
-    text += '\n';
-    for (const element_results* const all : {&r.elements, &r.stresses}) {
-      for (std::size_t name = 0; name < all->names.size(); ++name) {
-        std::string row = fmt::format("{:>8}  {:<9}", "", all->names[name]);
-        for (const double value : all->at(e, name)) row += fmt::format(" {:>14.7g}", value);
-        text += row + '\n';
-      }
-    }
-  }
-  return text;
 }
 
 /// Returns the events that differ: "1989: make 3 at 0.51" (share of the step), "1989: no make 3" (pair 3).
@@ -237,7 +191,7 @@ class table_printer {
 
   /// Prints a step. Increments at the beginning of the step (see first_load) share one row.
   void print_step(std::size_t number) {
-    const step_record& s = run_.record.steps[number];
+    const solved_step& s = run_.record.steps[number];
     const increments all = s.increments;
     for (std::size_t i = 0; i < all.size();) {
       const std::size_t first = i;
@@ -249,7 +203,7 @@ class table_printer {
         print_row(row, row.equal, events_of(row), beside(number, first, i - first));
       }
     }
-    print_end(s, run_.judged.steps()[number]);
+    print_end(s);
   }
 
   /// In a run of both rules, merges the increments from `i` on that have no load between them into one row,
@@ -342,32 +296,31 @@ class table_printer {
       text_ += fmt::format("{:{}}{}\n", "", indent_, more);
   }
 
-  void print_end(const step_record& s, const std::optional<certificate>& judged) {
+  void print_end(const solved_step& s) {
     std::string label = events_below_ ? "end " : "   end  ";
     const int width = terminal_.width - static_cast<int>(label.size());
     std::vector<std::string> items = {
-        fmt::format("{} of {} in contact", s.end.pairs_in_contact(), s.end.isep.size())};
-    if (judged) items.push_back(digits_words(*judged));
-    items.emplace_back(!judged ? "no certificate" : judged->certified ? "certified" : "NOT certified");
-    if (const std::string& name = problem_.steps[s.end.step - 1].name; !name.empty())
+        fmt::format("{} of {} in contact", s.pairs_in_contact(), s.isep.size())};
+    if (s.judged) items.push_back(digits_words(*s.judged));
+    items.emplace_back(!s.judged ? "no certificate" : s.judged->certified ? "certified" : "NOT certified");
+    if (const std::string& name = problem_.steps[s.step - 1].name; !name.empty())
       items.insert(items.begin(), on_one_line(name));
-    if (s.from_exact_path)
+    if (s.from == origin::exact_path)
       items.emplace_back("from the exact path");
-    else if (s.from_fallback)
+    else if (s.from == origin::reference)
       items.emplace_back("from the reference solution");
     for (const std::string& line : wrap(items, width)) {
       text_ += label + line + '\n';
       label.assign(label.size(), ' ');
     }
-    const load acting = loads_.at(s.end.step, s.end.fraction);
-    const step_results r = results_of(problem_, acting, s.end);
-    for (std::size_t i = 0; i < r.ranges.size(); ++i) extremes_[i].emplace_back(s.end.step, r.ranges[i]);
-    std::vector<std::string> lines = largest_lines(problem_, r, width, whole_ends_);
-    if (whole_ends_) std::ranges::move(sum_lines(problem_, acting, s.end, r), std::back_inserter(lines));
+    const step_results r(problem_, s);
+    for (std::size_t i = 0; i < r.ranges().size(); ++i) extremes_[i].emplace_back(s.step, r.ranges()[i]);
+    std::vector<std::string> lines = largest_lines(r, width, whole_ends_);
+    if (whole_ends_) std::ranges::move(sum_lines(r), std::back_inserter(lines));
     for (const std::string& unbroken : lines)
       for (const std::string& line : wrap({unbroken}, width))
         text_ += painted(terminal_, paint::strong, label + line) + '\n';
-    if (detail_) text_ += detail_tables(problem_, s.end, r);
+    if (detail_) text_ += detail_tables(r);
   }
 
   [[nodiscard]] std::vector<std::string> legend() const {
@@ -380,8 +333,8 @@ class table_printer {
     if (headed_ && run_.beside) words.emplace_back("1989: whether that rule has the same events");
     if (run_.record.steps.empty()) return words;
     words.emplace_back("digits: correct in every number");
-    if (const auto* const b = std::get_if<beam>(&problem_.geometry.kind);
-        b != nullptr && !b->sections.empty() && b->sections.front().W > 0.0)
+    const auto rows = quantities_of(problem_, on::element_ends);
+    if (std::holds_alternative<beam>(problem_.geometry.kind) && rows.back()->in == unit::stress)
       words.emplace_back("stress: M / W of the lower fibre; the upper fibre has the opposite sign");
     return words;
   }
@@ -393,26 +346,24 @@ class table_printer {
     for (const load& l : problem_.steps) width = std::max(width, std::min(l.name.size(), name_width_at_most));
     print_heading(fmt::format("{:<{}}  {:>4}  {:>7}  {:<38} {}", "combination", width, "incr", "contact",
                               "largest", "at its end"));
-    for (std::size_t i = 0; i < run_.record.steps.size(); ++i) {
-      const step_record& s = run_.record.steps[i];
-      const std::optional<certificate>& judged = run_.judged.steps()[i];
-      const std::string verdict = s.end.fraction < 1.0
-                                      ? "share " + share_words(s.end.fraction) + " of its load"
+    for (const solved_step& s : run_.record.steps) {
+      const std::optional<certificate>& judged = s.judged;
+      const std::string verdict = s.fraction < 1.0    ? "share " + share_words(s.fraction) + " of its load"
                                   : !judged           ? "no equilibrium"
                                   : judged->certified ? "certified, " + digits_words(*judged)
                                                       : "NOT certified";
-      const step_results r = results_of(problem_, loads_.at(s.end.step, s.end.fraction), s.end);
+      const step_results r(problem_, s);
       std::string largest;
       std::string place;
-      if (!r.ranges.empty()) {
-        const value_range* const moment = bending(r.ranges);
-        const value_range& range = moment != nullptr ? *moment : r.ranges.front();
+      if (!r.ranges().empty()) {
+        const value_range* const moment = bending(problem_, r.ranges());
+        const value_range& range = moment != nullptr ? *moment : r.ranges().front();
         largest = fmt::format("{} {:.6g}", shown_name(range.name), range.largest().value + 0.0);
         place = place_words(problem_.geometry, range.largest());
       }
       text_ += fmt::format("{:<{}}  {:>4}  {:>7}  {:<20}{:<18} {}\n",
-                           printable(problem_.steps[s.end.step - 1].name, name_width_at_most - 3), width,
-                           s.increments.size(), s.end.pairs_in_contact(), largest, place, verdict);
+                           printable(problem_.steps[s.step - 1].name, name_width_at_most - 3), width,
+                           s.increments.size(), s.pairs_in_contact(), largest, place, verdict);
     }
   }
 
@@ -421,10 +372,10 @@ class table_printer {
     const envelope e = envelope_of(run_);
     if (e.states == 0) return;
     std::string lines;
-    const auto add = [&](const std::string& what, const placed_value& at, int step, std::string_view quantity,
+    const auto add = [&](const std::string& what, const placed_value& at, int step, unit in,
                          const std::string& before = "") {
       lines += fmt::format("{:<17} {:<19} {:<22} {}\n", what,
-                           fmt::format("{:.6g}{}", at.value + 0.0, unit_words(problem_, quantity, at.node)),
+                           fmt::format("{:.6g}{}", at.value + 0.0, unit_words(problem_, in, at.node)),
                            before + place_words(problem_.geometry, at),
                            on_one_line(problem_.steps[step - 1].name));
     };
@@ -435,17 +386,33 @@ class table_printer {
     for (std::size_t i = 0; i < e.names.size(); ++i)
       for (const auto& [word, at] :
            {std::pair("least", &e.values[i].least), std::pair("largest", &e.values[i].most)})
-        add(fmt::format("{} {}", word, shown_name(e.names[i])), at->value, at->step, e.names[i]);
-    const auto force = std::ranges::max_element(e.pairs, {}, [](const auto& at) { return at.value; });
-    if (const auto pair = static_cast<std::size_t>(force - e.pairs.begin());
-        force != e.pairs.end() && force->value > 0.0)
-      add("largest contact", at_node(force->value, problem_.pairs[pair].node), force->step, "force",
-          fmt::format("pair {}, ", pair + 1));
-    for (const int side : {-1, 1}) {
-      const auto of = [&](std::size_t i) { return side < 0 ? e.reactions[i].least : e.reactions[i].most; };
-      if (const auto i = extreme_support(problem_, side, [&of](std::size_t k) { return of(k).value; }))
-        add(side < 0 ? "least reaction" : "largest reaction",
-            at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, "force");
+        add(fmt::format("{} {}", word, shown_name(e.names[i])), at->value, at->step,
+            row_named(problem_, e.names[i]).in);
+    for (const envelope::listed& list : e.lists) {
+      const quantity_row* const row = list.row;
+      const auto& at = list.at;
+      if (row->where == on::pairs) {
+        const auto force = std::ranges::max_element(at, {}, [](const auto& r) { return r.most.value; });
+        const auto pair = static_cast<std::size_t>(force - at.begin());
+        if (force->most.value > 0.0)
+          add("largest contact", at_node(force->most.value, problem_.pairs[pair].node), force->most.step,
+              row->in, fmt::format("pair {}, ", pair + 1));
+      } else if (row->where == on::supports && row->in == unit::force) {
+        for (const int side : {-1, 1}) {
+          const auto of = [&](std::size_t i) { return side < 0 ? at[i].least : at[i].most; };
+          if (const auto i = extreme_support(problem_, side, [&of](std::size_t k) { return of(k).value; }))
+            add(side < 0 ? "least reaction" : "largest reaction",
+                at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, row->in);
+        }
+      } else if (row->where == on::beds) {
+        for (std::size_t bed = 0; bed < at.size(); ++bed)
+          for (const auto& [word, found] :
+               {std::pair("least", &at[bed].least), std::pair("largest", &at[bed].most)})
+            lines += fmt::format("{:<17} {:<19} {:<22} {}\n", fmt::format("{} {}", word, key_in_list(*row)),
+                                 fmt::format("{:.6g}{}", found->value + 0.0, unit_words(problem_, row->in)),
+                                 fmt::format("bed {}", bed + 1),
+                                 on_one_line(problem_.steps[found->step - 1].name));
+      }
     }
     text_ += '\n';
     print_heading("all combinations");

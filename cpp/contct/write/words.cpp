@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "contct/kernel/registry.hpp"
-#include "contct/matrix/cholesky.hpp"
-#include "contct/session/rule_1989.hpp"
+#include "contct/linear/cholesky.hpp"
+#include "contct/results/quantities.hpp"
+#include "contct/results/rule_1989.hpp"
 #include "contct/text/strings.hpp"
 
 namespace contct {
@@ -33,17 +34,7 @@ std::string worst_until(int step, const certificate& c, const problem& p, const 
   return fmt::format(
       "; in increment {}.{} {} {} contact {:.2g}{} from its face ({} of the largest deflection)", worst->step,
       worst->number, pair_words(p, worst->what.pair), worst->what.what == change::make ? "made" : "broke",
-      worst->distance, unit_words(p, "w"), percent_words(worst->share));
-}
-
-/// Keeps the first 12 lines, because there may be hundreds of combinations.
-std::vector<std::string> first_of(std::vector<std::string> lines) {
-  constexpr std::size_t most = 12;
-  if (lines.size() <= most) return lines;
-  const std::size_t more = lines.size() - most;
-  lines.resize(most);
-  lines.push_back(fmt::format("and {} more combinations; --json has all of them", more));
-  return lines;
+      worst->distance, unit_words(p, unit::length), percent_words(worst->share));
 }
 
 std::string allowed_words(const certificate& c) {
@@ -53,10 +44,20 @@ std::string allowed_words(const certificate& c) {
 /// The pair in contact that pulls most, in words; empty if none pulls.
 std::string pull_words(const certificate& c, const problem& p) {
   if (c.pulling < 0) return "";
-  return fmt::format("; {} pulls with {:.3g}{}", pair_words(p, c.pulling), c.pull, unit_words(p, "force"));
+  return fmt::format("; {} pulls with {:.3g}{}", pair_words(p, c.pulling), c.pull,
+                     unit_words(p, unit::force));
 }
 
 }  // namespace
+
+std::vector<std::string> first_of(std::vector<std::string> lines) {
+  constexpr std::size_t most = 12;
+  if (lines.size() <= most) return lines;
+  const std::size_t more = lines.size() - most;
+  lines.resize(most);
+  lines.push_back(fmt::format("and {} more combinations; --json has all of them", more));
+  return lines;
+}
 
 std::string event_names(std::span<const event> events) {
   std::vector<std::string> names;
@@ -93,19 +94,16 @@ std::string step_words(const problem& p, int step) {
 }
 
 std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
-  const auto& steps = r.judged.steps();
-  const auto name_of = [&](auto step) {
-    return step_words(r.what, r.record.steps[step - steps.begin()].end.step);
-  };
-  const auto bad = std::ranges::find_if(steps, [](const auto& c) { return c && !c->certified; });
-  if (bad != steps.end()) {
-    return {fmt::format("{} is NOT certified: {}", name_of(bad), (*bad)->problem),
-            "allowed: " + allowed_words(**bad)};
-  }
+  const std::vector<solved_step>& steps = r.record.steps;
+  const auto bad =
+      std::ranges::find_if(steps, [](const auto& s) { return s.judged && !s.judged->certified; });
+  if (bad != steps.end())
+    return {fmt::format("{} is NOT certified: {}", step_words(r.what, bad->step), bad->judged->problem),
+            "allowed: " + allowed_words(*bad->judged)};
   double worst = 0.0;
-  const auto certified = std::ranges::count_if(steps, [](const auto& c) { return c.has_value(); });
-  for (const auto& c : steps)
-    if (c) worst = std::max(worst, c->worst_share);
+  const auto certified = std::ranges::count_if(steps, [](const auto& s) { return s.judged.has_value(); });
+  for (const solved_step& s : steps)
+    if (s.judged) worst = std::max(worst, s.judged->worst_share);
   if (!solved && starts_from_zero(r.what))
     return {fmt::format("the run is NOT certified: only {} of {} combinations reach their full load",
                         certified, r.what.steps.size()),
@@ -121,23 +119,21 @@ std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
                                               : fmt::format("all {} final states are", certified);
   std::vector<std::string> items = {states + " certified",
                                     "proved: " + digits_words(worst) + " of every number"};
-  const auto loose = std::ranges::find_if(steps, [](const auto& c) { return c && !c->unique; });
+  const auto loose = std::ranges::find_if(steps, [](const auto& s) { return s.judged && !s.judged->unique; });
   if (loose != steps.end())
-    items.push_back(fmt::format(
-        "but the displacements of {} are not proved: a rigid-body motion remains free", name_of(loose)));
+    items.push_back(
+        fmt::format("but the displacements of {} are not proved: a rigid-body motion remains free",
+                    step_words(r.what, loose->step)));
   return items;
 }
 
 std::vector<std::string> certificate_complaints(const run_result& r) {
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < r.judged.steps().size(); ++i) {
-    const auto& c = r.judged.steps()[i];
-    const int step = r.record.steps[i].end.step;
-    if (c && !c->certified)
-      lines.push_back(fmt::format("{} is not certified: {}; allowed: {}{}{}", step_words(r.what, step),
+  for (const solved_step& s : r.record.steps)
+    if (const std::optional<certificate>& c = s.judged; c && !c->certified)
+      lines.push_back(fmt::format("{} is not certified: {}; allowed: {}{}{}", step_words(r.what, s.step),
                                   c->problem, allowed_words(*c), pull_words(*c, r.what),
-                                  worst_until(step, *c, r.what, r.early)));
-  }
+                                  worst_until(s.step, *c, r.what, r.early)));
   return starts_from_zero(r.what) ? first_of(std::move(lines)) : lines;
 }
 
@@ -181,7 +177,7 @@ std::string verdict_words(const path_end& end, bool is_answer) {
 
 }  // namespace
 
-std::vector<std::string> end_lines(const problem& p, const path_end& end) {
+std::vector<std::string> words_of_ends(const problem& p, const path_end& end) {
   if (end.status == path_status::solved) return {};
   std::vector<std::string> lines = {end_words(p, end)};
   for (const path_end& other : end.others) lines.push_back(end_words(p, other));
@@ -214,120 +210,6 @@ std::string end_words(const problem& p, const path_end& end, bool is_answer) {
   }
 }
 
-std::string passage_warning(const problem& p, std::span<const step_record> steps) {
-  const load_path loads(p);
-  std::optional<penetration> worst;
-  int step = 0;
-  for (const step_record& s : steps) {
-    const auto here = deepest_penetration(p, loads.at(s.end.step, s.end.fraction), s.end.displacement);
-    if (!here || (worst && here->depth <= worst->depth)) continue;
-    worst = here;
-    step = s.end.step;
-  }
-  if (!worst) return "";
-  const contact_pair& left = p.pairs[worst->first];
-  return fmt::format(
-      "{}: between pairs {} and {} the beam passes through their common face at {:g} by {:.2g}{} at x = "
-      "{:.6g}. "
-      "This is right if the pairs are separate stops; if one surface extends between them, put pairs closer "
-      "together (at the nodes of a finer mesh: element_size)",
-      step_words(p, step), worst->first + 1, worst->second + 1, left.face, worst->depth, unit_words(p, "w"),
-      worst->x);
-}
-
-namespace {
-
-/// The concentrated force on `node` of a plate, in words; empty if there is none. Moments are infinite at
-/// such a node, except at a corner, where a force causes twisting moments of half its size. Pairs of beds do
-/// not count, because each pair represents an area.
-std::string concentrated_at(const problem& p, const load& l, const step_results& r, int node) {
-  const auto& on = std::get<plate>(p.geometry.kind);
-  const place at = place_of_node(p.geometry, node);
-  const bool is_at_end = at.x == on.x.front() || at.x == on.x.back();
-  if (is_at_end && (at.y == on.y.front() || at.y == on.y.back())) return "";
-  for (const point_load& f : l.points)
-    if (f.node == node && f.value * f.factor != 0.0) return "a point load";
-  for (std::size_t i = 0; i < contacts_of(p); ++i)
-    if (p.pairs[i].node == node && r.pairs[i].force != 0.0) return fmt::format("the force of pair {}", i + 1);
-  return "";
-}
-
-}  // namespace
-
-std::string concentration_warning(const problem& p, std::span<const step_record> steps) {
-  if (!std::holds_alternative<plate>(p.geometry.kind)) return "";
-  constexpr std::string_view names[] = {"von_mises", "mx", "my"};
-  const load_path loads(p);
-  std::size_t rank = std::size(names);
-  double most = 0.0;
-  std::string warning;
-  for (const step_record& s : steps) {
-    const load acting = loads.at(s.end.step, s.end.fraction);
-    const step_results r = results_of(p, acting, s.end);
-    for (const value_range& v : r.ranges) {
-      const auto here = static_cast<std::size_t>(std::ranges::find(names, v.name) - std::begin(names));
-      const placed_value& at = v.largest();
-      const double size = std::abs(at.value);
-      if (here == std::size(names) || here > rank || (here == rank && size <= most)) continue;
-      const std::string what = concentrated_at(p, acting, r, at.node);
-      if (what.empty()) continue;
-      rank = here;
-      most = size;
-      warning = fmt::format(
-          "{}: largest {} at {}, under {}: there the moments of a thin plate grow with every finer mesh. "
-          "Spread the load, or the force of a bolt, over an area (uniform with from and to) for a finite "
-          "stress",
-          step_words(p, s.end.step), here == 0 ? "von Mises" : v.name, place_words(p.geometry, at), what);
-    }
-  }
-  return warning;
-}
-
-std::string shear_warning(const problem& p, std::span<const step_record> steps) {
-  constexpr double noticeable = 0.05;  // share of the largest shear
-  if (!std::holds_alternative<beam>(p.geometry.kind) || p.beds.empty()) return "";
-  const load_path loads(p);
-  placed_value largest;
-  double force = 0.0;  // of the pair there
-  int step = 0;
-  for (const step_record& s : steps) {
-    const step_results r = results_of(p, loads.at(s.end.step, s.end.fraction), s.end);
-    const placed_value& here = std::ranges::find(r.ranges, "shear", &value_range::name)->largest();
-    if (std::abs(here.value) <= std::abs(largest.value)) continue;
-    largest = here;
-    step = s.end.step;
-    force = 0.0;
-    for (std::size_t i = contacts_of(p); i < p.pairs.size(); ++i)
-      if (p.pairs[i].node == here.node) force = r.pairs[i].force;
-  }
-  const double share = force / 2 / std::abs(largest.value);
-  if (!(share > noticeable)) return "";
-  return fmt::format(
-      "{}: the largest shear, {:.4g}{} at {}, may be {} too small: a bed acts at nodes, here with {:.3g}{}. "
-      "Use a finer mesh (element_size)",
-      step_words(p, step), largest.value, unit_words(p, "shear"), place_words(p.geometry, largest),
-      percent_words(share), force, unit_words(p, "force"));
-}
-
-std::string digit_warning(std::span<const step_record> steps) {
-  int fewest = 5;  // a state with 5 digits needs no warning
-  const step_record* worst = nullptr;
-  for (const step_record& s : steps) {
-    // Refined states and states of the exact path do not lose digits.
-    if (s.end.numbers || s.from_exact_path || digits_left(s.rcond) >= fewest) continue;
-    fewest = digits_left(s.rcond);
-    worst = &s;
-  }
-  if (worst == nullptr) return "";
-  const std::string digits = fewest == 0   ? "no digit"
-                             : fewest == 1 ? "about 1 digit"
-                                           : fmt::format("about {} digits", fewest);
-  return fmt::format(
-      "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Use "
-      "fewer elements in a span, or more supports",
-      worst->end.step, digits, worst->rcond);
-}
-
 namespace {
 
 /// Advice on the pair that is stiffest relative to the structure, if rounding of w may change the force of
@@ -338,7 +220,7 @@ std::string stiffness_advice(const run_result& r) {
   double most = too_stiff;
   std::string words;
   for (std::size_t i = 0; i < r.structure.pairs.size(); ++i) {
-    const int dof = r.structure.dof_of_pair(i);
+    const int dof = r.structure.pairs[i].dof;
     const double own = r.structure.stiffness.diagonal(r.structure.row_of(dof));
     const double stiffness = r.structure.pairs[i].stiffness;
     if (r.structure.fixed[dof] != 0 || own == 0.0 || stiffness <= most * own) continue;
@@ -364,7 +246,7 @@ std::vector<std::string> complaints_of(const run_result& r) {
   }
   // If a step has no proved bounds, the corrected rule may have no bounds either.
   const bool is_bounded =
-      std::ranges::all_of(r.judged.steps(), [](const auto& c) { return !c || c->proved; });
+      std::ranges::all_of(r.record.steps, [](const auto& s) { return !s.judged || s.judged->proved; });
   if (!lines.empty() && is_bounded && !r.kernels.empty() &&
       facts_of_kernel(r.kernels.front()).rule == contact_rule::listing)
     lines.push_back(
@@ -372,144 +254,32 @@ std::vector<std::string> complaints_of(const run_result& r) {
   return lines;
 }
 
-namespace {
-
-std::vector<std::string> state_warnings(const run_result& r) {
-  std::vector<std::string> lines = {r.end.status == path_status::solved ? digit_warning(r.record.steps) : "",
-                                    passage_warning(r.what, r.record.steps),
-                                    concentration_warning(r.what, r.record.steps),
-                                    shear_warning(r.what, r.record.steps)};
-  std::erase(lines, "");
-  return lines;
-}
-
-}  // namespace
-
 std::vector<std::string> end_messages(const run_result& r) {
   std::vector<std::string> lines = complaints_of(r);
-  const std::vector<std::string> why = end_lines(r.what, r.end);
+  const std::vector<std::string> why = words_of_ends(r.what, r.end);
   for (const std::string& w : why) lines.push_back(r.file + ": " + w);
   for (const std::string& w : state_warnings(r)) lines.push_back("warning: " + w);
-  return lines;
-}
-
-std::vector<std::string> warnings_of(const run_result& r) {
-  std::vector<std::string> lines = r.what.warnings;
-  const std::string begin = (r.file == "-" ? "standard input" : r.file) + ":";
-  for (std::string& line : lines)  // so that results do not depend on the problem's folder
-    if (line.starts_with(begin)) line.erase(0, line.find(": ", begin.size()) + 2);
-  std::ranges::move(state_warnings(r), std::back_inserter(lines));
   return lines;
 }
 
 std::vector<std::string> refinement_words(const run_result& r) {
   const problem& p = r.what;
   std::vector<std::string> items;
-  for (const auto& [kind, change, of] : r.refined) {
+  for (const auto& [key, change, of] : r.refined) {
+    const quantity_row& row = row_named(p, key);
+    const std::string unit = unit_words(p, row.in);
     const double percent = change == 0.0 ? 0.0 : 100 * change / of;
-    const std::string by =
-        0.0 < change && percent <= 1e-7
-            ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit_words(p, kind))
-            : fmt::format("{:.3g}{} ({:.2g} % of {:.4g})", change, unit_words(p, kind), percent, of);
-    items.push_back(
-        fmt::format("{}{} by {}", items.empty() ? "half the element size changes " : "", kind, by));
+    const std::string by = 0.0 < change && percent <= 1e-7
+                               ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit)
+                               : fmt::format("{:.3g}{} ({:.2g} % of {:.4g})", change, unit, percent, of);
+    items.push_back(fmt::format("{}{} by {}", items.empty() ? "half the element size changes the " : "the ",
+                                row.words, by));
   }
   if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"
                                       : "beams are exact between nodes; the changes come from the bed, which "
                                         "has twice as many pairs then");
   return items;
-}
-
-namespace {
-
-/// Returns "1.2 kN, 4 % of the largest of its kind".
-std::string size_words(const run_result& r, const state_difference& d) {
-  return fmt::format("{:.3g}{}, {} of the largest of its kind", std::abs(d.value - d.right),
-                     unit_of(r.what, d.what), percent_words(d.share));
-}
-
-std::string wrong_words(const run_result& r, const state_difference& d) {
-  const std::string unit = unit_of(r.what, d.what);
-  return fmt::format(
-      "the 1989 rule is wrong in step {}: the {} of {} is {:.6g}{} instead of {:.6g}{}: off by {}", d.step,
-      name_of_kind(d.what), d.at, d.value, unit, d.right, unit, size_words(r, d));
-}
-
-/// The words for states that agree within the tolerance, with the largest difference in `all`. `all` must not
-/// be empty.
-std::string agreement_words(const run_result& r, std::span<const state_difference> all) {
-  constexpr double ten_digits = 1e-10;  // smaller differences depend on the LAPACK in use
-  const auto worst = std::ranges::max_element(all, {}, &state_difference::share);
-  const bool is_rounded = std::ranges::any_of(all, &state_difference::but_for_rounding);
-  const std::string start = fmt::format("the 1989 rule comes to the same states{}{}",
-                                        r.beside->same_events ? "" : " by other events",
-                                        is_rounded ? ", but for numbers that are only rounding" : "");
-  const std::string_view other = is_rounded ? "other " : "";
-  if (worst->share < ten_digits)
-    return fmt::format("{}: every {}number agrees to 10 digits or more", start, other);
-  return fmt::format("{}: the largest {}difference is in the {} of {} in step {}: {}", start, other,
-                     name_of_kind(worst->what), worst->at, worst->step, size_words(r, *worst));
-}
-
-/// The ends of all steps that were not solved.
-std::vector<const path_end*> unsolved(const path_end& end) {
-  std::vector<const path_end*> all;
-  if (end.status != path_status::solved) all.push_back(&end);
-  for (const path_end& other : end.others) all.push_back(&other);
-  return all;
-}
-
-const path_end* in_step(const std::vector<const path_end*>& ends, int step) {
-  const auto found = std::ranges::find(ends, step, &path_end::step);
-  return found == ends.end() ? nullptr : *found;
-}
-
-/// Compares the ends of all steps that the answer or the 1989 rule does not solve.
-std::vector<std::string> ended_words(const run_result& r) {
-  const std::vector<const path_end*> mine = unsolved(r.end);
-  const std::vector<const path_end*> its = unsolved(r.beside->end);
-  std::vector<std::string> lines;
-  for (const path_end* end : its) {
-    const path_end* const right = in_step(mine, end->step);
-    if (right != nullptr && right->status == end->status &&
-        std::abs(right->fraction - end->fraction) <= same_share)
-      continue;
-    lines.push_back(fmt::format("the path of the 1989 rule ends {} (the answer does not depend on it): {}",
-                                right == nullptr ? "early" : "otherwise", end_words(r.what, *end, false)));
-  }
-  for (const step_record& s : r.beside->record.steps) {
-    const path_end* const right = s.end.fraction == 1.0 ? in_step(mine, s.end.step) : nullptr;
-    if (right != nullptr && right->status == path_status::mechanism)
-      lines.push_back("the 1989 rule is wrong in " + step_words(r.what, s.end.step) +
-                      ": it reaches the full load, under which there is no equilibrium");
-  }
-  if (lines.empty() && !its.empty()) return {"the path of the 1989 rule ends in the same way"};
-  return first_of(std::move(lines));
-}
-
-}  // namespace
-
-std::vector<std::string> rule_1989_words(const run_result& r) {
-  constexpr std::size_t most_named = 4;
-  std::vector<std::string> lines;
-  if (!r.beside) return lines;
-  lines = ended_words(r);
-  const std::vector<state_difference>& all = r.beside->differences;
-  std::size_t wrong = 0;
-  int first = 0;
-  for (const state_difference& d : all) {
-    if (!d.is_wrong()) continue;
-    if (++wrong <= most_named) lines.push_back(wrong_words(r, d));
-    if (first == 0) first = d.step;
-  }
-  if (wrong > most_named)
-    lines.push_back(fmt::format("the 1989 rule is wrong in {} more steps", wrong - most_named));
-  if (wrong > 0)
-    lines.push_back(fmt::format(
-        "contct explain {} --step {} shows which line of the listing causes the error", r.file, first));
-  if (wrong == 0 && !all.empty()) lines.push_back(agreement_words(r, all));
-  return lines;
 }
 
 }  // namespace contct

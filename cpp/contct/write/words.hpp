@@ -3,18 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "contct/certify/certificate.hpp"
-#include "contct/model/problem.hpp"
 #include "contct/path/path.hpp"
-#include "contct/path/path_observers.hpp"
-#include "contct/session/exit_status.hpp"
-#include "contct/session/step_results.hpp"
+#include "contct/proof/certificate.hpp"
+#include "contct/results/exit_status.hpp"
+#include "contct/results/path_observers.hpp"
+#include "contct/results/step_results.hpp"
+#include "contct/structure/problem.hpp"
 
 namespace contct {
 
@@ -76,22 +75,28 @@ constexpr std::string_view end_reason(path_status status) {
 /// first ones, a line each), or that its states agree with the answer. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
 
+/// Keeps the first 12 lines, because there may be hundreds of combinations.
+[[nodiscard]] std::vector<std::string> first_of(std::vector<std::string> lines);
+
 /// The end_words of every step that was not solved, a line each; of many lines only the first ones.
-[[nodiscard]] std::vector<std::string> end_lines(const problem& p, const path_end& end);
+[[nodiscard]] std::vector<std::string> words_of_ends(const problem& p, const path_end& end);
 
 /// A warning if the state at the end of a step has fewer than 5 reliable digits; otherwise empty.
-[[nodiscard]] std::string digit_warning(std::span<const step_record> steps);
+[[nodiscard]] std::string digit_warning(std::span<const solved_step> steps);
 
 /// A warning, with a remedy, if a beam passes through a face between two pairs; otherwise empty.
-[[nodiscard]] std::string passage_warning(const problem& p, std::span<const step_record> steps);
+[[nodiscard]] std::string passage_warning(const problem& p, std::span<const solved_step> steps);
 
 /// A warning if the largest stress or moment of a plate is at a point load or a [[contact]] pair; otherwise
 /// empty.
-[[nodiscard]] std::string concentration_warning(const problem& p, std::span<const step_record> steps);
+[[nodiscard]] std::string concentration_warning(const problem& p, std::span<const solved_step> steps);
 
 /// A warning if the largest shear of a beam is at a pair of a bed whose force is more than a tenth of the
 /// shear; otherwise empty.
-[[nodiscard]] std::string shear_warning(const problem& p, std::span<const step_record> steps);
+[[nodiscard]] std::string shear_warning(const problem& p, std::span<const solved_step> steps);
+
+/// The warnings about the states of the run.
+[[nodiscard]] std::vector<std::string> state_warnings(const run_result& r);
 
 /// The warnings of the problem, without file and line, and those of the states of the run.
 [[nodiscard]] std::vector<std::string> warnings_of(const run_result& r);
@@ -104,5 +109,8 @@ constexpr std::string_view end_reason(path_status status) {
 
 /// The lines of complaints_of, the reason why the path ended early, and the warnings about the states.
 [[nodiscard]] std::vector<std::string> end_messages(const run_result& r);
+
+/// Tables of the numbers of all pairs, supports, nodes and ends of elements, for --detail.
+[[nodiscard]] std::string detail_tables(const step_results& r);
 
 }  // namespace contct

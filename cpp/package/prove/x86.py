@@ -111,15 +111,10 @@ def _shift(o: Operands, work: Callable) -> None:
     o.set(0, _sum(o, work(o.get(0), z3.BitVecVal(by, o.width(0)))))
 
 
-def _move_real(o: Operands, width: int) -> None:
-    """Move a real. A move between vector registers keeps the upper bits; a load clears them."""
+def _move(o: Operands, width: int, clears: bool) -> None:
+    """Move a real or bits. A load clears the upper bits of a vector register. A move between registers may keep them."""
     value = o.get(1, width)
-    o.set(0, z3.ZeroExt(128 - width, value) if o.is_vector(0) and o.is_memory(1) else value)
-
-
-def _move_bits(o: Operands, width: int) -> None:
-    value = o.get(1, width)
-    o.set(0, z3.ZeroExt(128 - width, value) if o.is_vector(0) else value)
+    o.set(0, z3.ZeroExt(128 - width, value) if o.is_vector(0) and (clears or o.is_memory(1)) else value)
 
 
 def _extend(o: Operands, how: Callable) -> None:
@@ -159,10 +154,10 @@ ACTIONS: dict[str, Callable[[Operands], None]] = {
     "leave": _leave,
     "nop": lambda o: None,
     "endbr64": lambda o: None,
-    "movsd": lambda o: _move_real(o, 64),
-    "movss": lambda o: _move_real(o, 32),
-    "movq": lambda o: _move_bits(o, 64),
-    "movd": lambda o: _move_bits(o, 32),
+    "movsd": lambda o: _move(o, 64, False),
+    "movss": lambda o: _move(o, 32, False),
+    "movq": lambda o: _move(o, 64, True),
+    "movd": lambda o: _move(o, 32, True),
 }
 ACTIONS |= dict.fromkeys(["movapd", "movaps", "movupd", "movups", "movdqa", "movdqu"], lambda o: o.set(0, o.get(1, 128)))
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "contct/compare/compare.hpp"
+#include "contct/harness/compare.hpp"
 #include "contct/number/double_double.hpp"
 #include "contct/number/random.hpp"
 
@@ -81,8 +81,8 @@ void write(std::ostream& to, const inputs& in, const dlasv2_answer& o) {
 }
 
 /// With SSMIN as SMIN and the others as SS.
-answer<double> as_contct(const dlasv2_answer& o) {
-  return {o[0], std::span(o).subspan(1), {}};
+call_outputs as_contct(const dlasv2_answer& o) {
+  return {o[0], {o.begin() + 1, o.end()}, {}, {}};
 }
 
 /// The calls of one kind: how many values differ.

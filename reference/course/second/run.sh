@@ -15,11 +15,13 @@ rm -rf "$work"
 mkdir -p "$work/checked" "$work/fault"
 cp "$lapack/SRC/dlasv2.f" "$lapack/INSTALL/dlamch.f" "$lapack/INSTALL/lsame.f" "$here/dlasv2.hpp" "$work"
 cp "$here/dlasv2.hpp" "$work/checked"
+# The comparison alone, of the harness: the linker drops functions that name kernels and traces, because lockstep.cpp calls none of them.
+g++ -std=c++20 -O2 -ffp-contract=off -ffunction-sections -I cpp -c cpp/contct/harness/compare.cpp -o "$work/compare.o"
 
 # lockstep FOLDER PORT [FLAG]: FOLDER's object of FORTRAN and the port in the folder PORT are run. FORTRAN's answers are those recorded.
 lockstep() {
-  g++ -std=c++20 -O2 -ffp-contract=off -I "$2" -I cpp "$here/lockstep.cpp" "$1/dlasv2.o" "$work/dlamch.o" "$work/lsame.o" ${3:-} \
-    -lgfortran -o "$2/lockstep" || exit 1
+  g++ -std=c++20 -O2 -ffp-contract=off -I "$2" -I cpp "$here/lockstep.cpp" "$work/compare.o" "$1/dlasv2.o" "$work/dlamch.o" \
+    "$work/lsame.o" ${3:-} -Wl,--gc-sections -lgfortran -o "$2/lockstep" || exit 1
   status=0
   "$2/lockstep" "$work/calls.txt" >"$2/said" 2>"$2/first" || status=$?
   (cd "$work" && sha256sum --quiet --check "../../$here/frozen.sha256") || exit 1

@@ -16,16 +16,19 @@ const moves = () => (ofMatrix ? "displacement" : "deflection");
 const unitOf = () => (ofMatrix ? "dof" : "node");
 const placed = (name) => `${unitOf()} ${name}`;
 
-// The unit of a quantity, from its powers of force and length; empty if the problem names no units. Moments of a plate
-// are per length. Loads and beds of a beam are per length, not per area.
-const powers = { w: [0, 1], force: [1, 0], moment: [1, 1], shear: [1, 0], load: [1, -2], pressure: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2],
-  E: [1, -2], I: [0, 4], W: [0, 3], A: [0, 2], weight: [1, -3], area: [0, 2], stress: [1, -2], von_mises: [1, -2], s1: [1, -2], s2: [1, -2] };
-function unit(quantity) {
-  if (!result.units || !(quantity in powers || /^m[xy]/.test(quantity))) return "";
+// The unit of a quantity of the result, or else of the input, from its powers of force and length; empty if the problem
+// names no units. Loads and beds of a beam are per length, not per area.
+const powers = { w: [0, 1], force: [1, 0], couple: [1, 1], load: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2], E: [1, -2], I: [0, 4],
+  W: [0, 3], A: [0, 2], weight: [1, -3] };
+const ofElements = ["EI"];  // numbers of each element of a beam
+const quantityOf = (key) => result.quantities.find((q) => q.key === key);
+function unit(key) {
+  if (!result.units) return "";
+  if (quantityOf(key)) return quantityOf(key).unit.replace(/\^(\d)/g, (_, n) => "⁰¹²³⁴"[n]);
   const { length, force } = result.units;
-  if (!(quantity in powers)) return `${force} ${length}/${length}`;
-  const [f, per] = powers[quantity];
-  const l = per + (isBeam() && ["load", "pressure", "modulus"].includes(quantity) ? 1 : 0);
+  if (!(key in powers)) return "";
+  const [f, per] = powers[key];
+  const l = per + (isBeam() && ["load", "modulus"].includes(key) ? 1 : 0);
   const of = l === 0 ? "" : length + ["", "", "²", "³", "⁴"][Math.abs(l)];
   return f === 0 ? of : force + (l === 0 ? "" : l > 0 ? " " : "/") + of;
 }
@@ -302,7 +305,7 @@ function drawLineLoad(root, f, { X, Y, ends }) {
   if (load === null || scene.lineLoad === 0) return;
   const spot = (e, x) => {
     const size = (25 * load(e, x)) / scene.lineLoad;
-    return { x: X(x), y: Y(deflectionAt(f, x, e)) + (size > 0 ? 8 : -8), size };
+    return { x: X(x), y: Y(valueAt(f, "w", x, e)) + (size > 0 ? 8 : -8), size };
   };
   const pieces = [];
   placesAlong().forEach(([e, a], i, all) => {
@@ -332,12 +335,13 @@ function scaleOfStrip(root, { X, ends: [x0, x1] }, top, name, title, [low, high]
 }
 
 function drawPressure(root, f, page, top) {
-  const at = atNodes(f, "pressure");
+  const { key: name } = result.quantities.find(({ key, on }) => on === "nodes" && f[key]);
+  const at = f[name];
   const nodes = structure.nodes.map(({ x }, i) => ({ x, value: at[i] }));
   const most = largestBy(nodes, "value");
-  const Y = scaleOfStrip(root, page, top, "pressure", inUnit(page.width < 620 ? "p" : "Bed's pressure", "pressure"), spread([0, ...frames.flatMap((g) => spread(atNodes(g, "pressure")))]), most.value === 0 ? [] : [most]);
+  const Y = scaleOfStrip(root, page, top, name, inUnit(page.width < 620 ? "p" : "Bed's pressure", name), spread([0, ...frames.flatMap((g) => spread(g[name]))]), most.value === 0 ? [] : [most]);
   const points = scene.lines[0].map((i) => [page.X(nodes[i].x), Y(at[i])]);
-  root.append(path([[points[0][0], Y(0)], ...points, [points[points.length - 1][0], Y(0)]], "pressure-area", "Z"), path(points, "pressure"));
+  root.append(path([[points[0][0], Y(0)], ...points, [points[points.length - 1][0], Y(0)]], `${name}-area`, "Z"), path(points, name));
 }
 
 // Draws a strip with moment or shear, which may jump at the nodes.
@@ -347,8 +351,8 @@ function drawStrip(root, f, page, top, name, title) {
   const told = toldOf(range);
   const Y = scaleOfStrip(root, page, top, name, title, rangeOf(name), told);
   const points = placesAlong().flatMap(([e, a], i) => {
-    const here = [X(xAt([e, a])), Y(forceAt(f, name, [e, a]))];
-    return i === 0 || a !== 0 ? [here] : [[here[0], Y(forceAt(f, name, [e - 1, 1]))], here];
+    const here = [X(xAt([e, a])), Y(valueAt(f, name, xAt([e, a]), e))];
+    return i === 0 || a !== 0 ? [here] : [[here[0], Y(valueAt(f, name, structure.nodes[e].x, e - 1))], here];
   });
   // Jumps inside elements, and extremes, may be between these points.
   const jumps = besidePieces(f, name);
@@ -364,7 +368,7 @@ const hasBed = () => places.pairs.some((p) => p.bed);
 
 function drawBeam(root, f, page, isSketch) {
   const { X, Y, ends, bottom, width } = page;
-  root.append(path(placesAlong().map((at) => [X(xAt(at)), Y(deflectionAt(f, xAt(at), at[0]))]), "member"));
+  root.append(path(placesAlong().map((at) => [X(xAt(at)), Y(valueAt(f, "w", xAt(at), at[0]))]), "member"));
   for (const node of structure.hinges || [])
     root.append(svg("circle", { cx: X(structure.nodes[node - 1].x), cy: Y(f.u[2 * node - 2]), r: 4, class: "hinge" }));
   drawLineLoad(root, f, page);
@@ -372,9 +376,8 @@ function drawBeam(root, f, page, isSketch) {
   root.append(line(X(ends[0]), bottom, X(ends[1]), bottom, "zero"));
   scaleAlong(root, ticks(...ends, Math.floor(width / 75)), X, bottom);
   if (isSketch) return;
-  const [moment, shear] = width < 620 ? ["M", "V"] : ["Moment, positive where it sags", "Shear, of the left part on the right part"];
-  drawStrip(root, f, page, bottom + 36, "moment", inUnit(moment, "moment"));
-  drawStrip(root, f, page, bottom + 176, "shear", inUnit(shear, "shear"));
+  const titles = width < 620 ? ["M", "V"] : ["Moment, positive where it sags", "Shear, of the left part on the right part"];
+  Object.keys(f.elements[0].pieces[0]).slice(2).forEach((name, i) => drawStrip(root, f, page, bottom + 36 + 140 * i, name, inUnit(titles[i], name)));
   if (hasBed()) drawPressure(root, f, page, bottom + 316);
 }
 
@@ -392,30 +395,25 @@ function sayLineLoads(f, { X, Y }, say, { nodes } = structure) {
 let fields = [];    // the quantities of a plate that can be shown
 let field = null;   // the quantity that is shown
 
-// The quantities of a plate, with levels that are the same in all states.
-function fieldsOf() {
-  const known = { w: "deflection w", mx: "moment mx", my: "moment my", mxy: "twisting moment mxy" };
-  if (hasBed()) known.pressure = "foundation pressure";
-  return Object.entries(known).map(([name, words]) => {
-    const [low, high] = spread(frames.flatMap((f) => spread(atNodes(f, name))));
-    const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
-    const base = Math.floor(low / step + 1e-9);
-    return { name, words, step, level: (i) => (base + i) * step, bands: Math.max(1, Math.ceil(high / step - 1e-9) - base) };
-  });
-}
+// The quantities of a plate, with levels that are the same in all states: deflection, pressure of beds, and those of elements.
+const fieldsOf = () => result.quantities.filter(({ key, on }) => on === "element_ends" || (on === "nodes" && (key === "w" || frames[0][key]))).map(({ key: name, words, unit: of }) => {
+  const [low, high] = spread(frames.flatMap((f) => spread(atNodes(f, name))));
+  const step = high > low ? roundDown(((high - low) / 9) * 1.3, [1, 2, 2.5, 5]) : 1;
+  const base = Math.floor(low / step + 1e-9);
+  return { name, words, unit: of, step, level: (i) => (base + i) * step, bands: Math.max(1, Math.ceil(high / step - 1e-9) - base) };
+});
 
-// A quantity at each node: w, the mean of a moment in the elements at the node, or the pressure of the beds.
+// A quantity at each node; of a quantity of elements, the mean in the elements at the node.
 function atNodes(f, name) {
   if (name === "w") return structure.nodes.map((_, i) => f.u[3 * i]);
+  if (f[name]) return f[name];
   const [sum, met] = [0, 0].map(() => structure.nodes.map(() => 0));
   const across = structure.columns - 1;
-  const take = (node, value) => { sum[node] += value; ++met[node]; };
-  if (name === "pressure") for (const p of f.pairs) if (p.bed) take(p.at, p.force / p.bed);
-  if (name !== "pressure") f.elements.forEach((e, i) => {
+  f.elements.forEach((e, i) => {
     const first = Math.floor(i / across) * structure.columns + (i % across);
-    [first, first + 1, first + structure.columns + 1, first + structure.columns].forEach((node, corner) => take(node, e[name][corner]));
+    [first, first + 1, first + structure.columns + 1, first + structure.columns].forEach((node, corner) => { sum[node] += e[name][corner]; ++met[node]; });
   });
-  return sum.map((s, i) => (met[i] > 0 ? (name === "pressure" ? s : s / met[i]) : 0));
+  return sum.map((s, i) => (met[i] > 0 ? s / met[i] : 0));
 }
 
 // The colour of band `i`, from dark brown (lowest values) to pale. Brightness increases steadily, for grey prints.
@@ -628,7 +626,7 @@ function marksOn(words, page, spots, f, isSketch) {
   const count = places.pairs.length;
   const apart = (scene.size * page.scale) / (isBeam() ? count : Math.sqrt(count));
   return {
-    isSketch, spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(deflectionAt(f, x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
+    isSketch, spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(valueAt(f, "w", x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
     pixels: ({ direction }) => scene.times * page.scale * (onPage(direction)?.length ?? 0),
     limit: scene.times * scene.most * page.scale + 40, r: Math.max(1.6, Math.min(5, apart * 0.3)), half: Math.max(1, Math.min(14, apart * 0.36)),
     say: wordsInFreePlaces(words, page.width, page.bottom - (isBeam() ? 0 : 30), isBeam() ? 62 : 2),

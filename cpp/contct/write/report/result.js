@@ -1,4 +1,4 @@
-// Reads a result in the format contct-result-1 with structure and states, for a page that draws the result. All numbers
+// Reads a result in the format contct-result-2 with structure and states, for a page that draws the result. All numbers
 // come from the result; only positions of pairs, and whether pairs are at their faces, are found here.
 "use strict";
 
@@ -58,14 +58,14 @@ function placesOf() {
 }
 
 // True if the end of the step and its increment `n`, from 0, have the same state.
-const endsAt = ({ increments: all, fraction, ended_by }, n) => n >= 0 && n === all.length - 1 && all[n].fraction === fraction && ended_by !== "oracle";
+const endsAt = ({ increments: all, fraction, ended_by }, n) => n >= 0 && n === all.length - 1 && all[n].fraction === fraction && ended_by !== "reference";
 
 // All states that the result contains: the unloaded structure, states within steps, and ends of steps.
 function framesOf() {
   const found = [];
   const add = (state, how) => found.push({
     end: false, exact: false, from_fallback: false, ...how,
-    u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, extremes: state.extremes,
+    u: state.displacement, reactions: state.reactions.map((r) => r.value), elements: state.elements, pressure: state.pressure, extremes: state.extremes,
     pairs: places.pairs.map((p, i) => {
       const [w, closed] = [state.displacement[p.u], state.pairs[i].state === "contact"];
       const other = p.otherU < 0 ? 0 : state.displacement[p.otherU];
@@ -77,8 +77,8 @@ function framesOf() {
   const begun = {
     displacement: places.dofs.map(() => 0),
     pairs: places.pairs.map((p) => ({ state: p.state, gap: p.state === "contact" ? 0 : p.side * p.face, force: 0 })),
-    reactions: structure.supports.map(() => ({ value: 0 })), extremes: {},
-    elements: (structure.EI || []).map(() => ({ moment: [0, 0], shear: [0, 0] })),
+    reactions: structure.supports.map(() => ({ value: 0 })), extremes: {}, pressure: structure.nodes.map(() => 0),
+    elements: (structure.EI || []).map((_, e) => ({ pieces: [{ x: [structure.nodes[e].x, structure.nodes[e + 1].x], w: [0], moment: [0], shear: [0] }] })),
   };
   add(begun, { step: 0, number: 0, fraction: 0, s: 0, events: [], load: { words: "none" } });
   for (const step of result.steps.filter((s) => s.displacement)) {
@@ -88,7 +88,7 @@ function framesOf() {
       if (endsAt(step, n)) add(step, { ...how, ...end });
       else if (i.displacement) add(i, how);
     });
-    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, number: 0, s: 0, events: [], from_fallback: step.ended_by === "oracle" });
+    if (!endsAt(step, step.increments.length - 1)) add(step, { ...end, number: 0, s: 0, events: [], from_fallback: step.ended_by === "reference" });
   }
   return found;
 }
@@ -96,44 +96,16 @@ function framesOf() {
 // The element of a beam at x, from 0.
 const elementAt = (x) => Math.max(0, Math.min(structure.nodes.length - 2, structure.nodes.findLastIndex((n) => n.x <= x)));
 
-const hermite = (h, w0, w1, t0, t1, a, b = 1 - a) => w0 * b * b * (1 + 2 * a) + w1 * a * a * (1 + 2 * b) + h * (t0 * a * b * b - t1 * a * a * b);
-
-// Element e of a beam, or the piece of the element that contains x if loads begin, end or act inside the element.
-function pieceAt(f, e, x) {
-  const { moment, shear, pieces } = f.elements[e];
-  if (pieces) return pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
-  const [w0, t0, w1, ofNode] = f.u.slice(2 * e, 2 * e + 4);
-  // The slope on the left of a hinge is not the slope of the node; it follows from moments and shears.
-  const h = structure.nodes[e + 1].x - structure.nodes[e].x;
-  const turned = (h * ((moment[0] + moment[1]) / 2 + (h * (shear[0] - shear[1])) / 12)) / structure.EI[e];
-  const t1 = structure.hinges?.includes(e + 2) ? t0 + turned : ofNode;
-  return { x: [structure.nodes[e].x, structure.nodes[e + 1].x], w: [w0, w1], theta: [t0, t1], moment, shear, curvature: 0 };
-}
-
-// The deflection of a beam at x. Inside an element it is the polynomial with the deflections, slopes and curvatures
-// (moments / EI) of the ends. It is exact if the load on the element is linear.
-function deflectionAt(f, x, e = elementAt(x)) {
-  const { x: [left, right], w: [w0, w1], theta: [t0, t1], moment, curvature } = pieceAt(f, e, x);
-  const [h, a] = [right - left, (x - left) / (right - left)];
-  const [k0, k1] = moment.map((m) => m / structure.EI[e] + curvature);
-  // The curvatures at the ends, less those of the cubic with the same deflections and slopes.
-  const [c0, c1] = [k0 - (6 * (w1 - w0) / h - 4 * t0 - 2 * t1) / h, k1 - (-6 * (w1 - w0) / h + 2 * t0 + 4 * t1) / h];
-  return hermite(h, w0, w1, t0, t1, a) + 0.5 * h * h * a * a * (1 - a) * (1 - a) * (c0 * (1 - a) + c1 * a);
-}
-
-// Moment or shear of a beam in element e. The moment is the cubic through the moments and shears (slopes) of the ends.
-function forceAt(f, name, [e, share]) {
-  const [from, to] = [structure.nodes[e].x, structure.nodes[e + 1].x];
-  const x = from + share * (to - from);
-  const { x: [left, right], moment: [m0, m1], shear: [v0, v1] } = pieceAt(f, e, x);
-  const [h, a] = [right - left, share === 1 ? 1 : (x - left) / (right - left)];
-  if (name === "moment") return hermite(h, m0, m1, v0, v1, a);
-  return a === 0 ? v0 : a === 1 ? v1 : (6 * a * (1 - a) * (m1 - m0)) / h + v0 * (1 - 4 * a + 3 * a * a) + v1 * (3 * a * a - 2 * a);
+// A quantity ("w", or one of elements) of a beam at x in element e: the polynomial of the piece that contains x.
+function valueAt(f, name, x, e = elementAt(x)) {
+  const { pieces } = f.elements[e];
+  const { x: [left, right], [name]: polynomial } = pieces.find((p) => x < p.x[1]) ?? pieces[pieces.length - 1];
+  return polynomial.reduceRight((sum, a) => (sum * (x - left)) / (right - left) + a, 0);
 }
 
 // The values [x, value] on both sides of each place inside an element where a load begins, ends or acts.
-const besidePieces = (f, name) => f.elements.flatMap(({ pieces = [] }) =>
-  pieces.slice(1).flatMap((p, i) => [[p.x[0], pieces[i][name][1]], [p.x[0], p[name][0]]]));
+const besidePieces = (f, name) => f.elements.flatMap(({ pieces }) =>
+  pieces.slice(1).flatMap((p, i) => [[p.x[0], pieces[i][name].reduce((a, b) => a + b)], [p.x[0], p[name][0]]]));
 
 // The concentrated loads of a state: value, and dof of a node or x between two nodes.
 const pointsOf = (f) => (f.load.point || []).map((p) => {

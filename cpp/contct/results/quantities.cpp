@@ -1,0 +1,183 @@
+#include "contct/results/quantities.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <span>
+#include <stdexcept>
+
+namespace contct {
+namespace {
+
+constexpr auto is_beam = [](const problem& p) { return std::holds_alternative<beam>(p.geometry.kind); };
+constexpr auto is_plate = [](const problem& p) { return std::holds_alternative<plate>(p.geometry.kind); };
+constexpr auto is_matrix = [](const problem& p) {
+  return std::holds_alternative<assembled>(p.geometry.kind);
+};
+constexpr auto has_elements = [](const problem& p) { return !is_matrix(p); };
+constexpr auto has_pairs = [](const problem& p) { return !p.pairs.empty(); };
+constexpr auto has_beds = [](const problem& p) { return !p.beds.empty(); };
+
+template <bool Turning>
+bool has_supports(const problem& p) {
+  return std::ranges::any_of(p.supports, [&p](const support& s) { return is_turning(p, s) == Turning; });
+}
+constexpr auto has_clamps = [](const problem& p) { return has_elements(p) && has_supports<true>(p); };
+constexpr auto has_clamps_in_matrix = [](const problem& p) { return is_matrix(p) && has_supports<true>(p); };
+
+constexpr auto has_stress = [](const problem& p) { return !stresses_of(p.geometry, {}).names.empty(); };
+constexpr auto has_fibre_stress = [](const problem& p) { return is_beam(p) && has_stress(p); };
+constexpr auto has_face_stress = [](const problem& p) { return is_plate(p) && has_stress(p); };
+
+/// The values of one member of each entry of a list.
+template <class List, class Member>
+std::vector<double> each(const List& list, Member member) {
+  std::vector<double> values;
+  values.reserve(list.size());
+  for (const auto& entry : list) values.push_back(std::invoke(member, entry));
+  return values;
+}
+
+template <std::size_t Dof>
+std::vector<double> at_dof(const step_results& r) {
+  std::vector<double> values;
+  const auto stride = static_cast<std::size_t>(dofs_per_node(r.what.geometry));
+  for (std::size_t dof = Dof; dof < r.state.displacement.size(); dof += stride)
+    values.push_back(r.state.displacement[dof]);
+  return values;
+}
+
+template <auto Member>
+std::vector<double> of_pairs(const step_results& r) {
+  return each(r.pairs, Member);
+}
+
+template <bool Turning>
+std::vector<double> of_supports(const step_results& r) {
+  std::vector<double> values = r.reactions;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (is_turning(r.what, r.what.supports[i]) != Turning)
+      values[i] = std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
+template <auto Member>
+std::vector<double> of_beds(const step_results& r) {
+  return each(beds_in(r), Member);
+}
+
+std::vector<double> of_bed_pressures(const step_results& r) {
+  return each(beds_in(r), [](const bed_reading& b) { return b.pressure.most.value; });
+}
+
+std::vector<double> in_elements(const element_results& all, std::size_t number) {
+  std::vector<double> values;
+  for (std::size_t e = 0; e < all.elements(); ++e) {
+    const auto here = all.at(e, number);
+    values.insert(values.end(), here.begin(), here.end());
+  }
+  return values;
+}
+
+template <std::size_t Number>
+std::vector<double> forces(const step_results& r) {
+  return in_elements(r.elements, Number);
+}
+
+template <std::size_t Number>
+std::vector<double> stresses(const step_results& r) {
+  return in_elements(r.stresses(), Number);
+}
+
+template <auto Sum>
+std::vector<double> of_structure(const step_results& r) {
+  return {(*balance_of(r)).*Sum};
+}
+
+std::span<const quantity_row> all_quantities() {
+  using enum on;
+  constexpr std::optional<quantity> no_kind = std::nullopt;
+  static constexpr quantity_row rows[] = {
+      {"w", "deflection", unit::length, nodes, quantity::w, has_elements, at_dof<0>},
+      {"w", "displacement", unit::length, nodes, quantity::w, is_matrix, at_dof<0>},
+      {"theta", "slope", unit::none, nodes, quantity::slope, is_beam, at_dof<1>},
+      {"wx", "slope along x", unit::none, nodes, quantity::slope, is_plate, at_dof<1>},
+      {"wy", "slope along y", unit::none, nodes, quantity::slope, is_plate, at_dof<2>},
+      {"pressure", "pressure of the beds", unit::pressure, nodes, no_kind, has_beds, bed_pressure},
+      {"gap", "gap", unit::length, pairs, quantity::gap, has_pairs, of_pairs<&pair_reading::gap>},
+      {"force", "contact force", unit::force, pairs, quantity::force, has_pairs,
+       of_pairs<&pair_reading::force>},
+      {"face", "face", unit::length, pairs, no_kind, has_pairs, of_pairs<&pair_reading::face>},
+      {"reaction", "reaction", unit::force, supports, quantity::reaction, has_supports<false>,
+       of_supports<false>},
+      {"reaction_moment", "reaction moment", unit::moment, supports, quantity::moment, has_clamps,
+       of_supports<true>},
+      {"reaction_moment", "reaction moment", unit::moment, supports, quantity::reaction, has_clamps_in_matrix,
+       of_supports<true>},
+      {"bed_force", "force of the bed", unit::force, beds, no_kind, has_beds, of_beds<&bed_reading::force>},
+      {"bed_contact", "part of the bed in contact", unit::extent, beds, no_kind, has_beds,
+       of_beds<&bed_reading::contact>},
+      {"bed_pressure", "largest pressure of the bed", unit::pressure, beds, no_kind, has_beds,
+       of_bed_pressures},
+      {"shear", "shear force", unit::force, element_ends, quantity::shear, is_beam, forces<0>},
+      {"moment", "moment", unit::moment, element_ends, quantity::moment, is_beam, forces<1>},
+      {"mx", "moment mx", unit::plate_moment, element_ends, quantity::moment, is_plate, forces<0>},
+      {"my", "moment my", unit::plate_moment, element_ends, quantity::moment, is_plate, forces<1>},
+      {"mxy", "twisting moment mxy", unit::plate_moment, element_ends, quantity::moment, is_plate, forces<2>},
+      {"stress", "stress, lower fibre (upper: other sign)", unit::stress, element_ends, no_kind,
+       has_fibre_stress, stresses<0>},
+      {"sx", "stress sx, lower face (upper: other sign)", unit::stress, element_ends, no_kind,
+       has_face_stress, stresses<0>},
+      {"sy", "stress sy, lower face (upper: other sign)", unit::stress, element_ends, no_kind,
+       has_face_stress, stresses<1>},
+      {"txy", "stress txy, lower face (upper: other sign)", unit::stress, element_ends, no_kind,
+       has_face_stress, stresses<2>},
+      {"s1", "principal stress s1, lower face (upper: -s2)", unit::stress, element_ends, no_kind,
+       has_face_stress, stresses<3>},
+      {"s2", "principal stress s2, lower face (upper: -s1)", unit::stress, element_ends, no_kind,
+       has_face_stress, stresses<4>},
+      {"von_mises", "von Mises stress, both faces", unit::stress, element_ends, no_kind, has_face_stress,
+       stresses<5>},
+      {"sum_of_loads", "sum of the loads", unit::force, structure, no_kind, has_elements,
+       of_structure<&force_balance::loads>},
+      {"sum_of_reactions", "sum of the reactions", unit::force, structure, no_kind, has_elements,
+       of_structure<&force_balance::reactions>},
+      {"sum_of_contact", "sum of the contact forces", unit::force, structure, no_kind, has_elements,
+       of_structure<&force_balance::contact>},
+  };
+  return rows;
+}
+
+}  // namespace
+
+std::string_view list_name(on where) {
+  constexpr std::string_view names[] = {"nodes", "pairs", "supports", "beds", "element_ends", "structure"};
+  return names[static_cast<std::size_t>(where)];
+}
+
+std::string_view key_in_list(const quantity_row& row) {
+  const std::string_view prefix = row.where == on::beds        ? "bed_"
+                                  : row.where == on::structure ? "sum_of_"
+                                                               : "";
+  return row.key.substr(prefix.size());
+}
+
+std::vector<const quantity_row*> quantities_of(const problem& p, std::optional<on> list) {
+  std::vector<const quantity_row*> all;
+  for (const quantity_row& row : all_quantities())
+    if (row.where == list.value_or(row.where) && row.exists(p)) all.push_back(&row);
+  return all;
+}
+
+const quantity_row& row_named(const problem& p, std::string_view key) {
+  for (const quantity_row& row : all_quantities())
+    if (row.key == key && row.exists(p)) return row;
+  throw std::logic_error("no quantity " + std::string(key));
+}
+
+bool has_kind(const problem& p, quantity kind) {
+  if (kind == quantity::reaction) return !p.supports.empty();  // also if all reactions are moments
+  return std::ranges::any_of(quantities_of(p), [kind](const auto* row) { return row->kind == kind; });
+}
+
+}  // namespace contct

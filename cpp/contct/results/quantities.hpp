@@ -1,0 +1,52 @@
+// Every number of a result as a row of one table: its name, its unit, where it is, and how it is read from a
+// state.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "contct/results/step_results.hpp"
+
+namespace contct {
+
+/// The list whose entries have a number. Beds and `structure`, which has one entry, have sums.
+enum class on { nodes, pairs, supports, beds, element_ends, structure };
+
+/// "nodes", "pairs", ..: the list as results name it.
+[[nodiscard]] std::string_view list_name(on where);
+
+struct quantity_row {
+  std::string_view key;    ///< in files: letters, digits and _
+  std::string_view words;  ///< in tables
+  unit in;                 ///< of a matrix, at dofs along an axis
+  on where;
+  std::optional<quantity> kind;  ///< the kind of number whose proved bound covers this one; empty: none does
+  bool (*exists)(const problem&);
+  /// The values in the order of the list; of an element, at its ends or corners one after the other. NaN: an
+  /// entry without this number.
+  std::vector<double> (*values)(const step_results&);
+};
+
+/// The key within the list: of "bed_force", "force" in `beds`; of "sum_of_loads", "loads" in `balance`.
+[[nodiscard]] std::string_view key_in_list(const quantity_row& row);
+
+/// The rows of the numbers that a problem has, all or those on one list.
+[[nodiscard]] std::vector<const quantity_row*> quantities_of(const problem& p,
+                                                             std::optional<on> list = std::nullopt);
+
+/// The row of a value_range, of an extreme of an element or a node, or of a column of a curve.
+[[nodiscard]] const quantity_row& row_named(const problem& p, std::string_view key);
+
+/// A quantity along a beam, with its polynomial in each piece of an element.
+struct line_row {
+  std::string_view key;
+  line_polynomial<double> element_line::*polynomial;
+};
+inline constexpr line_row along_beam[] = {
+    {"w", &element_line::w}, {"moment", &element_line::moment}, {"shear", &element_line::shear}};
+
+/// True if the problem has numbers of this kind.
+[[nodiscard]] bool has_kind(const problem& p, quantity kind);
+
+}  // namespace contct

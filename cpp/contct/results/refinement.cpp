@@ -1,0 +1,190 @@
+// Estimates the effect of a finer mesh: halves every element of a problem, and compares the two results.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "contct/results/quantities.hpp"
+#include "contct/structure/line.hpp"
+
+namespace contct {
+namespace {
+
+/// Converts node and element numbers, from 0, between a coarse mesh and the mesh of half the element size.
+struct halved_grid {
+  explicit halved_grid(const model& m)
+      : columns(std::holds_alternative<plate>(m.kind) ? std::get<plate>(m.kind).columns() : nodes(m)),
+        rows(nodes(m) / columns) {}
+  [[nodiscard]] int fine_columns() const { return 2 * columns - 1; }
+  [[nodiscard]] int node(int coarse) const {
+    return 2 * (coarse / columns) * fine_columns() + 2 * (coarse % columns);
+  }
+  /// The coarse nodes around a fine node: 2 on an edge, 4 inside an element, otherwise the node itself.
+  [[nodiscard]] std::vector<int> around(int fine) const {
+    const int i = fine % fine_columns();
+    const int j = fine / fine_columns();
+    std::vector<int> all;
+    for (int row = j / 2; row <= (j + 1) / 2; ++row)
+      for (int column = i / 2; column <= (i + 1) / 2; ++column) all.push_back(row * columns + column);
+    return all;
+  }
+  [[nodiscard]] std::vector<int> parts_of(const std::vector<int>& elements) const {
+    std::vector<int> all;
+    for (const int e : elements) {
+      for (int above = 0; above < std::min(rows, 2); ++above) {
+        const int left = (2 * (e / (columns - 1)) + above) * (fine_columns() - 1) + 2 * (e % (columns - 1));
+        all.insert(all.end(), {left, left + 1});
+      }
+    }
+    return all;
+  }
+  int columns, rows;
+};
+
+/// Halves every interval of `x`, and records the halves as equal elements, because the middle is rounded.
+void halve(std::vector<double>& x, std::vector<even_run>& runs) {
+  for (std::size_t i = 1; i < x.size() && (i > 1 || runs.empty()); ++i) runs.push_back({x[i], 1});
+  for (even_run& run : runs) run.elements *= 2;
+  std::vector<double> fine = {x.front()};
+  for (std::size_t i = 1; i < x.size(); ++i)
+    fine.insert(fine.end(), {x[i - 1] + (x[i] - x[i - 1]) / 2, x[i]});
+  x.swap(fine);
+}
+
+template <class Value>
+void double_each(std::vector<Value>& of_elements) {
+  std::vector<Value> fine;
+  for (const Value& value : of_elements) fine.insert(fine.end(), 2, value);
+  of_elements.swap(fine);
+}
+
+void halve(beam& b) {
+  halve(b.x, b.runs);
+  for (const element_key& key : element_keys) double_each(b.*key.values);
+  double_each(b.sections);
+  for (int& node : b.hinges) node *= 2;
+}
+
+void halve(plate& p) {
+  halve(p.x, p.x_runs);
+  halve(p.y, p.y_runs);
+}
+
+void halve(assembled& a) {
+  throw std::invalid_argument(
+      "--refine: found a structure given by its matrix, " + a.name +
+      "; allowed: [beam] and [plate]. Write the matrix of a finer mesh with the program that wrote this one, "
+      "and compare the two results");
+}
+
+std::vector<char> fixed_in(const problem& p, int dof) {
+  std::vector<char> fixed(nodes(p.geometry));
+  for (const support& s : p.supports)
+    if (s.fixed && s.dof == dof) fixed[s.node] = 1;
+  return fixed;
+}
+
+void add_supports(const problem& p, const halved_grid& grid, int dof, problem& fine) {
+  const std::vector<char> fixed = fixed_in(p, dof);
+  for (int node = 0; node < nodes(fine.geometry); ++node) {
+    const std::vector<int> around = grid.around(node);
+    const auto share = 1.0 / static_cast<double>(around.size());
+    if (share == 1.0 || !std::ranges::all_of(around, [&](int n) { return fixed[n] != 0; })) continue;
+    fine.supports.push_back({node, dof, true});
+    for (std::size_t step = 0; step < p.steps.size(); ++step) {
+      double mean = 0.0;
+      for (const prescribed_displacement& g : p.steps[step].settlements)
+        if (g.dof == dof && std::ranges::count(around, g.node) > 0)
+          mean += share * product_of<double>(g.value, g.factor);
+      if (mean != 0.0) fine.steps[step].settlements.push_back({node, dof, mean});
+    }
+  }
+}
+
+/// Adds bed `b` of `p` to the finer problem. New faces are means of neighbours, or the polynomial's values.
+void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& fine) {
+  std::map<int, double> faces;
+  for (std::size_t i = 0; i < b.share.size(); ++i)
+    faces[p.pairs[b.first_pair + i].node] = p.pairs[b.first_pair + i].face;
+  const std::vector<char> fixed = fixed_in(p, 0);
+  const std::vector<char> now_fixed = fixed_in(fine, 0);
+  const std::vector<double> shares = tributary_shares(fine.geometry);
+  const std::vector<double> exactly = exact_shares(fine.geometry);
+  bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed};
+  for (int node = 0; node < nodes(fine.geometry); ++node) {
+    const std::vector<int> around = grid.around(node);
+    const auto known = std::ranges::count_if(around, [&](int n) { return faces.contains(n); });
+    const bool all = std::ranges::all_of(around, [&](int n) { return faces.contains(n) || fixed[n] != 0; });
+    if (now_fixed[node] != 0 || known == 0 || !all) continue;
+    double face = 0.0;
+    for (const int n : around)
+      if (faces.contains(n)) face += faces[n] / static_cast<double>(known);
+    if (!b.face.empty())
+      face = values_at<double>(std::get<beam>(fine.geometry.kind), b.face, std::vector{node}).front();
+    made.share.push_back(exactly[node]);
+    fine.pairs.push_back({node, p.pairs[b.first_pair].surface, face, b.modulus * shares[node],
+                          b.closed.value_or(true) && face == 0.0});
+  }
+  fine.beds.push_back(std::move(made));
+}
+
+}  // namespace
+
+problem refined(const problem& p) {
+  const halved_grid grid(p.geometry);
+  problem fine = p;
+  std::visit([](auto& kind) { halve(kind); }, fine.geometry.kind);
+  for (support& s : fine.supports) s.node = grid.node(s.node);
+  for (load& l : fine.steps) {
+    for (const auto values : nodal_values)
+      for (nodal_value& at : l.*values) at.node = grid.node(at.node);
+    for (distributed_load& d : l.distributed) d.elements = grid.parts_of(d.elements);
+    for (placed_load& at : l.placed)
+      for (line_place* const end : {&at.from, &at.to, &at.across.front(), &at.across.back()})
+        if (end->point > 0) end->point *= 2;
+  }
+  if (std::holds_alternative<plate>(p.geometry.kind))
+    for (int dof = 0; dof < plate::dofs_per_node; ++dof) add_supports(p, grid, dof, fine);
+  fine.pairs.resize(contacts_of(p));
+  for (contact_pair& pair : fine.pairs) pair.node = grid.node(pair.node);
+  fine.beds.clear();
+  for (const bed& b : p.beds) add_bed(p, grid, b, fine);
+  return fine;
+}
+
+std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine) {
+  std::vector<mesh_change> all;
+  const auto take = [&all](std::string_view kind, double before, double now) {
+    auto at = std::ranges::find(all, kind, &mesh_change::kind);
+    if (at == all.end()) at = all.insert(all.end(), {kind});
+    at->change = std::max(at->change, std::abs(now - before));
+    at->of = std::max(at->of, std::abs(now));
+  };
+  const problem& p = coarse.what;
+  for (std::size_t step = 0; step < p.steps.size(); ++step) {
+    const structure_state& before = coarse.record.steps[step];
+    const structure_state& now = fine.record.steps[step];
+    const step_results a(p, before);
+    const step_results b(fine.what, now);
+    for (std::size_t i = 0; i < a.ranges().size(); ++i) {
+      take(a.ranges()[i].name, a.ranges()[i].least.value, b.ranges()[i].least.value);
+      take(a.ranges()[i].name, a.ranges()[i].most.value, b.ranges()[i].most.value);
+    }
+    // Numbers that the finer mesh has at the same places: the pairs of beds and the supports of plates are
+    // others.
+    const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
+    for (const quantity_row* row : quantities_of(p)) {
+      const bool is_force =
+          row->kind == quantity::force || row->where == on::beds || (of_beam && row->where == on::supports);
+      if (!is_force) continue;
+      const std::vector<double> had = row->values(a);
+      const std::vector<double> has = row->values(b);
+      const std::size_t count = row->where == on::pairs ? contacts_of(p) : had.size();
+      for (std::size_t i = 0; i < count; ++i)
+        if (!std::isnan(had[i])) take(row->key, had[i], has[i]);
+    }
+  }
+  return all;
+}
+
+}  // namespace contct

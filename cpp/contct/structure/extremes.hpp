@@ -1,0 +1,121 @@
+// Results for a whole structure: the deflected lines of beams, and the extremes of each quantity.
+#pragma once
+
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "contct/structure/placed_loads.hpp"
+#include "contct/structure/statics.hpp"
+
+namespace contct {
+
+/// The coefficients of a polynomial along an element, constant first. Up to six, as for w under a linear
+/// load, are stored without an allocation.
+template <class Number>
+using line_polynomial = boost::container::small_vector<Number, 6>;
+
+/// The exact deflected line of a beam's element or of a piece of an element: the solution of EI w_xxxx = q
+/// with the displacements of the nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1 (see
+/// polynomial_at).
+// NOLINTNEXTLINE(bugprone-exception-escape): moving numbers throws nothing
+struct element_line {
+  double left = 0.0, h = 0.0, right = 0.0;
+  line_polynomial<double> w, slope, moment, shear, load;
+  /// The sum of the magnitudes of the loads, each as a force per length, and in a broken element also of
+  /// shear and moment: rounding errors are relative to load_size.
+  double load_size = 0.0;
+  double curvature = 0.0;  ///< the imposed curvature
+};
+
+/// The lines of all elements under displacement `u` [dofs] and load `l`.
+class beam_lines {
+ public:
+  /// `b` and `u` must outlive this object. `element_values`: element_results::values, if more accurate ones
+  /// than those computed from `u` are known.
+  beam_lines(const beam& b, const load& l, std::span<const double> u,
+             std::span<const double> element_values = {});
+
+  /// The line of element `e` (from 0) as one piece. If is_broken(e), the line is computed without loads, and
+  /// only its values at t = 0 are correct.
+  [[nodiscard]] element_line at(int e) const;
+  /// The pieces of element `e` between the places where a load begins, ends or acts at a point; the whole
+  /// element if there are no such places. Shear or moment jumps where a load acts at a point.
+  [[nodiscard]] std::vector<element_line> pieces(int e) const;
+  /// True if element `e` has several pieces, a point force or moment at its left end, or imposed curvature.
+  [[nodiscard]] bool is_broken(int e) const;
+  /// Shear and moment at the ends of the elements.
+  [[nodiscard]] const element_results& ends() const { return ends_; }
+
+ private:
+  const beam& beam_;
+  std::span<const double> u_;
+  element_results ends_;
+  std::vector<double> h_;  // [elements]
+  std::map<int, alike_pieces> pieces_;
+};
+
+/// The Bernstein coefficients of a polynomial. From t = 0 to 1 the polynomial lies between the least and the
+/// largest Bernstein coefficient.
+[[nodiscard]] line_polynomial<double> bernstein_of(const line_polynomial<double>& polynomial);
+
+/// The sum of the magnitudes of the coefficients.
+[[nodiscard]] double sum_of_sizes(const line_polynomial<double>& p);
+
+/// The values of t inside an element, ascending, at which w, the moment or the shear has an extreme.
+[[nodiscard]] std::vector<double> extreme_places(const element_line& line);
+
+/// A value with its coordinates, and with its node (from 0) if it is at a node.
+struct placed_value {
+  double value = 0.0;
+  double x = 0.0, y = 0.0;
+  int node = -1;
+};
+
+/// The difference up to which values of magnitude `size` are equal, as at symmetric places, if the quantity
+/// has values of magnitude `largest`, and so rounding of that magnitude.
+[[nodiscard]] inline double tie_of(double size, double largest) {
+  return std::max(1e-9 * size, 0x1p-48 * largest);
+}
+
+/// The least and the largest value of one quantity.
+struct value_range {
+  std::string_view name;
+  placed_value least, most;
+
+  /// `least` or `most`, whichever has the larger magnitude; of equal magnitudes the positive value.
+  [[nodiscard]] const placed_value& largest() const {
+    return -least.value > (1 + 1e-9) * most.value ? least : most;
+  }
+};
+
+/// The least and the largest deflection between node `first` and node `last` > `first`.
+[[nodiscard]] value_range deflections_between(const beam_lines& lines, std::span<const double> u, int first,
+                                              int last);
+
+/// The extremes of each quantity. Beams: w, moment and shear over the whole length, and the stress if W is
+/// known. Plates: w at nodes, the moments at the corners of elements, and the principal and von Mises
+/// stresses if the thickness is known. A matrix: the displacements of the dofs in `deflecting`. If values are
+/// equal (see tie_of), the place is that of the first. `element_values`: see beam_lines.
+[[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
+                                                 std::span<const int> deflecting,
+                                                 std::span<const double> element_values = {});
+/// Those of a beam, by its lines under displacement `u`.
+[[nodiscard]] std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines,
+                                                 std::span<const double> u);
+
+/// Stresses at the lower fibre or face, where sagging causes tension. For a beam: M / W at both ends of each
+/// element. For a plate: sx = 6 m_x / t^2, sy and txy, the principal stresses s1 >= s2 and the von Mises
+/// stress at the corners of each element. At the upper fibre or face, all but the last have the opposite
+/// sign. Empty if W, or the thickness, is unknown. `forces`: results_in_elements.
+[[nodiscard]] element_results stresses_of(const model& m, const element_results& forces);
+
+/// A bound on the error of each stress from stresses_of, and of each stress along a beam, if no moment is
+/// wrong by more than `moment` and no stress is larger than `largest`. Nothing if there are no stresses.
+[[nodiscard]] std::optional<double> stress_error(const model& m, double moment, double largest);
+
+}  // namespace contct

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contct/linear/cholesky.hpp"
+#include "contct/results/load_path.hpp"
+#include "contct/results/quantities.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct {
+
+std::string passage_warning(const problem& p, std::span<const solved_step> steps) {
+  std::optional<penetration> worst;
+  int step = 0;
+  for (const solved_step& s : steps) {
+    const auto here = deepest_penetration(p, load_at(p, s.step, s.fraction), s.displacement);
+    if (!here || (worst && here->depth <= worst->depth)) continue;
+    worst = here;
+    step = s.step;
+  }
+  if (!worst) return "";
+  const contact_pair& left = p.pairs[worst->first];
+  return fmt::format(
+      "{}: between pairs {} and {} the beam passes through their common face at {:g} by {:.2g}{} at x = "
+      "{:.6g}. "
+      "This is right if the pairs are separate stops; if one surface extends between them, put pairs closer "
+      "together (at the nodes of a finer mesh: element_size)",
+      step_words(p, step), worst->first + 1, worst->second + 1, left.face, worst->depth,
+      unit_words(p, unit::length), worst->x);
+}
+
+namespace {
+
+/// The concentrated force on `node` of a plate, in words; empty if there is none. Moments are infinite at
+/// such a node, except at a corner, where a force causes twisting moments of half its size. Pairs of beds do
+/// not count, because each pair represents an area.
+std::string concentrated_at(const step_results& r, int node) {
+  const problem& p = r.what;
+  const auto& on = std::get<plate>(p.geometry.kind);
+  const place at = place_of_node(p.geometry, node);
+  const bool is_at_end = at.x == on.x.front() || at.x == on.x.back();
+  if (is_at_end && (at.y == on.y.front() || at.y == on.y.back())) return "";
+  for (const point_load& f : r.acting.points)
+    if (f.node == node && f.value * f.factor != 0.0) return "a point load";
+  for (std::size_t i = 0; i < contacts_of(p); ++i)
+    if (p.pairs[i].node == node && r.pairs[i].force != 0.0) return fmt::format("the force of pair {}", i + 1);
+  return "";
+}
+
+}  // namespace
+
+std::string concentration_warning(const problem& p, std::span<const solved_step> steps) {
+  if (!std::holds_alternative<plate>(p.geometry.kind)) return "";
+  std::size_t rank = 3;
+  double most = 0.0;
+  std::string warning;
+  for (const solved_step& s : steps) {
+    const step_results r(p, s);
+    const std::vector<value_range>& ranges = r.ranges();
+    const bool has_stress = row_named(p, ranges.back().name).in == unit::stress;
+    const std::size_t in_order[] = {ranges.size() - 1, 1, 2};  // von Mises, or else mx, or else my
+    for (std::size_t here = has_stress ? 0 : 1; here < std::size(in_order); ++here) {
+      const placed_value& at = ranges[in_order[here]].largest();
+      const double size = std::abs(at.value);
+      if (here > rank || (here == rank && size <= most)) continue;
+      const std::string what = concentrated_at(r, at.node);
+      if (what.empty()) continue;
+      rank = here;
+      most = size;
+      warning = fmt::format(
+          "{}: largest {} at {}, under {}: there the moments of a thin plate grow with every finer mesh. "
+          "Spread the load, or the force of a bolt, over an area (uniform with from and to) for a finite "
+          "stress",
+          step_words(p, s.step), here == 0 ? "von Mises" : ranges[here].name, place_words(p.geometry, at),
+          what);
+    }
+  }
+  return warning;
+}
+
+std::string shear_warning(const problem& p, std::span<const solved_step> steps) {
+  constexpr double noticeable = 0.05;  // share of the largest shear
+  if (!std::holds_alternative<beam>(p.geometry.kind) || p.beds.empty()) return "";
+  placed_value largest;
+  double force = 0.0;  // of the pair there
+  int step = 0;
+  for (const solved_step& s : steps) {
+    const step_results r(p, s);
+    const auto is_shear = [&p](const value_range& v) { return row_named(p, v.name).kind == quantity::shear; };
+    const placed_value& here = std::ranges::find_if(r.ranges(), is_shear)->largest();
+    if (std::abs(here.value) <= std::abs(largest.value)) continue;
+    largest = here;
+    step = s.step;
+    force = 0.0;
+    for (std::size_t i = contacts_of(p); i < p.pairs.size(); ++i)
+      if (p.pairs[i].node == here.node) force = r.pairs[i].force;
+  }
+  const double share = force / 2 / std::abs(largest.value);
+  if (!(share > noticeable)) return "";
+  return fmt::format(
+      "{}: the largest shear, {:.4g}{} at {}, may be {} too small: a bed acts at nodes, here with {:.3g}{}. "
+      "Use a finer mesh (element_size)",
+      step_words(p, step), largest.value, unit_words(p, unit::force), place_words(p.geometry, largest),
+      percent_words(share), force, unit_words(p, unit::force));
+}
+
+std::string digit_warning(std::span<const solved_step> steps) {
+  int fewest = 5;  // a state with 5 digits needs no warning
+  const solved_step* worst = nullptr;
+  for (const solved_step& s : steps) {
+    // Refined states and states of the exact path do not lose digits.
+    if (s.numbers.any() || s.from == origin::exact_path || digits_left(s.rcond) >= fewest) continue;
+    fewest = digits_left(s.rcond);
+    worst = &s;
+  }
+  if (worst == nullptr) return "";
+  const std::string digits = fewest == 0   ? "no digit"
+                             : fewest == 1 ? "about 1 digit"
+                                           : fmt::format("about {} digits", fewest);
+  return fmt::format(
+      "step {}: {} of the answer can be relied on: the stiffness is ill-conditioned (rcond {:.1e}). Use "
+      "fewer elements in a span, or more supports",
+      worst->step, digits, worst->rcond);
+}
+
+std::vector<std::string> state_warnings(const run_result& r) {
+  std::vector<std::string> lines = {r.end.status == path_status::solved ? digit_warning(r.record.steps) : "",
+                                    passage_warning(r.what, r.record.steps),
+                                    concentration_warning(r.what, r.record.steps),
+                                    shear_warning(r.what, r.record.steps)};
+  std::erase(lines, "");
+  return lines;
+}
+
+std::vector<std::string> warnings_of(const run_result& r) {
+  std::vector<std::string> lines = r.what.warnings;
+  const std::string begin = (r.file == "-" ? "standard input" : r.file) + ":";
+  for (std::string& line : lines)  // so that results do not depend on the problem's folder
+    if (line.starts_with(begin)) line.erase(0, line.find(": ", begin.size()) + 2);
+  std::ranges::move(state_warnings(r), std::back_inserter(lines));
+  return lines;
+}
+
+}  // namespace contct

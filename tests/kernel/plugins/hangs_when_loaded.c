@@ -1,6 +1,0 @@
-/* A library whose constructor never returns. */
-#include <unistd.h>
-
-__attribute__((constructor)) static void hang(void) {
-  for (;;) pause();
-}

@@ -1,0 +1,6 @@
+cmake_minimum_required(VERSION 3.25)
+project(mine LANGUAGES CXX)
+find_package(contct REQUIRED)
+add_executable(mine mine.cpp)
+target_link_libraries(mine PRIVATE contct::cxx)
+target_compile_options(mine PRIVATE -Wall -Wextra -Werror)
