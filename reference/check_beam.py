@@ -49,35 +49,42 @@ def find(line, x):
 
 
 class Beam:
-    """An element of length h: dofs w and w' at its left end, w and w' at its right end.
+    """An element of length h: dofs w and the rotation of the section at its left end, then at its right end.
 
-    If `released`, a hinge makes the moment at the right end 0. The element's w' at this end is condensed: it is
-    -turn . u plus the rotation from the element's loads.
+    GA is its shear stiffness, None without shear flexibility. If `released`, a hinge makes the moment at the right end
+    0. The element's rotation at this end is condensed: it is -turn . u plus the rotation from the element's loads.
+    A shape is two polynomials in t = (x - left) / h: its w, and h times the rotation of its section.
     """
 
-    def __init__(self, h, EI, weight=None, released=False):
-        self.weight, self.released = weight, released
-        self.h, self.EI, c = positive(h), positive(EI), EI / h**3
-        self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, 4 * h * h * c, -6 * h * c, 2 * h * h * c],
-                          [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, 2 * h * h * c, -6 * h * c, 4 * h * h * c]]
-        self.turn = [k * h / (4 * EI) for k in self.stiffness[3]]
+    def __init__(self, h, EI, GA=None, weight=None, released=False):
+        self.weight, self.released, self.GA = weight, released, GA
+        self.h, self.EI = positive(h), positive(EI)
+        self.phi = phi = 12 * EI / positive(GA) / h**2 if GA is not None else F(0)
+        c = EI / h**3 / (1 + phi)
+        near, far = (4 + phi) * h * h * c, (2 - phi) * h * h * c
+        self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, near, -6 * h * c, far],
+                          [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, far, -6 * h * c, near]]
+        self.near, self.turn = near, [k / near for k in self.stiffness[3]]
         if released:
-            self.stiffness = [[k - a * b * 4 * EI / h for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
+            self.stiffness = [[k - a * b * near for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
 
     def work(self, of):
         """Returns a load's work on the four shape functions, and what it adds inside at u = 0: to w and moment in the middle, to shear at 1/4.
 
-        of(shape, a, b) is the load's work on a polynomial in t = (x - left) / h from t = a to t = b. The deflection of
-        the middle is the load's work on the deflection under a unit load in the middle, between clamped ends
-        h^3 t^2 (3 - 4 t) / 48 EI for t up to 1/2.
+        of(shape, a, b) is the load's work on a shape from t = a to t = b. The deflection of the middle is the load's work
+        on the deflection under a unit load in the middle, between clamped ends h^3 (t^2 (3 - 4 t) + 2 phi t) / 48 EI for
+        t up to 1/2.
         """
-        shapes = [(1, 0, -3, 2), (0, self.h, -2 * self.h, self.h), (0, 0, 3, -2), (0, 0, -self.h, self.h)]
-        forces = [of(shape, F(0), F(1)) for shape in shapes]
-        middle = self.h**3 / (48 * self.EI) * (of((0, 0, 3, -4), F(0), F(1, 2)) + of((-1, 6, -9, 4), F(1, 2), F(1)))
+        h, phi, share = self.h, self.phi, 1 / (1 + self.phi)
+        shapes = [((1 + phi, -phi, -3, 2), (0, -6, 6)), ((0, h * (1 + phi / 2), -h * (2 + phi / 2), h), (h * (1 + phi), -h * (4 + phi), 3 * h)),
+                  ((0, phi, 3, -2), (0, 6, -6)), ((0, -h * phi / 2, h * (phi / 2 - 1), h), (0, h * (phi - 2), 3 * h))]
+        forces = [share * of(shape, F(0), F(1)) for shape in shapes]
+        middle = h**3 / (48 * self.EI) * (of(((0, 2 * phi, 3, -4), (0, 6, -12)), F(0), F(1, 2))
+                                          + of(((2 * phi - 1, 6 - 2 * phi, -9, 4), (6, -18, 12)), F(1, 2), F(1)))
         if self.released:
-            middle -= self.h * self.h * forces[3] / (32 * self.EI)
+            middle -= h * forces[3] / (8 * self.near)
             forces = [f - a * forces[3] for f, a in zip(forces, self.turn)]
-        return forces + [middle, of((F(1),), F(0), F(1, 4)), self.h * of((F(1, 2), F(-1)), F(0), F(1, 2))]
+        return forces + [middle, of(((F(1),), ()), F(0), F(1, 4)), h * of(((F(1, 2), F(-1)), (F(-1),)), F(0), F(1, 2))]
 
     def load(self, q, left, first=F(0), last=F(1)):
         """Returns `work` of a load that is the polynomial q in x from t = first to t = last."""
@@ -85,26 +92,27 @@ class Beam:
 
         def of(shape, a, b):
             a, b = max(a, first), max(a, first, min(b, last))
-            return sum(c * s * (b**(i + j + 1) - a**(i + j + 1)) / F(i + j + 1) for i, c in enumerate(own) for j, s in enumerate(shape))
+            return sum(c * s * (b**(i + j + 1) - a**(i + j + 1)) / F(i + j + 1) for i, c in enumerate(own) for j, s in enumerate(shape[0]))
         return self.work(of)
 
     def point(self, force, moment, t):
         """Returns `work` of a force and a moment at t, inside the element."""
-        return self.work(lambda shape, a, b: sum(force * s * t**j + moment * j * s * t**(j - 1) / self.h for j, s in enumerate(shape)) if a < t <= b else F(0))
+        at = lambda p: sum(s * t**j for j, s in enumerate(p))
+        return self.work(lambda shape, a, b: force * at(shape[0]) + moment * at(shape[1]) / self.h if a < t <= b else F(0))
 
     def bent(self, curvature, first, last):
         """Returns `work` of an imposed curvature from t = first to t = last."""
         def of(shape, a, b):
             a, b = max(a, first), max(a, first, min(b, last))
-            return self.EI * curvature / self.h * sum(j * s * (b**(j - 1) - a**(j - 1)) for j, s in enumerate(shape) if j > 1)
+            return self.EI * curvature / self.h * sum(s * (b**j - a**j) for j, s in enumerate(shape[1]))
         return self.work(of)
 
     def middle(self, u, work):
-        """Returns (kind, size) for w and moment in the middle, shear at a quarter, and the larger mean slope of a half."""
+        """Returns (kind, size) for w and moment in the middle, shear at a quarter, and without GA the larger mean slope of a half."""
         right = -dot(self.turn[:3], u[:3]) if self.released else u[3]
         w = (u[0] + u[2]) / 2 + self.h * (u[1] - right) / 8 + work[4]
         shear, moment = (dot(row, u) - f for row, f in zip(self.stiffness[:2], work))
-        inside = [w, shear + work[5], shear * self.h / 2 - moment + work[6], max(abs(w - u[0]), abs(u[2] - w)) * 2 / self.h]
+        inside = [w, shear + work[5], shear * self.h / 2 - moment + work[6], max(abs(w - u[0]), abs(u[2] - w)) * 2 / self.h if self.GA is None else F(0)]
         return zip(("w", "shear", "moment", "slope"), map(abs, inside))
 
     def values(self, u, work):
@@ -114,19 +122,33 @@ class Beam:
         return [("shear", v, shear), ("shear", -w, shear), ("moment", -m, moment), ("moment", n, moment)]
 
 
-def pieces(of):
-    """Returns the pieces of the beam's EI or section that have an end, "to"."""
-    section = {"E", "I", "W", "A", "weight"}
-    return [only(piece, {"to", "value"} if "EI" in of else {"to", *section}) for piece in listed(of.get("EI", of.get("section")))
+SECTION = {"E", "I", "W", "A", "G", "As", "weight"}
+
+
+def pieces(of, *keys):
+    """Returns the pieces that have an end, "to", in the beam's EI, GA and section, or in `keys` alone."""
+    return [only(piece, {"to", *SECTION} if key == "section" else {"to", "value"}) for key in keys or ("EI", "GA", "section") for piece in listed(of.get(key))
             if isinstance(piece, dict) and "to" in piece]
 
 
-def stiffness(piece):
-    """Returns EI and the weight per length of a piece; the weight is None if it is unknown."""
-    if "value" in piece:
-        return real(piece["value"]), None
-    EI = positive(real(piece["E"])) * positive(real(piece["I"]))
-    return EI, positive(real(piece["weight"])) * positive(real(piece["A"])) if "weight" in piece and "A" in piece else None
+def section(piece):
+    """Returns EI, GA and the weight per length of a piece; GA and the weight are None if they are unknown."""
+    product = lambda *keys: positive(real(piece[keys[0]])) * positive(real(piece[keys[1]]))
+    need(("G" in piece) == ("As" in piece), "G without As")
+    return product("E", "I"), product("G", "As") if "G" in piece else None, product("weight", "A") if "weight" in piece and "A" in piece else None
+
+
+def along(of, key, x):
+    """Returns the number, or the section, of each element."""
+    parts = pieces(of, key)
+    read = (lambda piece: section(only(piece, {"to", *SECTION}))) if key == "section" else lambda piece: real(piece["value"] if isinstance(piece, dict) else piece)
+    if parts:
+        ends = [0] + [find(x, piece["to"]) for piece in parts]
+        need(None not in ends and ends == sorted(set(ends)) and ends[-1] == len(x) - 1, "pieces that are not from node to node, or do not end where the beam ends")
+        return [read(piece) for piece, a, b in zip(parts, ends, ends[1:]) for _ in range(a, b)]
+    all = [read(k) for k in listed(of[key])] * (1 if isinstance(of[key], list) else len(x) - 1)
+    need(len(all) == len(x) - 1, f"{key}: not one for each element")
+    return all
 
 
 def hinges(t, x):
@@ -161,7 +183,8 @@ def sized(of, t, ends):
 def places(of, t):
     """Returns the coordinates of the nodes."""
     need(len(of.keys() & {"EI", "section"}) == 1, "not one of EI and section")
-    need(of.keys() - {"EI", "section"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
+    need("GA" not in of or "EI" in of, "GA without EI")
+    need(of.keys() - {"EI", "GA", "section"} in ({"x"}, {"length", "elements"}, {"x", "element_size"}, {"length", "element_size"}), "a beam of another form")
     if "element_size" in of:
         return sized(of, t, [real(x) for x in of.get("x", [0, of.get("length")])])
     return [real(x) for x in of["x"]] if "x" in of else parts(of["length"], of["elements"])
@@ -171,15 +194,11 @@ def beam(of, t, count=None):
     """Raises ValueError unless there are `count` element results, if it is given. Returns a node's dof names, [x], the nodes' tributary lengths, and (element, dofs, left end) of each element."""
     x = places(of, t)
     need(len(x) > 1 and count in (None, 4 * (len(x) - 1)), "a beam with another number of elements than in the proof file")
-    if pieces(of):
-        ends = [0] + [find(x, piece["to"]) for piece in pieces(of)]
-        need(None not in ends and ends == sorted(set(ends)) and ends[-1] == len(x) - 1, "pieces that are not from node to node, or do not end where the beam ends")
-        EI = [stiffness(piece) for piece, a, b in zip(pieces(of), ends, ends[1:]) for _ in range(a, b)]
-    elif "section" in of:
-        EI = [stiffness(only(of["section"], {"E", "I", "W", "A", "weight"}))] * (len(x) - 1)
+    if "section" in of:
+        sections = along(of, "section", x)
+        need(len({GA is None for _, GA, _ in sections}) == 1, "G in some pieces and not in others")
     else:
-        EI = [(real(k), None) for k in listed(of["EI"])] * (1 if isinstance(of["EI"], list) else len(x) - 1)
-    need(len(EI) == len(x) - 1, "EI: not one for each element")
+        sections = list(zip(along(of, "EI", x), along(of, "GA", x) if "GA" in of else [None] * (len(x) - 1), [None] * (len(x) - 1)))
     at = hinges(t, x)
-    elements = [(Beam(b - a, *k, e + 1 in at), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], EI))]
+    elements = [(Beam(b - a, *k, e + 1 in at), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], sections))]
     return ["w", "theta"], [x], [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements

@@ -21,7 +21,7 @@ sys.path.insert(0, str(HERE))
 from check_problem import Problem, real  # noqa: E402
 from judge import PLACE, errors  # noqa: E402
 
-LEAST = 51
+LEAST = 52
 # Published sources of families of problems (PB3a and PB3b are one family), and their results.
 PUBLISHED = {"pb02": "data: studysoup.com, question 142235", "pb03": "Kerr, Soicher: contact does not depend on the load",
              "pb04": "Lovtsov 2025: 0.4 F / alpha", "pb09": "Code_Aster SSNL130: -208/58875, 176/153075", "pb10": "data: Code_Aster V5.02.104",
@@ -53,7 +53,8 @@ def structure(toml, problem, labels):
     if len(lines) == 1:
         hinges = [problem.lines[0].index(real(hinge["x"])) + 1 for hinge in toml.get("hinge", [])]
         elements = [element for element, *_ in problem.elements]
-        return {"kind": "beam", "x": lines[0], "EI": [float(element.EI) for element in elements], "hinges": hinges}
+        shear = {} if elements[0].GA is None else {"GA": [float(element.GA) for element in elements]}
+        return {"kind": "beam", "x": lines[0], "EI": [float(element.EI) for element in elements], **shear, "hinges": hinges}
     plate = problem.elements[0][0]
     return {"kind": "plate", "x": lines[0], "y": lines[1], "D": float(plate.D), "nu": float(plate.nu)}
 

@@ -6,7 +6,7 @@ STOP = '[[contact]]\nnode = 3\nsurface = "below"\nface = -1e-4\nstiffness = 1e4\
 BED = "[[bed]]\nmodulus = 900\nface = 0\n"
 BEAM = "[beam]\nlength = 4\nelements = 4\n"
 PLAIN = BEAM + "EI = 1e4\n"
-SECTION = BEAM + "section = { E = 2.1e8, I = 2.5e-4, W = 1.6e-3, A = 1.4e-2, weight = 78.5 }\n"
+SECTION = BEAM + "section = { E = 2.1e8, I = 2.5e-4, W = 1.6e-3, A = 1.4e-2, weight = 78.5, G = 8.1e7, As = 4e-3 }\n"
 PLATE = "[plate]\nsize = [2, 1]\nelements = [2, 2]\nnu = 0.2\n"
 THICK = PLATE + "E = 3e7\nthickness = 0.1\n"
 EDGE = '[[support]]\nnodes = "1..3"\nfix = ["w", "wx", "wy"]\n'

@@ -102,6 +102,7 @@ std::vector<std::string> words_of(const problem& p) {
     for (const int node : b->hinges) hinges.push_back(node + 1);
     add("x", b->x, " ");
     add("EI", b->EI, " ");
+    add("GA", b->GA, " ");
     add("hinges", hinges, " ");
   } else if (const auto* q = std::get_if<plate>(&p.geometry.kind)) {
     add("x", q->x, " ");

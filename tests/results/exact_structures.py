@@ -90,7 +90,7 @@ def upper_bound(p, h):
 
 
 class Beam:
-    """The structure of a beam problem: x [nodes], EI [elements], and the loads of each step as in loads_of."""
+    """The structure of a beam problem: x [nodes], EI, 1 / GA [elements], and the loads of each step as in loads_of."""
 
     dofs = ("w", "theta")
 
@@ -101,6 +101,8 @@ class Beam:
         section = table.get("section", {})
         EI = table["EI"] if "EI" in table else section["E"] * section["I"]
         self.EI = [Fraction(v) for v in EI] if isinstance(EI, list) else [Fraction(EI)] * elements
+        GA = table.get("GA", section.get("G", 0) * section.get("As", 0))
+        self.flexibility = [Fraction(1) / Fraction(v) if v else Fraction(0) for v in (GA if isinstance(GA, list) else [GA] * elements)]
         self.W = section.get("W")
         self.hinges = {self.x.index(Fraction(hinge["x"])) for hinge in problem.get("hinge", [])}
         own = lambda step: {"uniform": -section["weight"] * section["A"]} if step.get("self_weight") else {}
@@ -117,7 +119,8 @@ class Beam:
         """Returns the pieces of element e between the places of loads, and w and the slope at the right end.
 
         They follow from w, slope, moment and shear at the left end. A piece is (left, length, polynomials in x - left).
-        The moment is EI (w'' - curvature), the shear is its derivative, and the load is the derivative of the shear.
+        The moment is EI (slope' - curvature), the shear is its derivative, and the load is the derivative of the shear.
+        The slope is the rotation of the section, w' + shear / GA.
         """
         lines, points, curvatures = self.loads[step]
         left, right = self.x[e], self.x[e + 1]
@@ -133,7 +136,7 @@ class Beam:
             bend = [c / self.EI[e] for c in m]
             bend[0] += sum(value for c, d, value in curvatures if c <= a and b <= d)
             turn = integral(bend, slope)
-            line = integral(turn, w)
+            line = integral([a - self.flexibility[e] * b for a, b in zip_longest(turn, v, fillvalue=0)], w)
             pieces.append((a, b - a, {"w": line, "moment": m, "shear": v, "stress": [c / (self.W or 1) for c in m]}))
             w, slope, moment, shear = at(line, b - a), at(turn, b - a), at(m, b - a), at(v, b - a)
         return pieces, w, slope
@@ -146,9 +149,11 @@ class Beam:
         if e + 1 in self.hinges:  # the hinge at the element's right end has no moment, and a free slope
             _, length, line = pieces[-1]
             bent = at(line["moment"], length)
-            shear = -3 * self.EI[e] * (missing + bent * h**2 / (2 * self.EI[e])) / h**3
+            shear = -(missing + bent * h**2 / (2 * self.EI[e])) / (h**3 / (3 * self.EI[e]) + h * self.flexibility[e])
             return self.chain(step, e, w0, slope0, -bent - shear * h, shear)[0]
-        moment, shear = 2 * self.EI[e] * (3 * missing - turn * h) / h**2, 6 * self.EI[e] * (turn * h - 2 * missing) / h**3
+        # missing = M h^2 / 2 EI + V h^3 / 6 EI - V h / GA, turn = M h / EI + V h^2 / 2 EI
+        shear = (turn * h / 2 - missing) / (h**3 / (12 * self.EI[e]) + h * self.flexibility[e])
+        moment = self.EI[e] * turn / h - shear * h / 2
         return self.chain(step, e, w0, slope0, moment, shear)[0]
 
     def place(self, u, step, quantity, element, end):

@@ -1,7 +1,7 @@
 """Writes the exact numbers into reference/verification.toml, or with --check compares the existing ones:
 
     python3 tests/results/write_exact.py CONTCT reference            writes
-    python3 tests/results/write_exact.py CONTCT reference --check --least 716 [--most-nodes N]
+    python3 tests/results/write_exact.py CONTCT reference --check --least 723 [--most-nodes N]
 
 CONTCT is the program. `contct exact --json` has the displacements, forces and shares of every path as fractions;
 moments, shears, extremes and changes of sign come from exact_structures.py. A number is written as a fraction if its

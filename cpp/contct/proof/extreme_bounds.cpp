@@ -60,9 +60,10 @@ double off_extremes(const poly& p, const value_range& printed, double right_end)
 }
 
 /// Takes sizes inside an element of length h: of w and moment in its middle, of the shear at a quarter, where
-/// it does not vanish by symmetry. The largest slope is at least the mean slope of each half.
+/// it does not vanish by symmetry. Without shear flexibility, the largest slope is at least the mean slope of
+/// each half.
 void take_inside(const std::vector<element_line>& pieces, double h, double w_left, double w_right,
-                 by_quantity& size) {
+                 bool shears, by_quantity& size) {
   const auto at = [&pieces](double left, poly element_line::*of) {
     auto line = pieces.begin();
     for (; line + 1 != pieces.end() && left > line->h; ++line) left -= line->h;
@@ -70,7 +71,7 @@ void take_inside(const std::vector<element_line>& pieces, double h, double w_lef
   };
   const double w = at(h / 2, &element_line::w);
   size.take(quantity::w, std::abs(w));
-  size.take(quantity::slope, std::max(std::abs(w - w_left), std::abs(w_right - w)) / (h / 2));
+  if (!shears) size.take(quantity::slope, std::max(std::abs(w - w_left), std::abs(w_right - w)) / (h / 2));
   size.take(quantity::moment, std::abs(at(h / 2, &element_line::moment)));
   size.take(quantity::shear, std::abs(at(h / 4, &element_line::shear)));
 }
@@ -79,11 +80,11 @@ void take_inside(const std::vector<element_line>& pieces, double h, double w_lef
 /// the element. Up to rounding, the error of the moment is linear and that of the shear constant, so both are
 /// largest at the ends. The error of w is a cubic, the sum of Hermite's functions times the errors at the
 /// ends: the functions of w add up to 1, those of the slopes to at most h / 4. This also holds if loads break
-/// an element into pieces, because the loads are those of the equilibrium.
+/// an element into pieces, because the loads are those of the equilibrium, and with shear flexibility.
 ///
 /// Left of a hinge, the slope at the hinge is not a dof: the curvature there, which is 0 up to rounding,
 /// replaces the right slope. The functions of w and of the left slope have the same bounds, that of the
-/// curvature is at most h^2 / 27.
+/// curvature is at most h^2 / 27, with shear flexibility h^2 / 8.
 ///
 /// The error of the slope is quadratic. It is at most the largest error at the ends, plus the smaller of two
 /// numbers, which bound it by the errors of w at the ends and by that of the shear. Left of a hinge, the
@@ -100,15 +101,18 @@ void widen(const beam& b, const structure_state& state, const load& l, error_bou
     for (const element_line& line : pieces) h += line.h;
     const std::size_t right = 2 * e + 2;
     const bool hinge = b.has_hinge(e + 1);
-    const double slope = hinge ? std::abs(polynomial_at(last.moment, 1.0)) * h / 6 / b.EI[e]
-                               : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
+    const auto flexibility = shear_flexibility_of<double>(b, e);
+    const double slope =
+        hinge ? std::abs(polynomial_at(last.moment, 1.0)) * h / (flexibility > 0 ? 2 : 6) / b.EI[e]
+              : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
     const double w = std::abs(polynomial_at(last.w, 1.0) - state.displacement[right]);
     const double turned = std::min(1.5 / h * (2 * error[quantity::w].value_or(0.0) + w),
                                    h * h / b.EI[e] / (hinge ? 2 : 8) * error[quantity::shear].value_or(0.0));
     const double of_slope = h / 4 * (error[quantity::slope].value_or(0.0) + slope);
     // The sum of loads that cancel has an error of up to 2^-89 of their magnitudes.
     const double of_load = 0x1p-80 * last.load_size * h;
-    take_inside(pieces, h, state.displacement[right - 2], state.displacement[right], bounds.size);
+    take_inside(pieces, h, state.displacement[right - 2], state.displacement[right], flexibility > 0,
+                bounds.size);
     for (const element_line& line : pieces) {
       const auto off = [&](const poly& p, std::size_t name, double right_end) {
         return off_extremes(p, printed[name], &line == &last ? right_end : polynomial_at(p, 1.0));
@@ -117,8 +121,10 @@ void widen(const beam& b, const structure_state& state, const load& l, error_bou
         inside.take(quantity::shear, of_load + off(line.shear, 2, lines.ends().at(e, 0)[1]));
         inside.take(quantity::moment, of_load * h + off(line.moment, 1, lines.ends().at(e, 1)[1]));
       }
-      inside.take(quantity::w,
-                  of_load * h * h * h / b.EI[e] + of_slope + off(line.w, 0, state.displacement[right]));
+      // The deflection by shear is rounded apart from that by bending.
+      const double by_shear = flexibility * h * (of_load + 0x1p-48 * sum_of_sizes(line.shear));
+      inside.take(quantity::w, of_load * h * h * h / b.EI[e] + of_slope + by_shear +
+                                   off(line.w, 0, state.displacement[right]));
       inside.take(quantity::slope, of_load * h * h / b.EI[e] + (hinge ? 6 : 1) * slope + turned +
                                        rounding_in_slope(line.slope));
     }

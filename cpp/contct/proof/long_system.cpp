@@ -102,7 +102,12 @@ double least_cube(std::span<const double> x) {
 }
 
 double least_product_of(const beam& b) {
-  return std::min(least_cube(b.x), std::ranges::min(b.EI));
+  const double cube = least_cube(b.x);
+  const double bent = std::min(cube, std::ranges::min(b.EI));
+  // With shear: GA h^2 too, which is at least the product of the least GA and the least h^2.
+  return b.GA.empty()
+             ? bent
+             : std::min({bent, std::ranges::min(b.GA), std::ranges::min(b.GA) * std::pow(cube, 2.0 / 3)});
 }
 double least_product_of(const plate& p) {
   return std::min({least_cube(p.x), least_cube(p.y), p.D});

@@ -58,8 +58,8 @@ void read_pieces(const toml_value& pieces, const beam& b, std::vector<std::strin
                   fmt::format("a last piece to {}, where the beam ends", b.x.back()));
 }
 
-/// All pieces must have an optional key or none may, because stresses and self-weight are those of the whole
-/// beam.
+/// All pieces must have an optional key or none may, because stresses, self-weight and shear are those of the
+/// whole beam.
 void add_section(const toml_value& t, int elements, beam& b) {
   beam_section s;
   for (const auto& [key, value, required] : section_keys) {
@@ -68,15 +68,18 @@ void add_section(const toml_value& t, int elements, beam& b) {
       t.refuse(fmt::format("{} in some pieces and not in others", key),
                fmt::format("{} in every piece, or in no piece", key));
   }
+  if (t.has("G") != t.has("As"))
+    t.refuse(t.has("G") ? "G without As" : "As without G", "both or neither: the shear stiffness is G As");
   b.sections.insert(b.sections.end(), elements, s);
   b.EI.insert(b.EI.end(), elements, product_of<double>(s.E, s.I));
+  if (t.has("G")) b.GA.insert(b.GA.end(), elements, product_of<double>(s.G, s.As));
 }
 
 void read_sections(const toml_value& t, beam& b) {
   std::vector<std::string_view> keys;
   for (const section_key& key : section_keys) keys.push_back(key.name);
   for (const element_key& key : element_keys)
-    t.refuse_beside({key.name}, "section", "either EI, or section with E and I");
+    t.refuse_beside({key.name}, "section", "either EI and GA, or section with E and I, and G and As");
   const toml_value section = t["section"];
   if (section.is_array())
     return read_pieces(section, b, keys, [&b](const auto& piece, int n) { add_section(piece, n, b); });
@@ -118,6 +121,9 @@ void check_elements(const toml_value& t, const beam& b) {
     if (!are_normal({h, largest, smallest}) || !std::isfinite(largest * h) || !std::isfinite(12 * smallest))
       t.refuse(fmt::format("element {} of length {:g} and EI = {:g}", e + 1, h, EI),
                "elements whose stiffness 12 EI / h^3 is within the range of double precision");
+    if (!b.GA.empty() && !are_normal({b.GA[e] / h, 1 / b.GA[e], EI / b.GA[e] / h / h}))
+      t.refuse(fmt::format("element {} of length {:g} with EI = {:g} and GA = {:g}", e + 1, h, EI, b.GA[e]),
+               "elements for which EI / (GA h^2) is within the range of double precision");
   }
 }
 

@@ -14,6 +14,9 @@ constexpr auto is_plate = [](const problem& p) { return std::holds_alternative<p
 constexpr auto is_matrix = [](const problem& p) {
   return std::holds_alternative<assembled>(p.geometry.kind);
 };
+constexpr auto has_shear = [](const problem& p) {
+  return is_beam(p) && !std::get<beam>(p.geometry.kind).GA.empty();
+};
 constexpr auto has_elements = [](const problem& p) { return !is_matrix(p); };
 constexpr auto has_pairs = [](const problem& p) { return !p.pairs.empty(); };
 constexpr auto has_beds = [](const problem& p) { return !p.beds.empty(); };
@@ -89,6 +92,21 @@ std::vector<double> stresses(const step_results& r) {
   return in_elements(r.stresses(), Number);
 }
 
+/// dw/dx at the ends of the elements of a beam.
+std::vector<double> axis_slopes(const step_results& r) {
+  const auto& b = std::get<beam>(r.what.geometry.kind);
+  std::vector<double> values;
+  for (int e = 0; e < b.elements(); ++e) {
+    const auto flexibility = shear_flexibility_of<double>(b, e);
+    const double* const theta = &r.state.displacement[2 * e + 1];
+    const double right =
+        b.has_hinge(e + 1) ? polynomial_at(r.lines()->pieces(e).back().slope, 1.0) : theta[2];
+    values.push_back(theta[0] - flexibility * r.elements.at(e, 0)[0]);
+    values.push_back(right - flexibility * r.elements.at(e, 0)[1]);
+  }
+  return values;
+}
+
 template <auto Sum>
 std::vector<double> of_structure(const step_results& r) {
   return {(*balance_of(r)).*Sum};
@@ -121,6 +139,7 @@ std::span<const quantity_row> all_quantities() {
        of_bed_pressures},
       {"shear", "shear force", unit::force, element_ends, quantity::shear, is_beam, forces<0>},
       {"moment", "moment", unit::moment, element_ends, quantity::moment, is_beam, forces<1>},
+      {"axis_slope", "slope of the axis", unit::none, element_ends, no_kind, has_shear, axis_slopes},
       {"mx", "moment mx", unit::plate_moment, element_ends, quantity::moment, is_plate, forces<0>},
       {"my", "moment my", unit::plate_moment, element_ends, quantity::moment, is_plate, forces<1>},
       {"mxy", "twisting moment mxy", unit::plate_moment, element_ends, quantity::moment, is_plate, forces<2>},

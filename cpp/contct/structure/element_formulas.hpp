@@ -132,46 +132,54 @@ std::vector<Number> in_element(std::span<const Number> polynomial, const Number&
   return q;
 }
 
-/// Stiffness of a Hermite element of length h; dofs: w, theta at the left end, then at the right end.
+// An element with shear flexibility has phi = 12 EI / (GA h^2), the share of shear in its deflection. With
+// phi = 0 each formula is that of the Hermite element, in which no operation rounds otherwise.
+
+/// Stiffness of a beam's element of length h; dofs: w, theta at the left end, then at the right end.
 template <class Number>
-std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Number& h) {
-  const Number c = EI / h / h / h;
+std::array<std::array<Number, 4>, 4> beam_stiffness(const Number& EI, const Number& h, const Number& phi) {
+  const Number c = EI / h / h / h / (1 + phi);
   const Number k = 12 * c;
   const Number m = 6 * c * h;
-  const Number near = 4 * c * h * h;
-  const Number far = near / 2;
+  const Number near = (4 + phi) * c * h * h;
+  const Number far = (2 - phi) * c * h * h;
   return {{{k, m, -k, m}, {m, near, -m, far}, {-k, -m, k, -m}, {m, far, -m, near}}};
 }
 
-/// Shear at the left and right end, then moment at the left and right end, of a Hermite element without load.
+/// Shear at the left and right end, then moment at the left and right end, of an element without load.
 /// Rotations are taken relative to the chord: otherwise a large rigid-body motion would cancel digits.
 template <class Number>
-std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
+std::array<Number, 4> beam_end_forces(const Number& EI, const Number& h, const Number& phi,
+                                      std::span<const Number, 4> u) {
   const Number chord = (u[2] - u[0]) / h;
   const Number left = u[1] - chord;
   const Number right = u[3] - chord;
-  const Number stiffness = 2 * EI / h;
-  const Number m1 = stiffness * (2 * left + right);
-  const Number m2 = stiffness * (left + 2 * right);
+  const Number stiffness = 2 * EI / h / (1 + phi);
+  const Number near = 2 + phi / 2;
+  const Number far = 1 - phi / 2;
+  const Number m1 = stiffness * (near * left + far * right);
+  const Number m2 = stiffness * (far * left + near * right);
   const Number v = (m1 + m2) / h;
   return {v, v, -m1, m2};
 }
 
 // A released element has a hinge at its right end, so that its moment is 0 there. The rotation of this end is
-// condensed out: -(3 / 2h (w1 - w2) + theta1 / 2), plus the rotation by loads on the element.
+// condensed out: -(6 / h (w1 - w2) + (2 - phi) theta1) / (4 + phi), plus the rotation by loads on the
+// element.
 
 /// The factors of condensation: the load on the right rotation times these factors is subtracted from the
 /// loads on the other three dofs.
 template <class Number>
-std::array<Number, 3> released_shares(const Number& h) {
-  const Number along = Number(3) / 2 / h;
-  return {along, Number(1) / 2, -along};
+std::array<Number, 3> released_shares(const Number& h, const Number& phi) {
+  const Number along = Number(6) / (4 + phi) / h;
+  return {along, (2 - phi) / (4 + phi), -along};
 }
 
 /// beam_stiffness of a released element.
 template <class Number>
-std::array<std::array<Number, 4>, 4> released_stiffness(const Number& EI, const Number& h) {
-  const Number k = 3 * EI / h / h / h;
+std::array<std::array<Number, 4>, 4> released_stiffness(const Number& EI, const Number& h,
+                                                        const Number& phi) {
+  const Number k = 12 * EI / (4 + phi) / h / h / h;
   const Number m = k * h;
   const Number none(0);
   return {{{k, m, -k, none}, {m, m * h, -m, none}, {-k, -m, k, none}, {none, none, none, none}}};
@@ -179,8 +187,9 @@ std::array<std::array<Number, 4>, 4> released_stiffness(const Number& EI, const 
 
 /// beam_end_forces of a released element.
 template <class Number>
-std::array<Number, 4> released_end_forces(const Number& EI, const Number& h, std::span<const Number, 4> u) {
-  const Number moment = 3 * EI / h * (u[1] - (u[2] - u[0]) / h);
+std::array<Number, 4> released_end_forces(const Number& EI, const Number& h, const Number& phi,
+                                          std::span<const Number, 4> u) {
+  const Number moment = 12 * EI / (4 + phi) / h * (u[1] - (u[2] - u[0]) / h);
   return {moment / h, moment / h, -moment, Number(0)};
 }
 

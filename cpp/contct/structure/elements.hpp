@@ -32,11 +32,16 @@ class beam_elements {
   explicit beam_elements(const beam& b) : beam_(b), h_(line<Number>(b.x, b.runs).lengths()) {
     for (int e = 0; e < b.elements(); ++e)  // most beams have one stiffness
       EI_.push_back(e > 0 && b.is_alike(e, e - 1) ? EI_.back() : stiffness_of<Number>(b, e));
+    for (int e = 0; e < b.elements() && !b.GA.empty(); ++e)
+      phi_.push_back(e > 0 && are_alike(e, e - 1)
+                         ? phi_.back()
+                         : Number(12 * EI_[e] * shear_flexibility_of<Number>(b, e) / h_[e] / h_[e]));
   }
 
   [[nodiscard]] int count() const { return beam_.elements(); }
   [[nodiscard]] const std::vector<Number>& lengths() const { return h_; }
   [[nodiscard]] const Number& EI(int e) const { return EI_[e]; }
+  [[nodiscard]] Number phi(int e) const { return phi_.empty() ? Number(0) : phi_[e]; }
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
   [[nodiscard]] bool are_alike(int e, int other) const {
     return h_[e] == h_[other] && beam_.is_alike(e, other) && is_released(e) == is_released(other);
@@ -44,16 +49,17 @@ class beam_elements {
   /// True if the element has a hinge at its right end.
   [[nodiscard]] bool is_released(int e) const { return beam_.has_hinge(e + 1); }
   [[nodiscard]] std::array<std::array<Number, 4>, 4> stiffness(int e) const {
-    return is_released(e) ? formulas::released_stiffness(EI(e), h_[e])
-                          : formulas::beam_stiffness(EI(e), h_[e]);
+    return is_released(e) ? formulas::released_stiffness(EI(e), h_[e], phi(e))
+                          : formulas::beam_stiffness(EI(e), h_[e], phi(e));
   }
 
   /// Calls visit(element, work) once for each loaded element, with the work of all its loads. In doubles, if
-  /// no load is placed: once for each distributed load and each element that it acts on.
+  /// no load is placed and without shear flexibility: once for each distributed load and each element that it
+  /// acts on.
   template <class Visit>
   void for_each_work(const load& l, const Visit& visit) const {
     if constexpr (std::is_same_v<Number, double>) {
-      if (l.placed.empty())
+      if (l.placed.empty() && phi_.empty())
         return for_each_loaded_element(l, count(), [&](int e, std::span<const double> polynomial) {
           const auto force = formulas::beam_load_between(polynomial, beam_.x[e], h_[e]);
           visit(e, condensed(e, {dofs_of(e), force, {}}));
@@ -109,14 +115,15 @@ class beam_elements {
 
  private:
   [[nodiscard]] std::array<Number, 4> forces_of(int e, std::span<const Number, 4> u) const {
-    return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], u)
-                          : formulas::beam_end_forces<Number>(EI(e), h_[e], u);
+    return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], phi(e), u)
+                          : formulas::beam_end_forces<Number>(EI(e), h_[e], phi(e), u);
   }
   /// Returns `work` after condensing out the load on a released right end.
   [[nodiscard]] element_work<Number, 4> condensed(int e, element_work<Number, 4> work) const {
     if (!is_released(e)) return work;
-    const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e]);
-    const std::array<double, 3> sizes = formulas::released_shares<double>(beam_.length_of(e));
+    const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e], phi(e));
+    std::array<double, 3> sizes = formulas::released_shares<double>(beam_.length_of(e), 0.0);
+    if (!phi_.empty()) sizes[1] = 1.0;  // |2 - phi| < 4 + phi
     for (std::size_t i = 0; i < 3; ++i) {
       work.force[i] -= shares[i] * work.force[3];
       work.size[i] += std::abs(sizes[i]) * work.size[3];
@@ -128,6 +135,7 @@ class beam_elements {
 
   const beam& beam_;
   std::vector<Number> h_, EI_;
+  std::vector<Number> phi_;  // see formulas::beam_stiffness; empty without shear flexibility
 };
 
 template <class Number>

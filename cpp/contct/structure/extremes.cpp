@@ -281,23 +281,24 @@ struct line_start {
 
 template <class Number>
 struct line_of {
-  line_polynomial<Number> w, moment, shear;
+  line_polynomial<Number> w, slope, moment, shear;
 
-  [[nodiscard]] line_start<Number> right_end(const Number& h) const {
+  [[nodiscard]] line_start<Number> right_end() const {
     line_start<Number> end{};
     for (const Number& c : w) end.w += c;
-    for (std::size_t i = 1; i < w.size(); ++i) end.slope += w[i] * static_cast<double>(i) / h;
+    for (const Number& c : slope) end.slope += c;
     for (const Number& c : moment) end.moment += c;
     for (const Number& c : shear) end.shear += c;
     return end;
   }
 };
 
-/// Gives `line` its w, moment and shear under the load q(t) and an imposed curvature.
+/// Gives `line` its w, slope, moment and shear under the load q(t) and an imposed curvature. `flexibility` is
+/// that by shear, 1 / GA.
 template <class Line, class Number, class Coefficients>
 void put_along(Line& line, const line_start<Number>& left, const Coefficients& q, const Number& h,
-               const Number& EI, const Number& curvature) {
-  const auto [w, moment, shear] = std::tie(line.w, line.moment, line.shear);
+               const Number& EI, const Number& curvature, const Number& flexibility) {
+  const auto [w, slope, moment, shear] = std::tie(line.w, line.slope, line.moment, line.shear);
   w.resize(q.size() + 4);
   moment.resize(q.size() + 2);
   shear.resize(q.size() + 1);
@@ -316,9 +317,12 @@ void put_along(Line& line, const line_start<Number>& left, const Coefficients& q
     w[i + 2] = moment[i] * h * h / EI / (n + 1) / (n + 2);
   }
   w[2] += curvature * h * h / 2;
+  for (std::size_t i = 1; i < w.size(); ++i) slope.push_back(w[i] * static_cast<double>(i) / h);
+  for (std::size_t j = 0; j < shear.size() && flexibility != Number(0); ++j)  // dw/dx = slope - V / GA
+    w[j + 1] -= shear[j] * h * flexibility / static_cast<double>(j + 1);
 }
 
-/// With the slope, dw/dx.
+/// With the slope, dw/dx without shear flexibility.
 void complete(element_line& line) {
   for (const double d : derivative(line.w)) line.slope.push_back(d / line.h);
 }
@@ -342,8 +346,7 @@ element_line beam_lines::at(int e) const {
     line.load_size = on->front().size;
   }
   put_along(line, line_start<double>{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]},
-            line.load, line.h, beam_.EI[e], 0.0);
-  complete(line);
+            line.load, line.h, beam_.EI[e], 0.0, shear_flexibility_of<double>(beam_, e));
   return line;
 }
 
@@ -356,21 +359,26 @@ std::vector<element_line> beam_lines::pieces(int e) const {
     all.push_back(at(e));
     return all;
   }
+  const auto flexibility = shear_flexibility_of<double_double>(beam_, e);
   line_start<double_double> left{w_at(u_, e), u_[2 * e + 1], ends_.at(e, 1)[0], ends_.at(e, 0)[0]};
   double size = 0.0;
   for (const element_piece& p : *pieces_at(pieces_, e)) {
     left.shear += p.force;
     left.moment -= p.moment;  // of a moment that works on the slope
     line_of<double_double> line;
-    put_along(line, left, p.q, p.h, p.EI, p.curvature);
+    put_along(line, left, p.q, p.h, p.EI, p.curvature, flexibility);
     element_line piece{p.left, p.h.hi, p.right, in_doubles(line.w), {}, {}, {}, in_doubles(p.q)};
+    if (flexibility == 0.0)
+      complete(piece);
+    else
+      piece.slope = in_doubles(line.slope);
     piece.moment = in_doubles(line.moment);
     piece.shear = in_doubles(line.shear);
     piece.curvature = p.curvature.hi;
-    complete(all.emplace_back(std::move(piece)));
+    all.push_back(std::move(piece));
     const double h = h_[e];
     size += p.size + sum_of_sizes(all.back().shear) / h + sum_of_sizes(all.back().moment) / (h * h);
-    left = line.right_end(p.h);
+    left = line.right_end();
   }
   for (element_line& line : all) line.load_size = size;
   all.front().left = beam_.x[e];

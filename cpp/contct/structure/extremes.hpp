@@ -19,8 +19,9 @@ namespace contct {
 template <class Number>
 using line_polynomial = boost::container::small_vector<Number, 6>;
 
-/// The exact deflected line of a beam's element or of a piece of an element: the solution of EI w_xxxx = q
-/// with the displacements of the nodes. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1 (see
+/// The exact deflected line of a beam's element or of a piece of an element: the solution of EI w_xxxx = q,
+/// or of the same equations with shear flexibility, with the displacements of the nodes. `slope` is the
+/// rotation of the section. Each quantity is a polynomial in t = (x - left) / h, from 0 to 1 (see
 /// polynomial_at).
 // NOLINTNEXTLINE(bugprone-exception-escape): moving numbers throws nothing
 struct element_line {

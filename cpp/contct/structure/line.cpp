@@ -83,6 +83,15 @@ Number stiffness_of(const beam& b, int element) {
 }
 
 template <class Number>
+Number shear_flexibility_of(const beam& b, int element) {
+  if (b.GA.empty()) return Number(0);
+  if constexpr (std::is_same_v<Number, double>) return 1 / b.GA[element];
+  const rational GA = b.sections.empty() ? decimal_of(b.GA[element])
+                                         : product_of_decimals(b.sections[element].G, b.sections[element].As);
+  return nearest<Number>(1 / GA);
+}
+
+template <class Number>
 std::vector<Number> values_at(const beam& b, std::span<const double> polynomial, std::span<const int> nodes) {
   const line<rational> x(b.x, b.runs);
   const auto a = coefficients_of(distributed_load{{polynomial.begin(), polynomial.end()}, {}});
@@ -109,6 +118,9 @@ template rational stiffness_of(const plate& p);
 template double stiffness_of(const beam& b, int element);
 template double_double stiffness_of(const beam& b, int element);
 template rational stiffness_of(const beam& b, int element);
+template double shear_flexibility_of(const beam& b, int element);
+template double_double shear_flexibility_of(const beam& b, int element);
+template rational shear_flexibility_of(const beam& b, int element);
 template std::vector<double> values_at(const beam&, std::span<const double>, std::span<const int>);
 template std::vector<double_double> values_at(const beam&, std::span<const double>, std::span<const int>);
 template std::vector<rational> values_at(const beam&, std::span<const double>, std::span<const int>);

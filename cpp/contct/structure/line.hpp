@@ -40,6 +40,10 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number stiffness_of(const beam& b, int element);
 
+/// 1 / GA of a beam's element, from the same; 0 without shear flexibility.
+template <class Number>
+[[nodiscard]] Number shear_flexibility_of(const beam& b, int element);
+
 /// The values of a polynomial in x at nodes of a beam, computed exactly: far from x = 0 the terms of the
 /// polynomial may cancel in every digit.
 template <class Number>

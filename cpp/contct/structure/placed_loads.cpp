@@ -53,6 +53,7 @@ class beam_sources {
   [[nodiscard]] bool acts_on(int e) const { return !on_all_.empty() || (!on_.empty() && !on_[e].empty()); }
   [[nodiscard]] rational h(int e) const { return points_.length(e); }
   [[nodiscard]] rational EI(int e) const { return stiffness_of<rational>(beam_, e); }
+  [[nodiscard]] rational flexibility(int e) const { return shear_flexibility_of<rational>(beam_, e); }
   [[nodiscard]] rational x_at(int e, const rational& t) const { return points_.at(e) + t * h(e); }
 
   [[nodiscard]] std::vector<element_load> on(int e) const {
@@ -92,20 +93,47 @@ class beam_sources {
   std::vector<std::vector<std::size_t>> on_;  // [elements] indices of the other loads; empty: there are none
 };
 
-/// Adds to `force` the work of `a` on Hermite's shape functions. An imposed curvature acts as the moment EI
-/// times this curvature on their second derivatives.
-void add_work(const element_load& a, const rational& h, const rational& EI, std::array<rational, 4>& force) {
-  static const std::array<rational_vector, 4> shapes = {
+/// A shape function of a beam's element: the deflection, and the rotation of the section times h, in t. For
+/// dofs that are rotations both are divided by h.
+struct shape_function {
+  rational_vector w, turn;
+};
+
+/// The shape functions of formulas::beam_stiffness: Hermite's for phi = 0.
+std::array<shape_function, 4> shapes_of(const rational& phi) {
+  static const rational half(1, 2);
+  static const std::array<rational_vector, 4> bent = {
       {{1, 0, -3, 2}, {0, 1, -2, 1}, {0, 0, 3, -2}, {0, 0, -1, 1}}};
+  static const std::array<rational_vector, 4> sheared = {
+      {{1, -1}, {0, half, -half}, {0, 1}, {0, -half, half}}};
+  static const std::array<rational_vector, 4> turned = {{{}, {1, -1}, {}, {0, 1}}};
+  std::array<shape_function, 4> all;
+  const rational share = 1 / (1 + phi);
+  for (std::size_t i = 0; i < 4; ++i) {
+    rational_vector turn = derivative(bent[i]);
+    all[i].w = bent[i];
+    for (std::size_t k = 0; k < sheared[i].size(); ++k) all[i].w[k] += phi * sheared[i][k];
+    for (std::size_t k = 0; k < turned[i].size(); ++k) turn[k] += phi * turned[i][k];
+    for (rational& c : all[i].w) c *= share;
+    for (rational& c : turn) c *= share;
+    all[i].turn = std::move(turn);
+  }
+  return all;
+}
+
+/// Adds to `force` the work of `a` on `shapes`. An imposed curvature acts as the moment EI times this
+/// curvature on the derivatives of the rotations.
+void add_work(const element_load& a, const rational& h, const rational& EI,
+              const std::array<shape_function, 4>& shapes, std::array<rational, 4>& force) {
   const auto& [from, to] = a.part;
   for (std::size_t i = 0; i < 4; ++i) {
-    const rational_vector slope = derivative(shapes[i]);
+    const auto& [w, turn] = shapes[i];
     rational work;
-    if (a.what == load_kind::force) work = h * integral_of(a.values, shapes[i], from, to);
-    if (a.what == load_kind::point) work = a.values[0] * polynomial_at(shapes[i], from);
-    if (a.what == load_kind::moment) work = a.values[0] * polynomial_at(slope, from) / h;
+    if (a.what == load_kind::force) work = h * integral_of(a.values, w, from, to);
+    if (a.what == load_kind::point) work = a.values[0] * polynomial_at(w, from);
+    if (a.what == load_kind::moment) work = a.values[0] * polynomial_at(turn, from) / h;
     if (a.what == load_kind::curvature)
-      work = EI * a.values[0] * (polynomial_at(slope, to) - polynomial_at(slope, from)) / h;
+      work = EI * a.values[0] * (polynomial_at(turn, to) - polynomial_at(turn, from)) / h;
     force[i] += i % 2 == 0 ? work : work * h;
   }
 }
@@ -204,7 +232,8 @@ void for_each_exact_work(const beam& b, const load& l,
       std::array<rational, 4> sum;
       const rational h = sources.h(e);
       const rational EI = sources.EI(e);
-      for (const element_load& a : sources.on(e)) add_work(a, h, EI, sum);
+      const auto shapes = shapes_of(12 * EI * sources.flexibility(e) / h / h);
+      for (const element_load& a : sources.on(e)) add_work(a, h, EI, shapes, sum);
       for (std::size_t i = 0; i < 4; ++i) force[i] = nearest<Number>(sum[i]);
     }
     visit(e, force);

@@ -25,10 +25,11 @@ struct even_run {
 
 /// A beam's cross-section as in the file; 0: unknown.
 struct beam_section {
-  double E = 0.0, I = 0.0;  ///< EI is the product of E and I
-  double W = 0.0;           ///< section modulus: M / W is the stress at the extreme fibres
-  double A = 0.0;           ///< area
-  double weight = 0.0;      ///< per volume
+  double E = 0.0, I = 0.0;   ///< EI is the product of E and I
+  double W = 0.0;            ///< section modulus: M / W is the stress at the extreme fibres
+  double A = 0.0;            ///< area
+  double G = 0.0, As = 0.0;  ///< GA is the product of the shear modulus and the shear area
+  double weight = 0.0;       ///< per volume
   bool operator==(const beam_section&) const = default;
 };
 
@@ -38,13 +39,13 @@ struct section_key {
   double beam_section::*value = nullptr;
   bool required = false;
 };
-inline constexpr section_key section_keys[] = {{"E", &beam_section::E, true},
-                                               {"I", &beam_section::I, true},
-                                               {"W", &beam_section::W},
-                                               {"A", &beam_section::A},
-                                               {"weight", &beam_section::weight}};
+inline constexpr section_key section_keys[] = {
+    {"E", &beam_section::E, true},    {"I", &beam_section::I, true}, {"W", &beam_section::W},
+    {"A", &beam_section::A},          {"G", &beam_section::G},       {"As", &beam_section::As},
+    {"weight", &beam_section::weight}};
 
-/// A straight beam of Hermite elements: two dofs a node, w (up) and theta = dw/dx.
+/// A straight beam of Hermite elements or, with shear flexibility, Timoshenko elements: two dofs a node, w
+/// (up) and theta, the rotation of the section: dw/dx = theta - V / GA.
 struct beam {
   std::vector<double> x;   ///< node coordinates, strictly increasing [nodes]
   std::vector<double> EI;  ///< bending stiffness of each element, positive [nodes - 1]
@@ -54,6 +55,7 @@ struct beam {
   /// The inner nodes with hinges, ascending. A hinge releases the right end of the element on its left, and
   /// the rotation of this end is condensed. The node's theta belongs to the element on its right.
   std::vector<int> hinges = {};
+  std::vector<double> GA = {};  ///< shear stiffness of each element, positive; empty: no shear flexibility
 
   [[nodiscard]] bool has_hinge(int node) const {
     return std::binary_search(hinges.begin(), hinges.end(), node);
@@ -66,7 +68,8 @@ struct beam {
   [[nodiscard]] int dofs() const { return nodes() * dofs_per_node; }
   [[nodiscard]] double length_of(std::size_t element) const { return x[element + 1] - x[element]; }
   [[nodiscard]] bool is_alike(int element, int other) const {
-    return EI[element] == EI[other] && (sections.empty() || sections[element] == sections[other]);
+    return EI[element] == EI[other] && (sections.empty() || sections[element] == sections[other]) &&
+           (GA.empty() || GA[element] == GA[other]);
   }
 };
 
@@ -76,7 +79,7 @@ struct element_key {
   std::vector<double> beam::*values = nullptr;
   bool required = false;
 };
-inline constexpr element_key element_keys[] = {{"EI", &beam::EI, true}};
+inline constexpr element_key element_keys[] = {{"EI", &beam::EI, true}, {"GA", &beam::GA}};
 
 /// A rectangular Kirchhoff plate of Adini-Clough-Melosh elements: three dofs a node, the deflection w (up)
 /// and the slopes wx = dw/dx, wy = dw/dy. The nodes are the points of a grid. All numbers count from 0: grid

@@ -102,7 +102,9 @@ std::string rows_of(const beam& b, const step_results& r) {
   const auto add = [&](int e, const std::string& node, double x, double w, double slope, double moment,
                        double shear, const std::string& pressure_here) {
     const std::string stress = r.stresses().names.empty() ? "" : fmt::format(",{}", moment / b.sections[e].W);
-    rows += row_of(step_of(r), e + 1, node, x, w, slope, moment, shear, pressure_here + stress);
+    const std::string axis =
+        b.GA.empty() ? "" : fmt::format(",{}", slope - shear_flexibility_of<double>(b, e) * shear);
+    rows += row_of(step_of(r), e + 1, node, x, w, slope, moment, shear, pressure_here + axis + stress);
   };
   const auto add_end = [&](int e, std::size_t right, double slope) {
     const auto node = static_cast<std::size_t>(e) + right;
@@ -180,7 +182,8 @@ std::string columns_of(const problem& p) {
   std::string columns = of_beam ? "element,node,x,w,slope,moment,shear,pressure" : "node,x,y";
   const auto add = [&](on list) {
     for (const quantity_row* row : quantities_of(p, list))
-      if (!of_beam || row->in == unit::stress) columns += "," + std::string(row->key);
+      if (!of_beam || row->in == unit::stress || (list == on::element_ends && row->in == unit::none))
+        columns += "," + std::string(row->key);
   };
   add(on::nodes);
   add(on::element_ends);

@@ -18,9 +18,9 @@ const placed = (name) => `${unitOf()} ${name}`;
 
 // The unit of a quantity of the result, or else of the input, from its powers of force and length; empty if the problem
 // names no units. Loads and beds of a beam are per length, not per area.
-const powers = { w: [0, 1], force: [1, 0], couple: [1, 1], load: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2], E: [1, -2], I: [0, 4],
-  W: [0, 3], A: [0, 2], weight: [1, -3] };
-const ofElements = ["EI"];  // numbers of each element of a beam
+const powers = { w: [0, 1], force: [1, 0], couple: [1, 1], load: [1, -2], modulus: [1, -3], stiffness: [1, -1], EI: [1, 2], GA: [1, 0], E: [1, -2], G: [1, -2], I: [0, 4],
+  W: [0, 3], A: [0, 2], As: [0, 2], weight: [1, -3] };
+const ofElements = ["EI", "GA"];  // numbers of each element of a beam
 const quantityOf = (key) => result.quantities.find((q) => q.key === key);
 function unit(key) {
   if (!result.units) return "";
