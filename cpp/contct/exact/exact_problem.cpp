@@ -9,8 +9,8 @@ namespace contct {
 namespace {
 
 std::vector<added_spring> ground_of(const beam& b) {
-  std::vector<added_spring> all = {{0, rational(1, 2)}, {b.dofs() - 2, rational(1, 2)}};
-  for (const int node : b.hinges) all.push_back({beam::dofs_per_node * node, rational(1, 2)});
+  std::vector<added_spring> all;
+  for (const int node : b.corners()) all.push_back({beam::dofs_per_node * node, rational(1, 2)});
   return all;
 }
 

@@ -169,16 +169,20 @@ std::span<const quantity_row> all_quantities() {
 
 }  // namespace
 
-std::string_view list_name(on where) {
-  constexpr std::string_view names[] = {"nodes", "pairs", "supports", "beds", "element_ends", "structure"};
-  return names[static_cast<std::size_t>(where)];
+const list_row& list_of(on where) {
+  static constexpr list_row rows[] = {
+      {"nodes", "", "", nullptr, nullptr},
+      {"pairs", "pair", "", contacts_of, [](const problem& p, std::size_t i) { return p.pairs[i].node; }},
+      {"supports", "", "", [](const problem& p) { return p.supports.size(); },
+       [](const problem& p, std::size_t i) { return p.supports[i].node; }},
+      {"beds", "bed", "bed_", [](const problem& p) { return p.beds.size(); }, nullptr},
+      {"element_ends", "", "", nullptr, nullptr},
+      {"structure", "", "sum_of_", [](const problem& /*p*/) { return std::size_t{1}; }, nullptr}};
+  return rows[static_cast<std::size_t>(where)];
 }
 
 std::string_view key_in_list(const quantity_row& row) {
-  const std::string_view prefix = row.where == on::beds        ? "bed_"
-                                  : row.where == on::structure ? "sum_of_"
-                                                               : "";
-  return row.key.substr(prefix.size());
+  return row.key.substr(list_of(row.where).prefix.size());
 }
 
 std::vector<const quantity_row*> quantities_of(const problem& p, std::optional<on> list) {

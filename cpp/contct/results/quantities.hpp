@@ -13,8 +13,19 @@ namespace contct {
 /// The list whose entries have a number. Beds and `structure`, which has one entry, have sums.
 enum class on { nodes, pairs, supports, beds, element_ends, structure };
 
-/// "nodes", "pairs", ..: the list as results name it.
-[[nodiscard]] std::string_view list_name(on where);
+/// A list: how results name it and its entries, which count from 1.
+struct list_row {
+  std::string_view name;    ///< "pairs"
+  std::string_view entry;   ///< "pair"; empty: entries have no number of their own
+  std::string_view prefix;  ///< of the keys of its rows, which are without it in results
+  /// The number of entries that the problem names, which every mesh has; null: the mesh decides.
+  std::size_t (*count)(const problem&);
+  int (*node)(const problem&, std::size_t entry);  ///< from 0; null: entries are at no node
+};
+[[nodiscard]] const list_row& list_of(on where);
+
+/// The lists whose entries every mesh has.
+inline constexpr on lists_of_entries[] = {on::supports, on::pairs, on::beds, on::structure};
 
 struct quantity_row {
   std::string_view key;    ///< in files: letters, digits and _

@@ -170,17 +170,17 @@ std::vector<mesh_change> changes_between(const run_result& coarse, const run_res
       take(a.ranges()[i].name, a.ranges()[i].least.value, b.ranges()[i].least.value);
       take(a.ranges()[i].name, a.ranges()[i].most.value, b.ranges()[i].most.value);
     }
-    // Numbers that the finer mesh has at the same places: the pairs of beds and the supports of plates are
-    // others.
+    // Numbers of entries that the finer mesh has too. The supports of plates are others; loads and gaps are
+    // no results.
     const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
     for (const quantity_row* row : quantities_of(p)) {
-      const bool is_force =
-          row->kind == quantity::force || row->where == on::beds || (of_beam && row->where == on::supports);
-      if (!is_force) continue;
+      const list_row& list = list_of(row->where);
+      if (list.count == nullptr || row->where == on::structure || (!of_beam && row->where == on::supports) ||
+          (row->where == on::pairs && row->kind != quantity::force))
+        continue;
       const std::vector<double> had = row->values(a);
       const std::vector<double> has = row->values(b);
-      const std::size_t count = row->where == on::pairs ? contacts_of(p) : had.size();
-      for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t i = 0; i < list.count(p); ++i)
         if (!std::isnan(had[i])) take(row->key, had[i], has[i]);
     }
   }

@@ -123,8 +123,9 @@ state_difference difference_of(const run_result& answer, const structure_state& 
   const auto places = static_cast<std::size_t>(std::max(b.elements.places, 1));
   std::size_t number = 0;  // of the row among those of elements
   for (const quantity_row* row : quantities_of(p)) {
-    if (!row->kind || row->kind == quantity::gap || row->where == on::nodes) continue;
     const bool in_elements = row->where == on::element_ends;
+    const bool is_force = in_elements || row->where == on::supports || row->kind == quantity::force;
+    if (!row->kind || !is_force) continue;
     const std::vector<double> found = row->values(a);
     const std::vector<double> wanted = row->values(b);
     for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -109,9 +109,10 @@ std::optional<std::size_t> place_on(const problem& p, on list, std::size_t place
     return from_0(std::max(e.node, 1));  // a number of the structure is that of its first node
   if (list == on::pairs) return from_0(e.pair);
   const auto names = dof_names(p.geometry);
-  if (list == on::supports)
-    for (std::size_t i = 0; i < p.supports.size(); ++i)
-      if (p.supports[i].node + 1 == e.node && names[p.supports[i].dof] == e.dof) return i;
+  if (const list_row& row = list_of(list); row.node != nullptr)
+    for (std::size_t i = 0; i < row.count(p); ++i)
+      if (row.node(p, i) + 1 == e.node && (list != on::supports || names[p.supports[i].dof] == e.dof))
+        return i;
   if (list != on::element_ends || e.element < 1 || e.place < 1 || e.place > static_cast<int>(places))
     return {};
   return (e.element - 1) * places + e.place - 1;

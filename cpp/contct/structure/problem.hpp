@@ -60,6 +60,13 @@ struct beam {
   [[nodiscard]] bool has_hinge(int node) const {
     return std::binary_search(hinges.begin(), hinges.end(), node);
   }
+  /// The nodes between which the beam stays straight when it moves without bending: ends and hinges.
+  [[nodiscard]] std::vector<int> corners() const {
+    std::vector<int> all = {0};
+    all.insert(all.end(), hinges.begin(), hinges.end());
+    all.push_back(nodes() - 1);
+    return all;
+  }
 
   static constexpr int dofs_per_node = 2;
   static constexpr std::array<const char*, 2> dof_names = {"w", "theta"};

@@ -34,10 +34,8 @@ struct rigid_shape {
   using row = std::vector<Number>;
 
   explicit rigid_shape(const beam& b) : along_x(b.x, b.runs) {
-    if (b.hinges.empty()) return;
-    corners = b.hinges;
-    corners.insert(corners.begin(), 0);
-    corners.push_back(b.nodes() - 1);
+    if (b.corners().size() == 2) return;
+    corners = b.corners();
     for (const int node : corners) corner_x.push_back(along_x.points().at(node));
   }
   explicit rigid_shape(const plate& p) : along_x(p.x, p.x_runs), along_y(std::in_place, p.y, p.y_runs) {}

@@ -219,7 +219,7 @@ struct loads_in {
 
 /// The equations of a structure of any kind, and its rigid-body motions.
 struct linear_structure : linear_system {
-  int rigid_motions = 0;  ///< 2 + number of hinges for a beam, 3 for a plate, up to 6 for a matrix
+  int rigid_motions = 0;              ///< as many as a beam has corners, 3 for a plate, up to 6 for a matrix
   std::vector<rigid_row> rigid_rows;  ///< [dofs] the displacements by the rigid-body motions
   std::vector<int> supported_dofs;    ///< the dof of each support; empty for a matrix
   /// The exact rigid-body motions of a beam or plate; null for a matrix.

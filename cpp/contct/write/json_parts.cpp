@@ -139,7 +139,7 @@ json quantities_json(const problem& p) {
     out.push_back({{"key", row->key},
                    {"words", row->words},
                    {"unit", unit_name(p, row->in)},
-                   {"on", list_name(row->where)}});
+                   {"on", list_of(row->where).name}});
   return out;
 }
 

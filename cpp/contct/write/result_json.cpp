@@ -185,16 +185,25 @@ json rule_1989_json(const run_result& r) {
           {"wrong_steps", wrong}};
 }
 
-json beds_json(const step_results& r) {
-  const columns all(r, on::beds);
-  const std::vector<bed_reading> beds = beds_in(r);
+/// The numbers of each entry of a list and, if it is at a node, its x.
+json entries_json(const step_results& r, on where) {
+  const list_row& list = list_of(where);
+  const columns all(r, where);
+  const std::size_t count = list.count(r.what);
   json out = json::array();
-  for (std::size_t i = 0; i < beds.size(); ++i) {
-    json& entry = out.emplace_back(json{{"bed", i + 1}});
-    all.put(entry, i, beds.size());
-    entry.back() = range_json(  // the largest pressure with its place, and the least one
-        r.what.geometry, beds[i].pressure);
+  for (std::size_t i = 0; i < count; ++i) {
+    json& entry = out.emplace_back(json{{list.entry, i + 1}});
+    if (list.node != nullptr) entry["x"] = place_of_node(r.what.geometry, list.node(r.what, i)).x;
+    all.put(entry, i, count);
   }
+  return out;
+}
+
+json beds_json(const step_results& r) {
+  json out = entries_json(r, on::beds);
+  const std::vector<bed_reading> beds = beds_in(r);
+  for (std::size_t i = 0; i < beds.size(); ++i)  // the largest pressure with its place, and the least one
+    out[i].back() = range_json(r.what.geometry, beds[i].pressure);
   return out;
 }
 

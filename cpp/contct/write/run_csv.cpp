@@ -163,13 +163,15 @@ std::string rows_of(const assembled& a, const step_results& r) {
   return rows;
 }
 
-/// The node of a support or pair, its dof or surface, and its coordinates; empty fields for other lists.
+/// The node of an entry, the dof of a support or the surface of a pair, and the coordinates; empty fields if
+/// the entry is at no node.
 std::string place_fields(const problem& p, on list, std::size_t i) {
-  if (list == on::beds || list == on::structure) return ",,,";
-  const bool of_pair = list == on::pairs;
-  const int node = of_pair ? p.pairs[i].node : p.supports[i].node;
-  const std::string_view what =
-      of_pair ? surface_name(p.pairs[i].surface) : std::string_view(dof_names(p.geometry)[p.supports[i].dof]);
+  if (list_of(list).node == nullptr) return ",,,";
+  const int node = list_of(list).node(p, i);
+  const std::string_view what = list == on::pairs ? surface_name(p.pairs[i].surface)
+                                : list == on::supports
+                                    ? std::string_view(dof_names(p.geometry)[p.supports[i].dof])
+                                    : "";
   const std::string name = csv_field(place_name(p.geometry, node));
   if (std::holds_alternative<assembled>(p.geometry.kind)) return fmt::format("{},{},,", name, what);
   const place at = place_of_node(p.geometry, node);
@@ -232,7 +234,7 @@ void write_supports_csv(const run_result& r, output_file& out) {
   const problem& p = r.what;
   std::vector<const quantity_row*> columns;
   std::string heading = "step,name,on,number,place,what,x,y";
-  for (const on list : {on::supports, on::pairs, on::beds, on::structure})
+  for (const on list : lists_of_entries)
     for (const quantity_row* row : quantities_of(p, list)) {
       columns.push_back(row);
       heading += "," + std::string(row->key);
@@ -243,17 +245,15 @@ void write_supports_csv(const run_result& r, output_file& out) {
     std::vector<std::vector<double>> numbers;
     numbers.reserve(columns.size());
     for (const quantity_row* row : columns) numbers.push_back(row->values(read));
-    for (std::size_t first = 0; first < columns.size(); ++first) {
-      const on list = columns[first]->where;
-      if (first > 0 && columns[first - 1]->where == list) continue;
-      const std::size_t count = list == on::pairs ? contacts_of(p) : numbers[first].size();
-      for (std::size_t i = 0; i < count; ++i) {
+    for (const on list : lists_of_entries) {
+      if (quantities_of(p, list).empty()) continue;
+      for (std::size_t i = 0; i < list_of(list).count(p); ++i) {
         std::string fields = place_fields(p, list, i);
         for (std::size_t c = 0; c < columns.size(); ++c)
           fields += columns[c]->where == list && !std::isnan(numbers[c][i])
                         ? fmt::format(",{:.6g}", numbers[c][i])
                         : ",";
-        out.write(row_of(step_of(read), list_name(list), i + 1, fields));
+        out.write(row_of(step_of(read), list_of(list).name, i + 1, fields));
       }
     }
   }
