@@ -51,13 +51,14 @@ def find(line, x):
 class Beam:
     """An element of length h: dofs w and the rotation of the section at its left end, then at its right end.
 
-    GA is its shear stiffness, None without shear flexibility. If `released`, a hinge makes the moment at the right end
-    0. The element's rotation at this end is condensed: it is -turn . u plus the rotation from the element's loads.
+    GA is its shear stiffness, None without shear flexibility. `hinge` is the stiffness of a hinge at the right end, None
+    without one. The element's rotation at this end is condensed: it is u[3] - free turn . u, plus the rotation from the
+    element's loads.
     A shape is two polynomials in t = (x - left) / h: its w, and h times the rotation of its section.
     """
 
-    def __init__(self, h, EI, GA=None, weight=None, released=False):
-        self.weight, self.released, self.GA = weight, released, GA
+    def __init__(self, h, EI, GA=None, weight=None, hinge=None):
+        self.weight, self.GA = weight, GA
         self.h, self.EI = positive(h), positive(EI)
         self.phi = phi = 12 * EI / positive(GA) / h**2 if GA is not None else F(0)
         c = EI / h**3 / (1 + phi)
@@ -65,8 +66,9 @@ class Beam:
         self.stiffness = [[12 * c, 6 * h * c, -12 * c, 6 * h * c], [6 * h * c, near, -6 * h * c, far],
                           [-12 * c, -6 * h * c, 12 * c, -6 * h * c], [6 * h * c, far, -6 * h * c, near]]
         self.near, self.turn = near, [k / near for k in self.stiffness[3]]
-        if released:
-            self.stiffness = [[k - a * b * near for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
+        self.free = F(0) if hinge is None else near / (near + hinge)
+        if self.free:
+            self.stiffness = [[k - a * b * near * self.free for k, b in zip(row, self.turn)] for row, a in zip(self.stiffness, self.turn)]
 
     def work(self, of):
         """Returns a load's work on the four shape functions, and what it adds inside at u = 0: to w and moment in the middle, to shear at 1/4.
@@ -81,9 +83,9 @@ class Beam:
         forces = [share * of(shape, F(0), F(1)) for shape in shapes]
         middle = h**3 / (48 * self.EI) * (of(((0, 2 * phi, 3, -4), (0, 6, -12)), F(0), F(1, 2))
                                           + of(((2 * phi - 1, 6 - 2 * phi, -9, 4), (6, -18, 12)), F(1, 2), F(1)))
-        if self.released:
-            middle -= h * forces[3] / (8 * self.near)
-            forces = [f - a * forces[3] for f, a in zip(forces, self.turn)]
+        if self.free:
+            middle -= h * self.free * forces[3] / (8 * self.near)
+            forces = [f - self.free * a * forces[3] for f, a in zip(forces, self.turn)]
         return forces + [middle, of(((F(1),), ()), F(0), F(1, 4)), h * of(((F(1, 2), F(-1)), (F(-1),)), F(0), F(1, 2))]
 
     def load(self, q, left, first=F(0), last=F(1)):
@@ -109,7 +111,7 @@ class Beam:
 
     def middle(self, u, work):
         """Returns (kind, size) for w and moment in the middle, shear at a quarter, and without GA the larger mean slope of a half."""
-        right = -dot(self.turn[:3], u[:3]) if self.released else u[3]
+        right = u[3] - self.free * dot(self.turn, u) if self.free else u[3]
         w = (u[0] + u[2]) / 2 + self.h * (u[1] - right) / 8 + work[4]
         shear, moment = (dot(row, u) - f for row, f in zip(self.stiffness[:2], work))
         inside = [w, shear + work[5], shear * self.h / 2 - moment + work[6], max(abs(w - u[0]), abs(u[2] - w)) * 2 / self.h if self.GA is None else F(0)]
@@ -152,13 +154,14 @@ def along(of, key, x):
 
 
 def hinges(t, x):
-    """Returns the nodes of hinges, from 0. Raises ValueError unless they are different inner nodes."""
+    """Returns the stiffness of the hinge at each node, from 0, that has one. Raises ValueError unless they are different inner nodes."""
     found = []
     for part in t.get("hinge", []):
-        need(len(only(part, {"node", "nodes", "x"})) == 1, "not one of node, nodes and x")
-        found += [find(x, at) for at in listed(part["x"])] if "x" in part else numbers(listed(part["node"]) if "node" in part else part["nodes"], len(x))
-    need(all(node is not None and 0 < node < len(x) - 1 for node in found) and len(set(found)) == len(found), "a hinge that is at no inner node")
-    return set(found)
+        need(len(only(part, {"node", "nodes", "x", "stiffness"}).keys() - {"stiffness"}) == 1, "not one of node, nodes and x")
+        at = [find(x, at) for at in listed(part["x"])] if "x" in part else numbers(listed(part["node"]) if "node" in part else part["nodes"], len(x))
+        found += [(node, real(part.get("stiffness", 0))) for node in at]
+    need(all(node is not None and 0 < node < len(x) - 1 and stiffness >= 0 for node, stiffness in found) and len(dict(found)) == len(found), "a hinge that is at no inner node, or of negative stiffness")
+    return dict(found)
 
 
 def named(of, t):
@@ -200,5 +203,5 @@ def beam(of, t, count=None):
     else:
         sections = list(zip(along(of, "EI", x), along(of, "GA", x) if "GA" in of else [None] * (len(x) - 1), [None] * (len(x) - 1)))
     at = hinges(t, x)
-    elements = [(Beam(b - a, *k, e + 1 in at), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], sections))]
+    elements = [(Beam(b - a, *k, at.get(e + 1)), range(2 * e, 2 * e + 4), a) for e, (a, b, k) in enumerate(zip(x, x[1:], sections))]
     return ["w", "theta"], [x], [(b - a) / 2 for a, b in zip(x[:1] + x, x[1:] + x[-1:])], elements

@@ -51,10 +51,10 @@ def structure(toml, problem, labels):
         return {"kind": "matrix", "dofs": labels, "stiffness": entries}
     lines = [[float(x) for x in line] for line in problem.lines]
     if len(lines) == 1:
-        hinges = [problem.lines[0].index(real(hinge["x"])) + 1 for hinge in toml.get("hinge", [])]
+        hinges = {problem.lines[0].index(real(hinge["x"])) + 1: float(hinge.get("stiffness", 0)) for hinge in toml.get("hinge", [])}
         elements = [element for element, *_ in problem.elements]
         shear = {} if elements[0].GA is None else {"GA": [float(element.GA) for element in elements]}
-        return {"kind": "beam", "x": lines[0], "EI": [float(element.EI) for element in elements], **shear, "hinges": hinges}
+        return {"kind": "beam", "x": lines[0], "EI": [float(element.EI) for element in elements], **shear, "hinges": [*hinges], **({"hinge_stiffness": [*hinges.values()]} if any(hinges.values()) else {})}
     plate = problem.elements[0][0]
     return {"kind": "plate", "x": lines[0], "y": lines[1], "D": float(plate.D), "nu": float(plate.nu)}
 

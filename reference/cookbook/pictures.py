@@ -8,7 +8,7 @@ from pathlib import Path
 
 import contct
 
-STEPS = {"crane": 1, "slab": 2, "base-plate": 2, "racks": 2, "rail": 2, "deep-beam": 2, "bed": 2, "matrix": 2}
+STEPS = {"crane": 1, "slab": 2, "base-plate": 2, "racks": 2, "rail": 2, "rail-joint": 2, "deep-beam": 2, "bed": 2, "matrix": 2}
 WIDTH, HEIGHT, SIDE = 640, 220, 40
 
 

@@ -305,7 +305,7 @@ TEST_CASE("contct new without a kind of problem lists the kinds of the cookbook,
     ++kinds;
   }
   CHECK(count(out, "\n") == kinds + 1);
-  CHECK(kinds == 10);
+  CHECK(kinds == 11);
 }
 
 TEST_CASE("in every kind of problem of the cookbook, one number agrees with a hand calculation") {
@@ -341,6 +341,10 @@ TEST_CASE("in every kind of problem of the cookbook, one number agrees with a ha
   check_like(steps_of("deep-beam")[1]["pairs"], {{"2", {{"force", lifted}}}}, 1e-9);
   // The settlement under the wheel is that of an infinite beam.
   check_like(steps_of("rail")[1]["w"][24], -(0.6 + 112.5 * decay(5e4, 6380.0) / 2) / 5e4, 0.01);
+  // Two sleepers carry the wheel and the rail, and the joint turns by its moment.
+  const double turning = 58.05 * 0.3 - 1.8 * 1.5;
+  check_like(steps_of("rail-joint")[1]["hinges"],
+             {{"0", {{"hinge", 1}, {"x", 3}, {"moment", turning}, {"rotation", turning / 1500}}}}, 1e-9);
   // The pressed edge settles like that of a rigid footing with its load outside the kern.
   check_like(steps_of("bed")[1]["w"][30], -2 * 300.0 / (3 * (1.5 - 240.0 / 300.0)) / 5e4, 0.01);
   // If both girders have the same load, each girder of the grillage bends like a simple beam.

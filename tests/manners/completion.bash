@@ -44,7 +44,7 @@ expect "a beam.toml" contct run a
 expect "beam.toml" contct run --json be
 expect "beam.toml" contct run --json = be
 expect "" contct run --max-increments 1
-expect "base-plate beam bed crane deep-beam matrix plate racks rail slab" contct new ""
+expect "base-plate beam bed crane deep-beam matrix plate racks rail-joint rail slab" contct new ""
 expect "" contct nonsense x
 
 complete -p contct | grep -q -- '-F _contct contct' || { echo "bash was not told" >&2; exit 1; }

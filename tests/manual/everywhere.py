@@ -15,12 +15,12 @@ from testing import Checks, parsed, run  # noqa: E402
 from kinds import BED, CLAMP, EDGE, EVEN, FILES, MATRIX, OF_DOF, PULL, SECTION, STOP, THICK, UNDER, UNITS  # noqa: E402
 
 PROBLEMS = {
-    "beam": UNITS + SECTION + CLAMP + STOP.replace("1e4", "1e20") + STOP.replace("-1e-4", "-1") + BED + "[[hinge]]\nnode = 3\n" + EVEN + "point = [ { x = 3.3, w = -2 } ]\n",
+    "beam": UNITS + SECTION + CLAMP + STOP.replace("1e4", "1e20") + STOP.replace("-1e-4", "-1") + BED + "[[hinge]]\nnode = 3\nstiffness = 900\n" + EVEN + "point = [ { x = 3.3, w = -2 } ]\n",
     "plate": UNITS + THICK + EDGE + UNDER + UNDER.replace("below", "above").replace("-", "") + BED + EVEN,
     "matrix": UNITS + MATRIX + 'coordinates = "k.xyz"\n' + OF_DOF + OF_DOF.replace("-1e-3", "-9") + '[[support]]\ndof = "2.2"\nspring = 3\n[[support]]\ndof = "2.6"\nspring = 3\n' + PULL}
 DOFS = {"beam": ["w", "theta"], "plate": ["w", "wx", "wy"]}
 # What has no place in an output. "force" of an increment in CSV is the sum of the loads; VTU has no moments at dofs of a matrix.
-NO_ROOM = {"csv": set(), "vtu": {"beds", "structure", "reaction_moment of a matrix"}, "html": set(), "detail": {"face"}}
+NO_ROOM = {"csv": set(), "vtu": {"beds", "hinges", "structure", "reaction_moment of a matrix"}, "html": set(), "detail": {"face"}}
 
 # The outputs of a run: the kind of its problem, the results of --json and in the page of --html, the text of --detail.
 outputs = namedtuple("outputs", "kind result page detail")
@@ -36,6 +36,8 @@ def in_result(kind, result, row):
         return [r["value"] if turns(r) == (key == "reaction_moment") else None for r in step["reactions"]]
     if row["on"] == "beds":
         return [bed["pressure"]["max"]["value"] if key == "bed_pressure" else bed[key.removeprefix("bed_")] for bed in step["beds"]]
+    if row["on"] == "hinges":
+        return [hinge[key.removeprefix("hinge_")] for hinge in step["hinges"]]
     return {"nodes": lambda: step[key], "pairs": lambda: [pair[key] for pair in step["pairs"]],
             "element_ends": lambda: [x for element in step["elements"] for x in element[key]],
             "structure": lambda: [step["balance"][key.removeprefix("sum_of_")]]}[row["on"]]()
@@ -44,7 +46,7 @@ def in_result(kind, result, row):
 def in_csv(of, row, wanted):
     key, column = row["key"], {"theta": "slope"}.get(row["key"], row["key"])
     table = lambda name: list(csv.DictReader(Path(f"o{name}.csv").open(newline="", encoding="utf-8")))
-    if row["on"] in ("supports", "beds", "structure"):
+    if row["on"] in ("supports", "beds", "hinges", "structure"):
         lines = [line for line in table(".supports") if line["on"] == row["on"] and line["step"] == "1"]
         return [line[key] for line in lines], ["" if x is None else f"{x:.6g}" for x in wanted]
     if row["on"] == "pairs":
@@ -89,11 +91,12 @@ def in_vtu(of, row, wanted):
 
 def in_detail(of, row, wanted):
     lines, node = of.detail.splitlines(), "dof" if of.kind == "matrix" else "node"
-    if row["on"] in ("beds", "structure"):
-        pattern = {"bed_force": r"bed \d+ +force (\S+){}", "bed_pressure": r"pressure \S+ to (\S+){}", "bed_contact": r"; (\S+){} in contact"}.get(
+    if row["on"] in ("beds", "hinges", "structure"):
+        pattern = {"bed_force": r"bed \d+ +force (\S+){}", "bed_pressure": r"pressure \S+ to (\S+){}", "bed_contact": r"; (\S+){} in contact",
+                   "hinge_rotation": r"hinge \d+ +rotation ([^\s,]+){}", "hinge_moment": r"rotation \S+ moment (\S+){}"}.get(
             row["key"], row["key"].removeprefix("sum_of_") + r" (\S+){}")
         text = re.sub(r"\n +", " ", of.detail)  # these lines are wrapped
-        return re.findall(pattern.format(" " + re.escape(row["unit"])) + r"(?![^\s,;])", text), [f"{x + 0.0:.6g}" for x in wanted]
+        return re.findall(pattern.format(re.escape(row["unit"] and " " + row["unit"])) + r"(?![^\s,;])", text), [f"{x + 0.0:.6g}" for x in wanted]
     if row["on"] == "element_ends":
         return [x for line in lines if re.match(rf" {{10}}{row['key']} ", line) for x in line.split()[1:]], [f"{x:.7g}" for x in wanted]
     starts = {"pairs": ["pair", node], "supports": [node, "dof"], "nodes": [node, "w"]}[row["on"]]

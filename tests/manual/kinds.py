@@ -28,7 +28,7 @@ FILES = {"k.mtx": "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n1 1 9
 KINDS = {
     "beam": PLAIN + CLAMP + STOP + EVEN,
     "beam without pairs": PLAIN + ENDS + EVEN,
-    "beam with a bed and a hinge": PLAIN + CLAMP + BED + "[[hinge]]\nnode = 3\n" + EVEN,
+    "beam with a bed and a hinge": PLAIN + CLAMP + BED + "[[hinge]]\nnode = 3\nstiffness = 900\n" + EVEN,
     "beam on a bed alone": PLAIN + BED + EVEN,
     "beam with a curved bed": PLAIN + BED.replace("face = 0", "face = { polynomial = [0, -1e-4] }") + EVEN,
     "section": SECTION + ENDS + STOP + EVEN,

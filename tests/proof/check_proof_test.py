@@ -325,14 +325,24 @@ def sheared_beams(count):
     return texts
 
 
-def check_sheared_beams(count):
-    certified = 0
+def hinged_beams(count):
+    """Returns random beams with a semi-rigid hinge, some with shear flexibility."""
+    chance, texts = random.Random(11), []
     for text in sheared_beams(count):
-        code, said = verdict(problem := file_of("sheared.toml", text), proof := proof_of(problem))
+        text = re.sub("GA = .*\n", "", text) if chance.random() < 0.6 else text
+        hinge = f"[[hinge]]\nstiffness = {chance.choice((1e-6, 0.4, 12.5, 700.0, 1e6, 1e30))}\n"
+        texts.append(text.replace("[[hinge]]\n", hinge) if "[[hinge]]" in text else f"{text}{hinge}node = 2\n")
+    return texts
+
+
+def check_beams(texts):
+    certified, count = 0, len(texts)
+    for text in texts:
+        code, said = verdict(problem := file_of("random.toml", text), proof := proof_of(problem))
         check(code == 0, f"{text}\n{code}: {said}")
         certified += sum(step["certified"] for step in proof["steps"])
-    check(certified >= count - 1, f"{certified} of {count} beams with shear flexibility are certified")
-    check_doctored(sheared_beams(count), 5 * count)
+    check(certified >= count - 1, f"{certified} of {count} beams are certified")
+    check_doctored(texts, 5 * count)
 
 
 # Loads inside the elements of a cantilever that load no node.
@@ -410,7 +420,8 @@ with tempfile.TemporaryDirectory() as scratch:
     check_semidefinite()
     check_places()
     check_doctored(check_forms(), 200 if few else 2000)
-    check_sheared_beams(20 if few else 60)
+    check_beams(sheared_beams(20 if few else 60))
+    check_beams(hinged_beams(20 if few else 60))
     check_cancelled_and_balanced()
 least = (30, 25, 0) if few else (150, 140, 1)
 check.end(150, **dict(zip(("proved steps", "certified steps", "contradicted"), least)))

@@ -35,6 +35,11 @@ def test_contct_exact_returns_the_fractions_of_the_programs_json(name, rule, ask
         assert [str(r.value) for r in step.reactions] == [r["value"] for r in raw["reactions"]]
 
 
+def test_a_hinge_has_its_rotation_and_moment():
+    joint = contct.run(PROBLEMS / "pb18-rail-joint-over-void.toml").steps[0].hinges[0]
+    assert (joint.hinge, joint.x) == (1, 3.0) and (joint.moment, joint.rotation) == pytest.approx((45, 0.01), rel=1e-12)
+
+
 def test_contct_explain_returns_the_programs_json(ask):
     path = PROBLEMS / "pb07-three-gap-supports.toml"
     found = contct.explain(path)

@@ -104,6 +104,7 @@ std::vector<std::string> words_of(const problem& p) {
     add("EI", b->EI, " ");
     add("GA", b->GA, " ");
     add("hinges", hinges, " ");
+    add("of stiffness", b->hinge_stiffness, " ");
   } else if (const auto* q = std::get_if<plate>(&p.geometry.kind)) {
     add("x", q->x, " ");
     add("y", q->y, " ");

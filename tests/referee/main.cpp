@@ -1,5 +1,5 @@
 // Judges the corrected rule and its certificate by the exact path:
-//     contct_referee COUNT SEED [--jobs N] [--shear]
+//     contct_referee COUNT SEED [--jobs N] [--shear] [--hinge]
 //     contct_referee 0 SEED --only NUMBER      prints all errors of one problem
 // Judges random problems and prints the number of each error and where it was first found. Fails on a
 // forbidden error, on more errors than are known, or if too little was compared.
@@ -24,22 +24,45 @@ using namespace contct::referee;
 
 namespace {
 
+/// What all problems have: shear flexibility, of which phi is 10^-7 to 10^6, or hinges, most of them with a
+/// stiffness of 10^-6 to 10^7 EI / h.
+struct family {
+  bool shear = false, hinge = false;
+  [[nodiscard]] bool named() const { return shear || hinge; }
+};
+
+/// True if a support or load acts on theta of this node, where a hinge cannot be.
+bool names_theta(const contct::problem& p, int node) {
+  const auto is_theta = [node](const auto& at) { return at.node == node && at.dof == 1; };
+  return std::ranges::any_of(p.supports, is_theta) ||
+         std::ranges::any_of(p.steps,
+                             [&](const contct::load& l) { return std::ranges::any_of(l.points, is_theta); });
+}
+
 /// Returns problem `number` of `seed`: even numbers are small problems of the laboratory, and odd numbers are
-/// the hard kinds in turn. `shear`: all are beams with shear flexibility, of which phi is 10^-7 to 10^6.
-contct::problem draw(std::uint64_t seed, std::uint64_t number, bool shear) {
-  if (number % 2 != 0 && !shear)
+/// the hard kinds in turn. `of`: all are beams with what it names.
+contct::problem draw(std::uint64_t seed, std::uint64_t number, family of) {
+  if (number % 2 != 0 && !of.named())
     return make_hard_problem(seed, number / 2 / hard_kinds, static_cast<int>(number / 2 % hard_kinds));
   contct::random_problem_kind small;
   small.most_elements = 8;
   small.most_lines = 2;
-  if (shear) small.plate_share = 0.0;
+  if (of.named()) small.plate_share = 0.0;
   contct::random_problem r = contct::make_random_problem(seed, number / 2, small);
   r.title = "problem of the laboratory";
-  if (auto* const b = std::get_if<contct::beam>(&r.geometry.kind); shear && b != nullptr)
-    for (std::size_t e = 0; e < b->EI.size(); ++e) {
+  if (auto* const b = std::get_if<contct::beam>(&r.geometry.kind); of.named() && b != nullptr) {
+    for (std::size_t e = 0; e < b->EI.size() && of.shear; ++e) {
       const double phi = std::pow(10.0, static_cast<double>((number * 7 + e % 2) % 14) - 7.0);
       b->GA.push_back(12 * b->EI[e] / phi / b->length_of(e) / b->length_of(e));
     }
+    for (int node = 1; node + 1 < b->nodes() && of.hinge; ++node) {
+      if ((number + static_cast<std::uint64_t>(node)) % 2 == 0 || names_theta(r, node)) continue;
+      const double share =
+          std::pow(10.0, static_cast<double>((number * 5 + static_cast<std::uint64_t>(node)) % 14) - 6.0);
+      b->hinges.push_back(node);
+      b->hinge_stiffness.push_back(number % 11 == 0 ? 0.0 : share * b->EI[node - 1] / b->length_of(node - 1));
+    }
+  }
   return static_cast<const contct::problem&>(r);
 }
 
@@ -54,13 +77,13 @@ judgements judge_all_ways(const contct::problem& p) {
 }
 
 /// Judges the first `count` problems in several threads; the results do not depend on the number of threads.
-std::vector<judgements> judge_all(std::uint64_t count, std::uint64_t seed, int jobs, bool shear) {
+std::vector<judgements> judge_all(std::uint64_t count, std::uint64_t seed, int jobs, family of) {
   std::vector<judgements> judged(count);
   std::atomic<std::size_t> next = 0;
   std::vector<std::future<void>> threads;
   for (int j = 0; j < jobs; ++j)
     threads.push_back(std::async(std::launch::async, [&] {
-      for (std::size_t i = next++; i < count; i = next++) judged[i] = judge_all_ways(draw(seed, i, shear));
+      for (std::size_t i = next++; i < count; i = next++) judged[i] = judge_all_ways(draw(seed, i, of));
     }));
   for (std::future<void>& t : threads) t.get();
   return judged;
@@ -84,11 +107,11 @@ constexpr long any = LONG_MAX;
 const known_run any_other_run = {
     0, 0, 1, {{loose, any}, {other_events, any}, {exactly, any}, {false_mechanism, any}, {other_end, any}}};
 
-int judge_and_count(std::uint64_t count, std::uint64_t seed, int jobs, bool shear) {
+int judge_and_count(std::uint64_t count, std::uint64_t seed, int jobs, family of) {
   long steps = 0, certified = 0, values = 0;
   std::map<fault, long> found;
   std::map<fault, std::string> first;
-  const std::vector<judgements> judged = judge_all(count, seed, jobs, shear);
+  const std::vector<judgements> judged = judge_all(count, seed, jobs, of);
   for (std::size_t number = 0; number < count; ++number) {
     for (int w = 0; w < ways; ++w) {
       const judgement& j = judged[number][w];
@@ -102,7 +125,7 @@ int judge_and_count(std::uint64_t count, std::uint64_t seed, int jobs, bool shea
   }
   const auto* known = std::ranges::find_if(
       known_runs, [&](const known_run& k) { return k.count == count && k.seed == seed; });
-  if (known == std::end(known_runs) || shear) known = &any_other_run;
+  if (known == std::end(known_runs) || of.named()) known = &any_other_run;
   bool passed = values >= known->values;
   fmt::print("{} problems, {} steps, {} certified\n{} values compared; allowed: {} or more\n", count, steps,
              certified, values, known->values);
@@ -134,7 +157,7 @@ int judge_one(const contct::problem& p) {
 int main(int argc, char** argv) {
   std::uint64_t count = 300, seed = 2026;
   std::optional<std::uint64_t> only;
-  bool shear = false;
+  family of;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App program("The exact path as referee of the corrected rule and its certificate.", "contct_referee");
   program.add_option("count", count, "How many problems");
@@ -142,10 +165,11 @@ int main(int argc, char** argv) {
   program.add_option("--jobs", jobs, "Threads")->check(CLI::PositiveNumber);
   program.add_option("--only", only,
                      "Only the problem of this number, from 0, and all that is wrong with it");
-  program.add_flag("--shear", shear, "Beams with shear flexibility");
+  program.add_flag("--shear", of.shear, "Beams with shear flexibility");
+  program.add_flag("--hinge", of.hinge, "Beams with semi-rigid hinges");
   CLI11_PARSE(program, argc, argv);
   try {
-    return only ? judge_one(draw(seed, *only, shear)) : judge_and_count(count, seed, jobs, shear);
+    return only ? judge_one(draw(seed, *only, of)) : judge_and_count(count, seed, jobs, of);
   } catch (const std::exception& e) {
     fmt::print(stderr, "contct_referee: {}\n", e.what());
     return 2;

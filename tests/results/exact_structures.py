@@ -104,7 +104,7 @@ class Beam:
         GA = table.get("GA", section.get("G", 0) * section.get("As", 0))
         self.flexibility = [Fraction(1) / Fraction(v) if v else Fraction(0) for v in (GA if isinstance(GA, list) else [GA] * elements)]
         self.W = section.get("W")
-        self.hinges = {self.x.index(Fraction(hinge["x"])) for hinge in problem.get("hinge", [])}
+        self.hinges = {self.x.index(Fraction(hinge["x"])): Fraction(hinge.get("stiffness", 0)) for hinge in problem.get("hinge", [])}
         own = lambda step: {"uniform": -section["weight"] * section["A"]} if step.get("self_weight") else {}
         self.loads = [loads_of({**own(step), **step}, self.x) for step in problem["step"]]
 
@@ -146,11 +146,13 @@ class Beam:
         h, (w0, slope0, w1, slope1) = self.x[e + 1] - self.x[e], u[2 * e : 2 * e + 4]
         pieces, w, slope = self.chain(step, e, w0, slope0, Fraction(0), Fraction(0))
         missing, turn = w1 - w, slope1 - slope
-        if e + 1 in self.hinges:  # the hinge at the element's right end has no moment, and a free slope
+        if e + 1 in self.hinges:  # the moment at the right end is s times the rotation in the hinge, turn - M h / EI - V h^2 / 2 EI
             _, length, line = pieces[-1]
-            bent = at(line["moment"], length)
-            shear = -(missing + bent * h**2 / (2 * self.EI[e])) / (h**3 / (3 * self.EI[e]) + h * self.flexibility[e])
-            return self.chain(step, e, w0, slope0, -bent - shear * h, shear)[0]
+            s, bend = self.hinges[e + 1], h / self.EI[e]
+            still = (s * turn - at(line["moment"], length)) / (1 + s * bend)  # M at V = 0
+            by_shear = (h + s * h * bend / 2) / (1 + s * bend)  # M = still - by_shear V
+            shear = (missing - still * h * bend / 2) / (h**2 * bend / 6 - by_shear * h * bend / 2 - h * self.flexibility[e])
+            return self.chain(step, e, w0, slope0, still - by_shear * shear, shear)[0]
         # missing = M h^2 / 2 EI + V h^3 / 6 EI - V h / GA, turn = M h / EI + V h^2 / 2 EI
         shear = (turn * h / 2 - missing) / (h**3 / (12 * self.EI[e]) + h * self.flexibility[e])
         moment = self.EI[e] * turn / h - shear * h / 2
@@ -159,6 +161,11 @@ class Beam:
     def place(self, u, step, quantity, element, end):
         _, h, line = self.pieces(u, step, element - 1)[-1 if end == "right" else 0]
         return at(line[quantity], h if end == "right" else Fraction(0))
+
+    def hinge_rotation(self, u, step, node):
+        """Returns theta on the right of the hinge at this node, from 1, minus that on its left."""
+        _, h, line = self.pieces(u, step, node - 2)[-1]
+        return u[2 * node - 1] - at(derivative(line["w"]), h) - self.flexibility[node - 2] * at(line["shear"], h)
 
     def extreme(self, u, step, quantity, most):
         """Returns the largest (or least) value, and the x of all places with this value."""

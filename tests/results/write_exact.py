@@ -83,6 +83,10 @@ class ExactPath:
         if quantity == "reaction":
             return next(Fraction(r["value"]) for r in step["reactions"] if (r["node"], r["dof"]) == (check["node"], check["dof"]))
         number = check["step"] - 1
+        if quantity == "hinge_moment":
+            return self.structure.place(u, number, "moment", check["node"] - 1, "right")
+        if quantity == "hinge_rotation":
+            return self.structure.hinge_rotation(u, number, check["node"])
         if quantity == "zero":
             way = self.structure.way(check.get("along"))
             return zero_right_of(way, u[:: len(names)], Fraction(check["from"]))

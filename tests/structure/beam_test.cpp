@@ -75,6 +75,16 @@ TEST_CASE("beams have the displacements, moments, shears and reactions of textbo
   check_beams(
       "A linear load on a propped element with a hinge at the prop has the clamp moment 7 q0 L^2 / 120",
       {bar({0, 3, 5}, 7, {1})}, held({0, 1, 2}, {0}), {{}, {{{0.0, -2.0}, {0}}}}, "r3", {7.0 * 6 * 9 / 120});
+  // Without a moment the spans turn by q L^3 / 12 EI against each other; a moment M turns them back by
+  // 2 M L / 3 EI.
+  const double L = 2;
+  check_beams("A semi-rigid hinge of stiffness 3 EI / 2 L over a support halves the moment q L^2 / 8 there",
+              {bar({0, L, 2 * L}, 5, {1}, {1.5 * 5 / L}), bar({0, L, 3, 2 * L}, 5, {1}, {1.5 * 5 / L})},
+              held({0, 1, -1}), uniform(-8), "m<", {-8 * L * L / 16}, 1e-12);
+  for (const auto& [stiffness, share] : {std::pair(1e-300, 0.0), {1e300, 1.0}})
+    check_beams("A hinge of no stiffness to speak of has no moment there, and a very stiff one the whole",
+                {bar({0, L, 2 * L}, 5, {1}, {stiffness})}, held({0, 1, -1}), uniform(-8), "m0.1",
+                {-share * 8 * L * L / 8}, 1e-12);
 }
 
 TEST_CASE("Under a load that grows with x, the largest moment is where the shear is zero, at L / sqrt 3") {

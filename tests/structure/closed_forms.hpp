@@ -12,11 +12,13 @@
 
 namespace contct {
 
-inline beam bar(std::vector<double> x, double EI, std::vector<int> hinges = {}) {
+inline beam bar(std::vector<double> x, double EI, std::vector<int> hinges = {},
+                std::vector<double> hinge_stiffness = {}) {
   beam b;
   b.EI.assign(x.size() - 1, EI);
   b.x = std::move(x);
   b.hinges = std::move(hinges);
+  b.hinge_stiffness = std::move(hinge_stiffness);
   return b;
 }
 

@@ -213,8 +213,8 @@ TEST_CASE("the JSON result of a beam with a section modulus has stresses with an
 }
 
 TEST_CASE("in the data of the report page, a structure has nodes, stiffnesses, supports, pairs and hinges") {
-  check_like(structure_json(parsed(good_problem + std::string("[[hinge]]\nnode = 2\n"))),
-             R"({"kind": "beam", "hinges": [2],
+  check_like(structure_json(parsed(good_problem + std::string("[[hinge]]\nnode = 2\nstiffness = 7\n"))),
+             R"({"kind": "beam", "hinges": [2], "hinge_stiffness": [7],
     "nodes": {"2": {"node": 3, "x": 2}}, "EI": [1e4, 1e4], "supports": {"1": {"node": 1, "dof": "theta", "spring": null}},
     "pairs": {"0": {"face": -0.004, "state": "separated", "bed": "absent"}}})");
   problem plate = parsed(good_plate);

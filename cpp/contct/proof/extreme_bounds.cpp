@@ -82,9 +82,10 @@ void take_inside(const std::vector<element_line>& pieces, double h, double w_lef
 /// ends: the functions of w add up to 1, those of the slopes to at most h / 4. This also holds if loads break
 /// an element into pieces, because the loads are those of the equilibrium, and with shear flexibility.
 ///
-/// Left of a hinge, the slope at the hinge is not a dof: the curvature there, which is 0 up to rounding,
-/// replaces the right slope. The functions of w and of the left slope have the same bounds, that of the
-/// curvature is at most h^2 / 27, with shear flexibility h^2 / 8.
+/// Left of a hinge, the slope at the hinge is not a dof: the curvature there, which has the error of the
+/// moment (none if the hinge is free) and rounding, replaces the right slope. The functions of w and of the
+/// left slope have the same bounds, that of the curvature is at most h^2 / 27, with shear flexibility h^2
+/// / 8.
 ///
 /// The error of the slope is quadratic. It is at most the largest error at the ends, plus the smaller of two
 /// numbers, which bound it by the errors of w at the ends and by that of the shear. Left of a hinge, the
@@ -94,6 +95,9 @@ void widen(const beam& b, const structure_state& state, const load& l, error_bou
   const std::vector<value_range> printed = ranges_of(b, lines, state.displacement);
   by_quantity& error = bounds.error;
   by_quantity inside;
+  // Under loads on fixed dofs alone, only reactions have errors.
+  const bool still = error[quantity::w] == 0.0 && error[quantity::slope] == 0.0 &&
+                     std::ranges::all_of(state.displacement, [](double u) { return u == 0.0; });
   for (int e = 0; e < b.elements(); ++e) {
     const std::vector<element_line> pieces = lines.pieces(e);
     const element_line& last = pieces.back();
@@ -101,10 +105,14 @@ void widen(const beam& b, const structure_state& state, const load& l, error_bou
     for (const element_line& line : pieces) h += line.h;
     const std::size_t right = 2 * e + 2;
     const bool hinge = b.has_hinge(e + 1);
+    const double right_moment = lines.ends().at(e, 1)[1];
+    const double of_moment = still                             ? 0x1p-50 * std::abs(right_moment)
+                             : b.stiffness_of_hinge(e + 1) > 0 ? error[quantity::moment].value_or(0.0)
+                                                               : 0.0;
     const auto flexibility = shear_flexibility_of<double>(b, e);
-    const double slope =
-        hinge ? std::abs(polynomial_at(last.moment, 1.0)) * h / (flexibility > 0 ? 2 : 6) / b.EI[e]
-              : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
+    const double slope = hinge ? (std::abs(polynomial_at(last.moment, 1.0) - right_moment) + of_moment) * h /
+                                     (flexibility > 0 ? 2 : 6) / b.EI[e]
+                               : std::abs(polynomial_at(last.slope, 1.0) - state.displacement[right + 1]);
     const double w = std::abs(polynomial_at(last.w, 1.0) - state.displacement[right]);
     const double turned = std::min(1.5 / h * (2 * error[quantity::w].value_or(0.0) + w),
                                    h * h / b.EI[e] / (hinge ? 2 : 8) * error[quantity::shear].value_or(0.0));
@@ -119,7 +127,7 @@ void widen(const beam& b, const structure_state& state, const load& l, error_bou
       };
       if (line.load_size != 0.0) {  // without a load, shear and moment are extreme at the ends
         inside.take(quantity::shear, of_load + off(line.shear, 2, lines.ends().at(e, 0)[1]));
-        inside.take(quantity::moment, of_load * h + off(line.moment, 1, lines.ends().at(e, 1)[1]));
+        inside.take(quantity::moment, of_load * h + off(line.moment, 1, right_moment));
       }
       // The deflection by shear is rounded apart from that by bending.
       const double by_shear = flexibility * h * (of_load + 0x1p-48 * sum_of_sizes(line.shear));

@@ -83,14 +83,18 @@ class problem_reader {
   void read_hinge(const toml_value& t) {
     beam* const b = std::get_if<beam>(&problem_.geometry.kind);
     if (b == nullptr) t.refuse("a hinge without a beam", "a [[hinge]] of a [beam]");
-    t.allow_only(nodes_->keys_with({}));
+    t.allow_only(nodes_->keys_with({"stiffness"}));
+    const double stiffness =
+        t.has("stiffness") ? t["stiffness"].real({0.0, true, "a finite number, at least 0"}) : 0.0;
     for (const int node : nodes_->read(t)) {
       if (node == 0 || node + 1 == b->nodes())
         t.refuse(fmt::format("a hinge at node {}, where the beam ends", node + 1),
                  "a node between the ends; an end carries no moment unless a [[support]] holds its theta");
       if (b->has_hinge(node))
         t.refuse(fmt::format("a second hinge at node {}", node + 1), "one hinge at each node");
-      b->hinges.insert(std::lower_bound(b->hinges.begin(), b->hinges.end(), node), node);
+      const auto at = std::ranges::lower_bound(b->hinges, node);
+      b->hinge_stiffness.insert(b->hinge_stiffness.begin() + (at - b->hinges.begin()), stiffness);
+      b->hinges.insert(at, node);
     }
   }
 

@@ -17,6 +17,12 @@ constexpr auto is_matrix = [](const problem& p) {
 constexpr auto has_shear = [](const problem& p) {
   return is_beam(p) && !std::get<beam>(p.geometry.kind).GA.empty();
 };
+/// The nodes of the hinges, from 0.
+std::span<const int> hinges_of(const problem& p) {
+  const auto* const b = std::get_if<beam>(&p.geometry.kind);
+  return b == nullptr ? std::span<const int>() : b->hinges;
+}
+constexpr auto has_hinges = [](const problem& p) { return !hinges_of(p).empty(); };
 constexpr auto has_elements = [](const problem& p) { return !is_matrix(p); };
 constexpr auto has_pairs = [](const problem& p) { return !p.pairs.empty(); };
 constexpr auto has_beds = [](const problem& p) { return !p.beds.empty(); };
@@ -107,6 +113,27 @@ std::vector<double> axis_slopes(const step_results& r) {
   return values;
 }
 
+std::vector<double> hinge_moments(const step_results& r) {
+  return each(hinges_of(r.what), [&r](int node) { return r.elements.at(node - 1, 1)[1]; });
+}
+
+/// theta on the right of each hinge minus that on its left. If the hinge is stiffer than the element on its
+/// left, both are nearly equal, and the moment divided by the stiffness has more digits.
+std::vector<double> hinge_rotations(const step_results& r) {
+  std::vector<double> values = hinge_moments(r);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& b = std::get<beam>(r.what.geometry.kind);
+    const int node = b.hinges[i];
+    const double stiffness = b.stiffness_of_hinge(node);
+    if (stiffness > b.EI[node - 1] / b.length_of(node - 1))
+      values[i] /= stiffness;
+    else
+      values[i] =
+          r.state.displacement[2 * node + 1] - polynomial_at(r.lines()->pieces(node - 1).back().slope, 1.0);
+  }
+  return values;
+}
+
 template <auto Sum>
 std::vector<double> of_structure(const step_results& r) {
   return {(*balance_of(r)).*Sum};
@@ -137,6 +164,9 @@ std::span<const quantity_row> all_quantities() {
        of_beds<&bed_reading::contact>},
       {"bed_pressure", "largest pressure of the bed", unit::pressure, beds, no_kind, has_beds,
        of_bed_pressures},
+      {"hinge_rotation", "rotation in the hinge", unit::none, hinges, no_kind, has_hinges, hinge_rotations},
+      {"hinge_moment", "moment in the hinge", unit::moment, hinges, quantity::moment, has_hinges,
+       hinge_moments},
       {"shear", "shear force", unit::force, element_ends, quantity::shear, is_beam, forces<0>},
       {"moment", "moment", unit::moment, element_ends, quantity::moment, is_beam, forces<1>},
       {"axis_slope", "slope of the axis", unit::none, element_ends, no_kind, has_shear, axis_slopes},
@@ -176,6 +206,8 @@ const list_row& list_of(on where) {
       {"supports", "", "", [](const problem& p) { return p.supports.size(); },
        [](const problem& p, std::size_t i) { return p.supports[i].node; }},
       {"beds", "bed", "bed_", [](const problem& p) { return p.beds.size(); }, nullptr},
+      {"hinges", "hinge", "hinge_", [](const problem& p) { return hinges_of(p).size(); },
+       [](const problem& p, std::size_t i) { return hinges_of(p)[i]; }},
       {"element_ends", "", "", nullptr, nullptr},
       {"structure", "", "sum_of_", [](const problem& /*p*/) { return std::size_t{1}; }, nullptr}};
   return rows[static_cast<std::size_t>(where)];

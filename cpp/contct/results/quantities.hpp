@@ -11,7 +11,7 @@
 namespace contct {
 
 /// The list whose entries have a number. Beds and `structure`, which has one entry, have sums.
-enum class on { nodes, pairs, supports, beds, element_ends, structure };
+enum class on { nodes, pairs, supports, beds, hinges, element_ends, structure };
 
 /// A list: how results name it and its entries, which count from 1.
 struct list_row {
@@ -25,7 +25,7 @@ struct list_row {
 [[nodiscard]] const list_row& list_of(on where);
 
 /// The lists whose entries every mesh has.
-inline constexpr on lists_of_entries[] = {on::supports, on::pairs, on::beds, on::structure};
+inline constexpr on lists_of_entries[] = {on::supports, on::pairs, on::beds, on::hinges, on::structure};
 
 struct quantity_row {
   std::string_view key;    ///< in files: letters, digits and _

@@ -44,13 +44,18 @@ class beam_elements {
   [[nodiscard]] Number phi(int e) const { return phi_.empty() ? Number(0) : phi_[e]; }
   [[nodiscard]] static std::array<int, 4> dofs_of(int e) { return {2 * e, 2 * e + 1, 2 * e + 2, 2 * e + 3}; }
   [[nodiscard]] bool are_alike(int e, int other) const {
-    return h_[e] == h_[other] && beam_.is_alike(e, other) && is_released(e) == is_released(other);
+    return h_[e] == h_[other] && beam_.is_alike(e, other) && is_released(e) == is_released(other) &&
+           beam_.stiffness_of_hinge(e + 1) == beam_.stiffness_of_hinge(other + 1);
   }
   /// True if the element has a hinge at its right end.
   [[nodiscard]] bool is_released(int e) const { return beam_.has_hinge(e + 1); }
   [[nodiscard]] std::array<std::array<Number, 4>, 4> stiffness(int e) const {
-    return is_released(e) ? formulas::released_stiffness(EI(e), h_[e], phi(e))
-                          : formulas::beam_stiffness(EI(e), h_[e], phi(e));
+    auto k = formulas::beam_stiffness(EI(e), h_[e], phi(e));
+    if (!is_released(e)) return k;
+    const auto shares = connection_of(e);
+    const auto released = formulas::released_stiffness(EI(e), h_[e], phi(e));
+    for (std::size_t i = 0; i < k.size(); ++i) k[i] = shares.between(k[i], released[i]);
+    return k;
   }
 
   /// Calls visit(element, work) once for each loaded element, with the work of all its loads. In doubles, if
@@ -114,9 +119,32 @@ class beam_elements {
   [[nodiscard]] std::vector<Number> shares() const { return tributary_lengths<Number>(h_); }
 
  private:
+  /// How a hinge of stiffness s connects the right end of an element to the node, with k = K_44 of the
+  /// element: the end turns by s / (s + k) of the node's theta plus k / (s + k) of its rotation without a
+  /// moment. Stiffness and forces, which are linear in this rotation, have the same shares.
+  struct connection {
+    Number full, released;
+
+    [[nodiscard]] std::array<Number, 4> between(const std::array<Number, 4>& connected,
+                                                const std::array<Number, 4>& free) const {
+      if (full == Number(0)) return free;
+      std::array<Number, 4> all;
+      for (std::size_t i = 0; i < 4; ++i) all[i] = full * connected[i] + released * free[i];
+      return all;
+    }
+  };
+  [[nodiscard]] connection connection_of(int e) const {
+    const double stiffness = beam_.stiffness_of_hinge(e + 1);
+    if (stiffness == 0.0) return {Number(0), Number(1)};
+    const auto s = number_of<Number>(stiffness);
+    const Number k = formulas::beam_stiffness(EI(e), h_[e], phi(e))[3][3];
+    return {s / (s + k), k / (s + k)};
+  }
   [[nodiscard]] std::array<Number, 4> forces_of(int e, std::span<const Number, 4> u) const {
-    return is_released(e) ? formulas::released_end_forces<Number>(EI(e), h_[e], phi(e), u)
-                          : formulas::beam_end_forces<Number>(EI(e), h_[e], phi(e), u);
+    const auto connected = formulas::beam_end_forces<Number>(EI(e), h_[e], phi(e), u);
+    if (!is_released(e)) return connected;
+    return connection_of(e).between(connected,
+                                    formulas::released_end_forces<Number>(EI(e), h_[e], phi(e), u));
   }
   /// Returns `work` after condensing out the load on a released right end.
   [[nodiscard]] element_work<Number, 4> condensed(int e, element_work<Number, 4> work) const {
@@ -124,12 +152,13 @@ class beam_elements {
     const std::array<Number, 3> shares = formulas::released_shares<Number>(h_[e], phi(e));
     std::array<double, 3> sizes = formulas::released_shares<double>(beam_.length_of(e), 0.0);
     if (!phi_.empty()) sizes[1] = 1.0;  // |2 - phi| < 4 + phi
+    const connection c = connection_of(e);
     for (std::size_t i = 0; i < 3; ++i) {
-      work.force[i] -= shares[i] * work.force[3];
+      work.force[i] -= c.released * shares[i] * work.force[3];
       work.size[i] += std::abs(sizes[i]) * work.size[3];
     }
-    work.force[3] = Number(0);
-    work.size[3] = 0.0;
+    if (c.full == Number(0)) work.size[3] = 0.0;
+    work.force[3] = c.full * work.force[3];
     return work;
   }
 

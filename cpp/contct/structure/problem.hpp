@@ -55,15 +55,23 @@ struct beam {
   /// The inner nodes with hinges, ascending. A hinge releases the right end of the element on its left, and
   /// the rotation of this end is condensed. The node's theta belongs to the element on its right.
   std::vector<int> hinges = {};
+  /// [hinges] moment by rotation, theta on the right minus that on the left; 0, or none: free.
+  std::vector<double> hinge_stiffness = {};
   std::vector<double> GA = {};  ///< shear stiffness of each element, positive; empty: no shear flexibility
 
   [[nodiscard]] bool has_hinge(int node) const {
     return std::binary_search(hinges.begin(), hinges.end(), node);
   }
-  /// The nodes between which the beam stays straight when it moves without bending: ends and hinges.
+  /// The stiffness of the hinge at `node`; 0 if it is free, or if the node has none.
+  [[nodiscard]] double stiffness_of_hinge(int node) const {
+    const auto at = static_cast<std::size_t>(std::ranges::lower_bound(hinges, node) - hinges.begin());
+    return has_hinge(node) && at < hinge_stiffness.size() ? hinge_stiffness[at] : 0.0;
+  }
+  /// The nodes between which the beam stays straight when it moves without bending: ends and free hinges.
   [[nodiscard]] std::vector<int> corners() const {
     std::vector<int> all = {0};
-    all.insert(all.end(), hinges.begin(), hinges.end());
+    for (const int node : hinges)
+      if (stiffness_of_hinge(node) == 0.0) all.push_back(node);
     all.push_back(nodes() - 1);
     return all;
   }

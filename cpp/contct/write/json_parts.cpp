@@ -30,7 +30,10 @@ void put_kind(json& out, const beam& b) {
   out["kind"] = "beam";
   for (const auto& [key, values, required] : element_keys)
     if (!(b.*values).empty()) out[key] = b.*values;
-  if (!b.hinges.empty()) out["hinges"] = numbered(b.hinges);
+  if (!b.hinges.empty()) {
+    out["hinges"] = numbered(b.hinges);
+    out["hinge_stiffness"] = b.hinge_stiffness;
+  }
   for (std::size_t e = 0; e < b.sections.size(); ++e) {
     const beam_section& s = b.sections[e];
     if (e > 0 && s == b.sections[e - 1]) continue;

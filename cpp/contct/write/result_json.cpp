@@ -371,6 +371,7 @@ class result_writer {
     members.update({{"extremes", extremes_json(m, at_end.ranges())},
                     {"extremes_at", places_of_extremes(m)},
                     {"beds", beds_json(at_end)}});
+    if (const json hinges = entries_json(at_end, on::hinges); !hinges.empty()) members["hinges"] = hinges;
     if (!std::holds_alternative<assembled>(m.kind))
       columns(at_end, on::structure).put(members["balance"], 0, 1);
     if (parts_ != result_parts::ends)

@@ -116,7 +116,7 @@ std::vector<std::string> largest_lines(const step_results& r, int width, bool al
   return lines;
 }
 
-/// The sums of loads, reactions and contact forces, and the results of each bed.
+/// The sums of loads, reactions and contact forces, and the results of each bed and hinge.
 std::vector<std::string> sum_lines(const step_results& r) {
   const problem& p = r.what;
   std::vector<std::string> lines;
@@ -130,6 +130,13 @@ std::vector<std::string> sum_lines(const step_results& r) {
                                 fmt::format("bed {}", ++count), number(b.force, unit::force),
                                 b.pressure.least.value, number(b.pressure.most.value, unit::pressure),
                                 place_words(p.geometry, b.pressure.most), number(b.contact, unit::extent)));
+  for (std::size_t i = 0; i < list_of(on::hinges).count(p); ++i) {
+    std::vector<std::string> of_hinge;
+    for (const quantity_row* row : quantities_of(p, on::hinges))
+      of_hinge.push_back(fmt::format("{} {}", key_in_list(*row), number(row->values(r)[i], row->in)));
+    lines.push_back(fmt::format("{:<14}{} at {}", fmt::format("hinge {}", i + 1), joined(of_hinge, ", "),
+                                place_words(p.geometry, list_of(on::hinges).node(p, i))));
+  }
   return lines;
 }
 
