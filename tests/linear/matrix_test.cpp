@@ -135,6 +135,8 @@ TEST_CASE("a band that is converted to sparse columns loses zeros, but keeps tho
   CHECK(k.values == std::vector<double>{4, 1, 0, 6});
   CHECK(k.diagonal(1) == 0.0);
   CHECK(k.diagonal(2) == 6.0);
+  CHECK(columns_of(band_matrix(3, 3)).rows ==
+        std::vector<int>{0, 1, 2, 1, 2, 2});  // a beam's, which is copied whole
 }
 
 TEST_CASE("the rows of a chain in random order are reordered to a band with one subdiagonal") {

@@ -93,7 +93,7 @@ sparse_columns columns_of(const band_matrix& a) {
   for (int column = 0; column < a.order(); ++column) {
     const int last = std::min(column + a.subdiagonals(), a.order() - 1);
     for (int row = column; row <= last; ++row) {
-      if (row != column && a.at(row, column) == 0.0) continue;
+      if (row != column && a.at(row, column) == 0.0 && a.subdiagonals() != 3) continue;
       k.rows.push_back(row);
       k.values.push_back(a.at(row, column));
     }
@@ -105,10 +105,12 @@ sparse_columns columns_of(const band_matrix& a) {
 }
 
 void put_in(const sparse_columns& a, band_matrix& band) {
+  const int width = band.subdiagonals() + 1;
   double* to = band.data();
-  for (int column = 0; column < a.order(); ++column, to += band.subdiagonals() + 1) {
-    std::fill_n(to, band.subdiagonals() + 1, 0.0);
-    for (int i = a.starts[column]; i < a.starts[column + 1]; ++i) to[a.rows[i] - column] = a.values[i];
+  for (int column = 0, first = 0; column < a.order(); first = a.starts[++column], to += width) {
+    const bool is_full = a.starts[column + 1] - first == width;
+    is_full ? std::copy_n(&a.values[first], width, to) : std::fill_n(to, width, 0.0);
+    for (int i = first; i < a.starts[column + 1] && !is_full; ++i) to[a.rows[i] - column] = a.values[i];
   }
 }
 

@@ -123,7 +123,7 @@ void each_entry(Columns& a, Visit visit) {
 /// std::length_error if there are more entries than an int can count.
 [[nodiscard]] sparse_columns columns_of(const sparse_matrix& a, std::span<const int> rows = {});
 
-/// Converts `a` to columns, without zeros off the diagonal.
+/// Converts `a` to columns, without zeros off the diagonal; a beam's band keeps them, and is copied quicker.
 [[nodiscard]] sparse_columns columns_of(const band_matrix& a);
 
 /// Overwrites `band` with `a`, which has the same order and no entries outside the band.

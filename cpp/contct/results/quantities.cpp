@@ -125,11 +125,9 @@ std::vector<double> hinge_rotations(const step_results& r) {
     const auto& b = std::get<beam>(r.what.geometry.kind);
     const int node = b.hinges[i];
     const double stiffness = b.stiffness_of_hinge(node);
-    if (stiffness > b.EI[node - 1] / b.length_of(node - 1))
-      values[i] /= stiffness;
-    else
-      values[i] =
-          r.state.displacement[2 * node + 1] - polynomial_at(r.lines()->pieces(node - 1).back().slope, 1.0);
+    const bool is_stiff = stiffness > b.EI[node - 1] / b.length_of(node - 1);
+    const double left = polynomial_at(r.lines()->pieces(node - 1).back().slope, 1.0);
+    values[i] = is_stiff ? values[i] / stiffness : r.state.displacement[2 * node + 1] - left;
   }
   return values;
 }
