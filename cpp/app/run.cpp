@@ -283,9 +283,7 @@ void write_grids(const output_files& files, const std::string& vtu, const run_re
 exit_status finish(shown_run& o) {
   const bool solved = o.run.result.end.status == path_status::solved;
   const bool certified = o.run.result.all_certified();
-  std::vector<std::string> summary = certificate_summary(o.run.result, solved);
-  if (solved && certified) summary.front() += " for this mesh";
-  print_verdict(o, solved && certified ? paint::good : paint::bad, summary);
+  print_verdict(o, solved && certified ? paint::good : paint::bad, certificate_summary(o.run.result, solved));
   const exit_status status = o.run.exit();
   if (status != exit_status::bad_input) {  // a run with bad input has no numbers
     write_outputs(o.run);

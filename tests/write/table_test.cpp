@@ -169,10 +169,12 @@ TEST_CASE("a path that does not reach its load has one of three statuses, and a 
 
 TEST_CASE("the summary counts certified steps, but a run whose path ended early is not certified") {
   const a_run one(good_problem);
-  CHECK(certificate_summary(one.result, true)[0] == "the final state is certified");
+  CHECK(certificate_summary(one.result, true)[0] ==
+        "the final state is certified: this beam has no mesh error");
   CHECK(certificate_complaints(one.result).empty());
   const a_run two(std::string(good_problem) + "[[step]]\npoint = [ { node = 3, w = 20.0 } ]\n");
-  CHECK(certificate_summary(two.result, true)[0] == "both final states are certified");
+  CHECK(certificate_summary(two.result, true)[0] ==
+        "both final states are certified: this beam has no mesh error");
   const std::vector<std::string> ended = certificate_summary(one.result, false);
   REQUIRE(ended.size() == 2);
   check_words(ended[0], {"the run is NOT certified"});

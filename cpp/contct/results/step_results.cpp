@@ -18,6 +18,10 @@ constexpr double above_ties = 1 + 1e-9;
 
 }  // namespace
 
+bool has_no_mesh_error(const problem& p) {
+  return std::holds_alternative<beam>(p.geometry.kind) && p.beds.empty();
+}
+
 std::size_t contacts_of(const problem& p) {
   return p.beds.empty() ? p.pairs.size() : p.beds.front().first_pair;
 }

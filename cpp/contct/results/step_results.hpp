@@ -20,6 +20,10 @@ namespace contct {
 /// The number of pairs of [[contact]]; those of beds follow them.
 [[nodiscard]] std::size_t contacts_of(const problem& p);
 
+/// True for beams without beds: between places where something acts or changes, which are nodes, elements are
+/// exact, so that a finer mesh has the same numbers; see reference/certificate-proof.md.
+[[nodiscard]] bool has_no_mesh_error(const problem& p);
+
 /// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs of
 /// pairs and dofs along an axis, if places are known; otherwise all dofs.
 [[nodiscard]] std::vector<int> deflecting_nodes(const problem& p);

@@ -380,7 +380,8 @@ class result_writer {
     members.update({{"rcond", s.rcond},
                     {"digits", s.judged ? json(digits_of(*s.judged)) : json(nullptr)},
                     {"error", errors_json(s.judged, at_end)},
-                    {"certificate", certificate_json(s)}});
+                    {"certificate", certificate_json(s)},
+                    {"mesh", {{"kind", has_no_mesh_error(r_.what) ? "none" : "unknown"}}}});
     std::vector<json_document::list> all;
     if (whole) all = lists(at_end, true);
     if (whole)

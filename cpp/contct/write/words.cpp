@@ -117,8 +117,10 @@ std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
   const std::string states = certified == 1   ? "the final state is"
                              : certified == 2 ? "both final states are"
                                               : fmt::format("all {} final states are", certified);
-  std::vector<std::string> items = {states + " certified",
-                                    "proved: " + digits_words(worst) + " of every number"};
+  std::vector<std::string> items = {
+      states + (has_no_mesh_error(r.what) ? " certified: this beam has no mesh error"
+                                          : " certified for this mesh"),
+      "proved: " + digits_words(worst) + " of every number"};
   const auto loose = std::ranges::find_if(steps, [](const auto& s) { return s.judged && !s.judged->unique; });
   if (loose != steps.end())
     items.push_back(

@@ -386,6 +386,9 @@ function showHead() {
   byId("verdict").replaceChildren(...verdicts().map(([text, kind]) => element("li", { class: kind }, text)));
   showTitleOnSheets(result.title.trim() || file);
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
+  byId("mesh-words").textContent = result.steps.every((s) => s.mesh.kind === "none")
+    ? "Certified means that these are the right numbers. This beam has no mesh error: a finer mesh has the same numbers."
+    : "Certified means that these are the right numbers for this mesh. The error of the mesh itself is not judged.";
 }
 
 // Puts the title into the CSS rule for the margin of printed pages, because margins cannot contain elements.
