@@ -165,10 +165,12 @@ def hinges(t, x):
 
 
 def named(of, t):
-    """Returns every x of supports, pairs, hinges, loads and ends of pieces."""
+    """Returns every x of supports, pairs, hinges, loads, ends of pieces and ends of beds."""
     tables = [part for key in ("support", "contact", "bed", "hinge") for part in t.get(key, [])]
     tables += [part for step in t.get("step", []) + t.get("case", []) for key in ("point", "settlement", "move") for part in step.get(key, [])]
-    return [x for part in tables for x in listed(part.get("x", []))] + [piece["to"] for piece in pieces(of)]
+    beds = t.get("bed", [])
+    ends = [bed[key] for bed in beds for key in ("from", "to") if key in bed] + [piece["to"] for bed in beds for piece in listed(bed["modulus"]) if isinstance(piece, dict)]
+    return [x for part in tables for x in listed(part.get("x", []))] + [piece["to"] for piece in pieces(of)] + ends
 
 
 def sized(of, t, ends):

@@ -69,8 +69,8 @@ class Problem:
             nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
         for c in t.get("bed", []):
-            nodes = self.nodes(c, {"surface", "face", "modulus", "state"}, "all")
-            self.contact(c, nodes, c.get("surface", "below"), [real(c["modulus"]) * share[node] for node in nodes], self.fixed)
+            springs = self.bed(c, share)
+            self.contact(c, [*springs], c.get("surface", "below"), [*springs.values()], self.fixed)
         self.unmoved = self.pairs
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
         self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
@@ -84,6 +84,27 @@ class Problem:
         self.supports += [(self.dof(node, name), spring) for name, spring in held for node in nodes]
         for dof, spring in ((self.dof(node, name), spring) for name, spring in held for node in nodes):
             self.K[dof][dof] += spring or 0
+
+    def bed(self, c, share):
+        """Returns the stiffness of a bed at each of its nodes: the modulus times what of the half elements there lies inside."""
+        pieces = [piece for piece in listed(c["modulus"]) if isinstance(piece, dict) and len(self.lines) == 1]
+        if not pieces and not c.keys() & {"from", "to"}:
+            return {node: real(c["modulus"]) * share[node] for node in self.nodes(c, {"surface", "face", "modulus", "state"}, "all")}
+        only(c, {"from", "to", "surface", "face", "modulus", "state"})
+        need(type(c["face"]) is not list, "a list of faces without nodes")
+        ends, springs, half = {key: c[key] for key in ("from", "to") if key in c}, {}, F(1, 2)
+        for piece in pieces or [{"value": c["modulus"]}]:
+            part = ends | only(piece, {"to", "value"})
+            for e, sides in self.parts(part):
+                at = [e] if len(self.lines) == 1 else [e % (len(self.lines[0]) - 1), e // (len(self.lines[0]) - 1)]
+                halves = [[(k, (line[k + 1] - line[k]) * (min(b, half) - min(a, half))), (k + 1, (line[k + 1] - line[k]) * (max(b, half) - max(a, half)))]
+                          for k, (a, b), line in zip(at, sides, self.lines)]
+                for (i, x), (j, y) in product(halves[0], halves[1] if len(halves) == 2 else [(0, 1)]):
+                    springs[i + j * len(self.lines[0])] = springs.get(i + j * len(self.lines[0]), 0) + positive(real(piece["value"])) * x * y
+            ends = ends | ({"from": piece["to"]} if pieces else {})
+        place = lambda x: self.lines[0][-1] if x is None else real(x) if (k := find(self.lines[0], x)) is None else self.lines[0][k]
+        need(not pieces or place(pieces[-1]["to"]) == place(c.get("to")), "a bed with pieces that end elsewhere")
+        return {node: k for node, k in sorted(springs.items()) if k}
 
     def contact(self, c, nodes, surface, stiffness, without=()):
         """Adds a pair at each node whose w is not in `without`."""

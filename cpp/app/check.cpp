@@ -4,6 +4,7 @@
 #include <span>
 
 #include "app/problem_runs.hpp"
+#include "contct/structure/placed_loads.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
@@ -38,8 +39,12 @@ std::string pair_words(const problem& p) {
 
 std::string bed_words(const problem& p, const bed& b) {
   const contact_pair& first = p.pairs[b.first_pair];
-  return fmt::format("modulus {}, {}, pairs {} to {}", b.modulus, surface_name(first.surface),
-                     b.first_pair + 1, b.first_pair + b.share.size());
+  std::string words = fmt::format("modulus {}, {}, pairs {} to {}", b.modulus, surface_name(first.surface),
+                                  b.first_pair + 1, b.first_pair + b.share.size());
+  if (const auto* const on = std::get_if<beam>(&p.geometry.kind))
+    for (const auto& [from, to] : intervals_of(b, *on))
+      words += fmt::format(", from {:.6g} to {:.6g}", from, to);
+  return words;
 }
 
 constexpr std::size_t most_combinations_told = 20;

@@ -50,7 +50,7 @@ TEST_CASE("contct check describes the structure, mesh, supports, pairs, beds, st
               "           equal distances between\n"
               "supports   2 dofs fixed, 1 spring\n"
               "pairs      22, 1 in contact before any load\n"
-              "bed 1      modulus 4, below, pairs 3 to 22\n"
+              "bed 1      modulus 4, below, pairs 3 to 22, from 0 to 10\n"
               "step 1     \"dead load\", 1 distributed load\n"
               "step 2     1 point load, 2 settlements\n"
               "units      m, kN\n"

@@ -39,7 +39,7 @@ STRUCTURES_TABLES = {
 }
 NOT_WITH_A_MATRIX = {"`spring` of a `[[support]]`", "`[[bed]]`", "A part of `uniform`"}
 SHARED = {"Places", "Degrees of freedom"}  # the keys of these tables are keys of other tables
-PARTS = {"EI": "A piece of `EI`", "section": "A piece of `section`", "spring": "`spring` of a `[[support]]`", "face": "`face` of a `[[bed]]`",
+PARTS = {"EI": "A piece of `EI`", "modulus": "A piece of `modulus`", "section": "A piece of `section`", "spring": "`spring` of a `[[support]]`", "face": "`face` of a `[[bed]]`",
          "uniform": "A part of `uniform`", "point": "A `point` load", "axles": "An axle"}
 # How a value begins in the manual: what a message says that is allowed.
 ALLOWED = {"number": " number", "> 0": " number", "at most": " number", "integer": "whole number", "list of integers": "list of whole numbers",

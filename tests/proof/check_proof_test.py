@@ -335,6 +335,23 @@ def hinged_beams(count):
     return texts
 
 
+def bedded(count):
+    """Returns random beams with beds from place to place, which may overlap and be in pieces, and plates with beds on rectangles."""
+    chance, texts = random.Random(13), []
+    for i in range(count):
+        ends = lambda: sorted(chance.sample([0.2, 0.5, 0.77, 1.0, 1.9, 2.5, 3.3, 3.9], 2))
+        a, b = ends()
+        pieces = f"[ {{ to = {(a + b) / 2:.3f}, value = 9 }}, {{ to = {b}, value = 31.5 }} ]"
+        face = chance.choice(("0", "-0.01", "{ polynomial = [ 0, -0.002, 0.0003 ] }"))
+        bed = f"[[bed]]\nfrom = {a}\nto = {b}\nmodulus = {chance.choice((pieces, '20'))}\nface = {face}\n"
+        mesh = chance.choice(("elements = 8", "elements = 13", "element_size = 0.7"))
+        c, d = ends()
+        texts.append(f"[beam]\nlength = 4\n{mesh}\nEI = 12\n{bed}[[bed]]\nmodulus = 15\nface = 0\nto = {b}\n[[support]]\nx = [0, 4]\nspring = {{ w = 2 }}\n[[step]]\nuniform = -1.5\npoint = [ {{ x = {c}, w = -1 }} ]\n" if i % 4 else
+                     f"[plate]\nsize = [4, 2]\nelements = [3, 2]\nD = 12\nnu = 0.3\n[[bed]]\nfrom = [{a}, 0]\nto = [{b}, {d / 2:.3f}]\nmodulus = 20\nface = 0\n"
+                     "[[support]]\nnode = 12\nspring = { w = 40 }\n[[support]]\nnode = 1\nspring = { w = 40, wx = 3, wy = 2 }\n[[step]]\nuniform = -1.5\n")
+    return texts
+
+
 def check_beams(texts):
     certified, count = 0, len(texts)
     for text in texts:
@@ -422,6 +439,7 @@ with tempfile.TemporaryDirectory() as scratch:
     check_doctored(check_forms(), 200 if few else 2000)
     check_beams(sheared_beams(20 if few else 60))
     check_beams(hinged_beams(20 if few else 60))
+    check_beams(bedded(12 if few else 60))
     check_cancelled_and_balanced()
 least = (30, 25, 0) if few else (150, 140, 1)
 check.end(150, **dict(zip(("proved steps", "certified steps", "contradicted"), least)))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <set>
 
 #include "catch.hpp"
@@ -307,6 +308,57 @@ TEST_CASE("Refinement gives a new node of a bed the mean of the faces beside it,
   CHECK((means[0].face == -2.0 && means[2].face == -3.0 && means[3].stiffness == 2.0));
   const auto curve = refined_bed("{ polynomial = [-1, 0, -1] }");
   CHECK((curve[0].face == -1.25 && curve[2].face == -3.25));
+}
+
+TEST_CASE(
+    "Refinement keeps the places where a bed ends and its modulus changes, and moves its new nodes with the "
+    "others") {
+  const std::string head = "[beam]\nlength = 8\nelements = 4\nEI = 1\n[[bed]]\nface = 0\n";
+  const std::string steps = "[[step]]\nmove = [ { node = 3, w = 4 }, { node = 4, w = 2 } ]\n";
+  const auto sums_of = [](const problem& p) {
+    double stiffness = 0.0, length = 0.0, moment = 0.0;
+    const auto& b = std::get<beam>(p.geometry.kind);
+    for (std::size_t i = 0; i < p.pairs.size(); ++i) {
+      stiffness += p.pairs[i].stiffness;
+      length += p.beds[0].share[i];
+      moment += p.pairs[i].stiffness * b.x[p.pairs[i].node];
+    }
+    return std::array{stiffness, length, moment};
+  };
+  // By nodes 2 to 4 the bed acts from 1 to 7, by from and to between them.
+  for (const auto& [keys, stiffness, length] :
+       {std::tuple("modulus = 3\nnodes = '2..4'\n", 18.0, 6.0),
+        {"modulus = 3\nfrom = 1\nto = 7\n", 18.0, 6.0},
+        {"from = 1.5\nto = 7\nmodulus = [ { to = 4.75, value = 2 }, { to = 7, value = 4 } ]\n", 15.5, 5.5}}) {
+    const problem coarse = parsed(head + keys + steps), fine = refined(coarse), finest = refined(fine);
+    CAPTURE(keys);
+    CHECK(sums_of(coarse)[0] == Approx(stiffness).epsilon(1e-14));
+    CHECK(sums_of(coarse)[1] == Approx(length).epsilon(1e-14));
+    for (const problem& p : {fine, finest})
+      for (std::size_t i = 0; i < 2; ++i) CHECK(sums_of(p)[i] == Approx(sums_of(coarse)[i]).epsilon(1e-14));
+    const auto moved = pairs_under(fine, fine.steps[0]);
+    const auto move_at = [&](int node) {
+      return std::ranges::find(moved, 2 * node, &pair_in<double>::dof)->face;
+    };
+    CHECK((move_at(4) == 4.0 && move_at(5) == 3.0 && move_at(6) == 2.0 && move_at(3) == 2.0));
+  }
+}
+
+TEST_CASE("a bed on a rectangle of a plate has the same stiffness and area on every mesh") {
+  const problem coarse = parsed(
+      "[plate]\nsize = [4, 2]\nelements = [4, 2]\nD = 1\nnu = 0.3\n[[bed]]\nfrom = [0.3, 0.5]\nto = "
+      "[3.1, 2]\nmodulus = 5\nface = 0\n[[step]]\nuniform = -1\n");
+  const problem by_nodes = parsed(
+      "[plate]\nsize = [4, 2]\nelements = [4, 2]\nD = 1\nnu = 0.3\n[[bed]]\nnodes = [7, 8, 12]\nmodulus = 5\n"
+      "face = 0\n[[step]]\nuniform = -1\n");
+  for (const auto& [p, area] : {std::pair(coarse, 2.8 * 1.5), {by_nodes, 2.5}})
+    for (const problem& of : {p, refined(p), refined(refined(p))}) {
+      double stiffness = 0.0;
+      for (const contact_pair& pair : of.pairs) stiffness += pair.stiffness;
+      CHECK(stiffness == Approx(5 * area).epsilon(1e-14));
+      CHECK(std::accumulate(of.beds[0].share.begin(), of.beds[0].share.end(), 0.0) ==
+            Approx(area).epsilon(1e-14));
+    }
 }
 
 TEST_CASE("Refinement of a matrix is refused, and the message suggests a finer mesh") {

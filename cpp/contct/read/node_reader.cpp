@@ -55,7 +55,7 @@ bool is_rounded(double x, int digits, const rational& place) {
 /// Minus the number of digits, and the number.
 using named_coordinate = std::pair<int, double>;
 
-/// The values of every key x, except that of [beam], and the ends of the pieces of EI or section.
+/// The values of every key x, except that of [beam], the ends of beds, and those of pieces.
 std::vector<named_coordinate> named_coordinates(const toml_value& beam, const toml_value& top) {
   std::vector<named_coordinate> named;
   const auto take = [&named](const toml_value& t, const char* key) {
@@ -65,6 +65,11 @@ std::vector<named_coordinate> named_coordinates(const toml_value& beam, const to
   };
   for (const char* key : {"support", "contact", "bed", "hinge"})
     for (const toml_value& t : top[key].optional_tables()) take(t, "x");
+  for (const toml_value& t : top["bed"].optional_tables()) {
+    for (const char* key : {"from", "to"}) take(t, key);
+    if (has_pieces(t, "modulus"))
+      for (const toml_value& piece : t["modulus"].tables()) take(piece, "to");
+  }
   for (const char* loads : {"step", "case"})
     for (const toml_value& step : top[loads].optional_tables())
       for (const char* key : {"point", "settlement", "move"})
@@ -310,6 +315,28 @@ void node_reader::read_values(const toml_value& t, std::string_view found, const
       take(named, place, dof, value);
     }
   }
+}
+
+node_reader::area node_reader::read_area(const toml_value& t) const {
+  const auto coordinates = [&](const char* key) {
+    return axes_.size() == 1 ? std::vector{t[key]}
+                             : t[key].entries("a corner of the rectangle, [x, y]", 2, 2);
+  };
+  const auto corner = [&](const char* key, bool at_end) {
+    const std::vector<toml_value> named = t.has(key) ? coordinates(key) : std::vector<toml_value>();
+    std::array<line_place, 2> places{};
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      places.at(i) = named.empty() ? axes_[i].place(at_end ? axes_[i].points().size() - 1 : 0)
+                                   : axes_[i].place_of(named[i]);
+    return places;
+  };
+  const area of{corner("from", false), corner("to", true)};
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    if (axes_[i].points().place(of.from.at(i)) >= axes_[i].points().place(of.to.at(i)))
+      coordinates(t.has("to") ? "to" : "from")[i].refuse(
+          fmt::format("{}", of.to.at(i).x),
+          fmt::format("more than {}, where this part begins", of.from.at(i).x));
+  return of;
 }
 
 void node_reader::refuse_hinge(const toml_value& named, int node, int dof) const {

@@ -2,6 +2,7 @@
 // beam from its key element_size.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -52,8 +53,8 @@ class coordinate_row {
   return {b.x, b.runs, "node", "element_size in [beam] puts a node at every x that the file names"};
 }
 
-/// True if `key` (EI or section) of the table [beam] is a list of pieces, each with its end `to`.
-[[nodiscard]] bool has_pieces(const toml_value& beam, std::string_view key);
+/// True if `key` (EI or section of [beam], modulus of a bed) is a list of pieces, each with its end `to`.
+[[nodiscard]] bool has_pieces(const toml_value& t, std::string_view key);
 
 /// Coordinates, and the runs of equal parts that the line consists of.
 using mesh_line = std::pair<std::vector<double>, std::vector<even_run>>;
@@ -62,8 +63,8 @@ using mesh_line = std::pair<std::vector<double>, std::vector<even_run>>;
 [[nodiscard]] mesh_line even_line(double length, int elements);
 
 /// Makes the nodes of a beam whose table has element_size: at the ascending coordinates `ends`; between the
-/// ends, at the values of the keys x of the document `top` and at the ends of pieces of EI or section; and
-/// between two neighbours of these nodes, more nodes at equal distances of at most element_size.
+/// ends, at the values of the keys x of the document `top` and at the ends of beds and pieces; and between
+/// two neighbours of these nodes, more nodes at equal distances of at most element_size.
 [[nodiscard]] mesh_line sized_mesh(const toml_value& beam, const toml_value& top,
                                    const std::vector<double>& ends);
 
@@ -98,6 +99,14 @@ class node_reader {
   [[nodiscard]] std::vector<int> read(const toml_value& t) const;
   /// As `read`; with `between_nodes`, the key x of a beam may also name places between nodes.
   [[nodiscard]] std::vector<named_place> places(const toml_value& t, bool between_nodes) const;
+
+  /// Reads the part on which a load or bed acts: places `from` and `to` along a beam, or two corners of a
+  /// rectangle of a plate. A missing `from` is the start of the beam or the lower left corner of the plate, a
+  /// missing `to` the opposite end or corner.
+  struct area {
+    std::array<line_place, 2> from, to;  ///< along each axis
+  };
+  [[nodiscard]] area read_area(const toml_value& t) const;
 
   /// Reads labels of dofs of a matrix, from 0: [count] one label for all pairs, or one for each pair.
   [[nodiscard]] std::vector<int> labelled(const toml_value& named, std::size_t count) const;

@@ -13,6 +13,7 @@
 #include "contct/read/node_reader.hpp"
 #include "contct/read/tables.hpp"
 #include "contct/structure/line.hpp"
+#include "contct/structure/placed_loads.hpp"
 
 namespace contct {
 namespace {
@@ -219,15 +220,51 @@ class problem_reader {
     return values;
   }
 
-  /// Adds a pair at every node of a bed that can deflect: stiffness = modulus * tributary length or area.
+  /// Reads the parts of a bed with from, to or pieces of modulus; none if the bed is given by nodes.
+  [[nodiscard]] std::vector<bed_part> read_parts(const toml_value& t) const {
+    const bool in_pieces = nodes_->on(beams) && has_pieces(t, "modulus");
+    if (!in_pieces && !t.has("from") && !t.has("to")) return {};
+    if (nodes_->named_in(t))
+      t.refuse("from, to or pieces of modulus beside the nodes of the bed", "either nodes, or from and to");
+    if (t["face"].is_array()) t["face"].refuse("one number, or a polynomial; a list belongs to nodes");
+    auto [from, to] = nodes_->read_area(t);
+    if (!in_pieces) return {{from, to, t["modulus"].real(positive_real)}};
+    const coordinate_row& x = nodes_->axes().front();
+    const auto reaches = [&x](const line_place& a, const line_place& b) {
+      return x.points().place(a) >= x.points().place(b);
+    };
+    std::vector<bed_part> parts;
+    for (const toml_value& piece : t["modulus"].tables()) {
+      piece.allow_only({"to", "value"});
+      const line_place end = x.place_of(piece["to"]);
+      if (reaches(from[0], end))
+        piece["to"].refuse(fmt::format("more than {}, where this piece begins", from[0].x));
+      parts.push_back({from, {end, 0.0}, piece["value"].real(positive_real)});
+      from[0] = end;
+    }
+    if (!reaches(from[0], to[0]) || !reaches(to[0], from[0]))
+      t["modulus"].refuse(fmt::format("pieces that end at {}", from[0].x),
+                          fmt::format("a last piece to {}, where the bed ends", to[0].x));
+    return parts;
+  }
+
+  /// Adds a pair at every node of a bed that can deflect.
   void read_bed(const toml_value& t) {
-    t.allow_only(nodes_->keys_with({"modulus", "surface", "face", "state"}));
-    const double modulus = t["modulus"].real(positive_real);
+    t.allow_only(nodes_->keys_with({"from", "to", "modulus", "surface", "face", "state"}));
     const facing common = read_facing(t, face_below);
+    bed made{0.0, {}, problem_.pairs.size(), {}, common.closed, {}, read_parts(t)};
+    const bed_springs springs = springs_of(problem_.geometry, made.parts);
     std::vector<int> at(nodes(problem_.geometry));
     std::iota(at.begin(), at.end(), 0);
     if (nodes_->named_in(t)) at = nodes_->read(t);
-    bed made{modulus, {}, problem_.pairs.size(), {}, common.closed};
+    if (made.parts.empty()) {
+      made.modulus = t["modulus"].real(positive_real);
+      made.nodes = at;
+      std::ranges::sort(made.nodes);
+    } else {
+      made.modulus = std::ranges::max(made.parts, {}, &bed_part::modulus).modulus;
+      std::erase_if(at, [&springs](int node) { return springs.share[node] == 0; });
+    }
     const std::vector<double> faces = read_faces(t, at, made.face);
     if (shares_.empty()) shares_ = tributary_shares(problem_.geometry);
     if (exact_shares_.empty()) exact_shares_ = exact_shares(problem_.geometry);
@@ -235,16 +272,41 @@ class problem_reader {
       const int node = at[i];
       if (fixed_in_w(node)) continue;
       contact_pair p = pair_at(t, common, node, faces[i], i);
-      p.stiffness = modulus * shares_[node];
+      p.stiffness = made.parts.empty() ? made.modulus * shares_[node] : rounded(springs.stiffness[node]);
       if (!std::isnormal(p.stiffness))
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
                  "modulus times tributary length, or area, within the range of double precision");
       problem_.pairs.push_back(p);
-      made.share.push_back(exact_shares_[node]);
+      made.share.push_back(made.parts.empty() ? exact_shares_[node] : rounded(springs.share[node]));
     }
     if (made.share.empty()) t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
+    if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) {
+      warn_of_spacing(t, *b, made.modulus, at);
+      warn_of_ends(t, *b, made);
+    }
     problem_.beds.push_back(std::move(made));
-    if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) warn_of_spacing(t, *b, modulus, at);
+  }
+
+  /// Warns if a bed by nodes ends inside the beam, half an element beyond its last node, or meets another one
+  /// at a node, whose half elements then belong to both.
+  void warn_of_ends(const toml_value& t, const beam& b, const bed& made) {
+    const auto in = [](const bed& of, int node) { return std::ranges::binary_search(of.nodes, node); };
+    for (const int node : made.nodes)
+      for (const int next : {node - 1, node + 1}) {
+        if (next < 0 || next >= b.nodes() || in(made, next)) continue;
+        problem_.warnings.push_back(fmt::format(
+            "{}: the bed acts to x = {:.6g}, half an element beyond node {}; from and to end it at a place",
+            t.where(), b.x[node] + (b.x[next] - b.x[node]) / 2, node + 1));
+        const auto meets = [&](const bed& other) {
+          const bool is_beside = in(other, next) && in(other, node);
+          return is_beside &&
+                 problem_.pairs[other.first_pair].surface == problem_.pairs[made.first_pair].surface;
+        };
+        if (std::ranges::any_of(problem_.beds, meets))
+          problem_.warnings.back() +=
+              fmt::format("; the half elements at node {} belong to another bed too", node + 1);
+        return;
+      }
   }
 
   /// Warns if neighbouring nodes of a bed are more than half of (4 EI / modulus)^(1/4) apart, the length over

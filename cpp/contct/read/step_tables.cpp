@@ -162,30 +162,9 @@ class step_reader {
     return read_polynomial(t, nodes_.structure(), "value; a polynomial is allowed only for a beam's load");
   }
 
-  /// Reads the part on which a load acts: places `from` and `to` along a beam, or two corners of a rectangle
-  /// of a plate. A missing `from` is the start of the beam or the lower left corner of the plate, a missing
-  /// `to` the opposite end or corner.
   [[nodiscard]] placed_load read_part(const toml_value& t, load_kind kind,
                                       std::vector<double> intensity) const {
-    const std::vector<coordinate_row>& axes = nodes_.axes();
-    const auto coordinates = [&](const char* key) {
-      return axes.size() == 1 ? std::vector{t[key]}
-                              : t[key].entries("a corner of the rectangle, [x, y]", 2, 2);
-    };
-    const auto corner = [&](const char* key, bool at_end) {
-      const std::vector<toml_value> named = t.has(key) ? coordinates(key) : std::vector<toml_value>();
-      std::array<line_place, 2> places{};
-      for (std::size_t i = 0; i < axes.size(); ++i)
-        places.at(i) = named.empty() ? axes[i].place(at_end ? axes[i].points().size() - 1 : 0)
-                                     : axes[i].place_of(named[i]);
-      return places;
-    };
-    const std::array<line_place, 2> from = corner("from", false);
-    const std::array<line_place, 2> to = corner("to", true);
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      if (axes[i].points().place(from.at(i)) >= axes[i].points().place(to.at(i)))
-        coordinates(t.has("to") ? "to" : "from")[i].refuse(
-            fmt::format("{}", to.at(i).x), fmt::format("more than {}, where this part begins", from.at(i).x));
+    const auto [from, to] = nodes_.read_area(t);
     return {kind, from[0], to[0], std::move(intensity), {from[1], to[1]}};
   }
 

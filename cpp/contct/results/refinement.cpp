@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "contct/results/quantities.hpp"
 #include "contct/structure/line.hpp"
+#include "contct/structure/placed_loads.hpp"
 
 namespace contct {
 namespace {
@@ -101,31 +103,74 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
   }
 }
 
+/// Where bed `b` acts on the finer mesh: its parts or, of a bed by nodes, the half elements at each run of
+/// nodes in a row.
+std::vector<bed_part> parts_of(const bed& b, const halved_grid& grid, const model& fine) {
+  std::vector<bed_part> all = b.parts;
+  for (bed_part& part : all)
+    for (line_place* const at : {&part.from[0], &part.from[1], &part.to[0], &part.to[1]})
+      if (at->point > 0) at->point *= 2;
+  const auto corner = [&](int i, int j) {
+    const int column = std::clamp(i, 0, grid.fine_columns() - 1);
+    const int row = std::clamp(j, 0, 2 * grid.rows - 2);
+    const place at = place_of_node(fine, row * grid.fine_columns() + column);
+    std::array<line_place, 2> places = {at.x, at.y};
+    places[0].point = column;
+    places[1].point = row;
+    return places;
+  };
+  for (std::size_t n = 0; n < b.nodes.size(); ++n) {
+    const int i = b.nodes[n] % grid.columns;
+    const int j = b.nodes[n] / grid.columns;
+    if (n == 0 || i == 0 || b.nodes[n - 1] + 1 != b.nodes[n])
+      all.push_back({corner(2 * i - 1, 2 * j - 1), {}, b.modulus});
+    all.back().to = corner(2 * i + 1, 2 * j + 1);
+  }
+  return all;
+}
+
 /// Adds bed `b` of `p` to the finer problem. New faces are means of neighbours, or the polynomial's values.
 void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& fine) {
   std::map<int, double> faces;
   for (std::size_t i = 0; i < b.share.size(); ++i)
     faces[p.pairs[b.first_pair + i].node] = p.pairs[b.first_pair + i].face;
-  const std::vector<char> fixed = fixed_in(p, 0);
-  const std::vector<char> now_fixed = fixed_in(fine, 0);
-  const std::vector<double> shares = tributary_shares(fine.geometry);
-  const std::vector<double> exactly = exact_shares(fine.geometry);
-  bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed};
+  const std::vector<char> fixed = fixed_in(fine, 0);
+  bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed, {}, parts_of(b, grid, fine.geometry)};
+  const bed_springs springs = springs_of(fine.geometry, made.parts);
   for (int node = 0; node < nodes(fine.geometry); ++node) {
+    if (fixed[node] != 0 || springs.share[node] == 0) continue;
     const std::vector<int> around = grid.around(node);
     const auto known = std::ranges::count_if(around, [&](int n) { return faces.contains(n); });
-    const bool all = std::ranges::all_of(around, [&](int n) { return faces.contains(n) || fixed[n] != 0; });
-    if (now_fixed[node] != 0 || known == 0 || !all) continue;
-    double face = 0.0;
+    double face = known == 0 ? p.pairs[b.first_pair].face : 0.0;
     for (const int n : around)
       if (faces.contains(n)) face += faces[n] / static_cast<double>(known);
     if (!b.face.empty())
       face = values_at<double>(std::get<beam>(fine.geometry.kind), b.face, std::vector{node}).front();
-    made.share.push_back(exactly[node]);
-    fine.pairs.push_back({node, p.pairs[b.first_pair].surface, face, b.modulus * shares[node],
+    made.share.push_back(rounded(springs.share[node]));
+    fine.pairs.push_back({node, p.pairs[b.first_pair].surface, face, rounded(springs.stiffness[node]),
                           b.closed.value_or(true) && face == 0.0});
   }
   fine.beds.push_back(std::move(made));
+}
+
+/// Moves the faces of beds at new nodes by the mean of the moves at the bed's nodes around.
+void add_moves(const problem& p, const halved_grid& grid, problem& fine) {
+  const auto of_beds = [](const problem& of) {
+    std::set<int> all;
+    for (std::size_t i = contacts_of(of); i < of.pairs.size(); ++i) all.insert(of.pairs[i].node);
+    return all;
+  };
+  const std::set<int> known = of_beds(p);
+  for (const int node : of_beds(fine)) {
+    std::vector<int> around = grid.around(node);
+    if (around.size() == 1) continue;
+    std::erase_if(around, [&known](int n) { return !known.contains(n); });
+    for (std::size_t step = 0; step < p.steps.size(); ++step)
+      for (const face_move& m : p.steps[step].moves)
+        if (std::ranges::count(around, m.node) > 0)
+          fine.steps[step].moves.push_back(
+              {node, m.dof, m.value / static_cast<double>(around.size()), m.factor});
+  }
 }
 
 }  // namespace
@@ -149,6 +194,7 @@ problem refined(const problem& p) {
   for (contact_pair& pair : fine.pairs) pair.node = grid.node(pair.node);
   fine.beds.clear();
   for (const bed& b : p.beds) add_bed(p, grid, b, fine);
+  add_moves(p, grid, fine);
   return fine;
 }
 

@@ -113,8 +113,8 @@ void put_on_supports(const problem& p, equations<Number>& e) {
   }
 }
 
-/// The stiffness of a bed's pair is the bed's modulus times the tributary length or area of the node. If a
-/// polynomial gives the faces, a pair whose face is 0 starts in contact unless bed::closed decides.
+/// The stiffness of a bed's pair is the bed's modulus times the share of the node. If a polynomial gives the
+/// faces, a pair whose face is 0 starts in contact unless bed::closed decides.
 template <class Number, class Elements>
 void add_pairs(const problem& p, const Elements& elements, equations<Number>& e) {
   e.pairs = pairs_in<Number>(p.pairs, dofs_per_node(p.geometry));
@@ -122,9 +122,12 @@ void add_pairs(const problem& p, const Elements& elements, equations<Number>& e)
   const std::vector<Number> shares = elements.shares();
   for (const bed& b : p.beds) {
     std::vector<int> nodes;
+    const bed_springs springs = springs_of(p.geometry, b.parts);
     for (std::size_t i = 0; i < b.share.size(); ++i) {
-      nodes.push_back(p.pairs[b.first_pair + i].node);
-      e.pairs[b.first_pair + i].stiffness = number_of<Number>(b.modulus) * shares[nodes.back()];
+      const int node = nodes.emplace_back(p.pairs[b.first_pair + i].node);
+      e.pairs[b.first_pair + i].stiffness = b.parts.empty()
+                                                ? Number(number_of<Number>(b.modulus) * shares[node])
+                                                : nearest<Number>(springs.stiffness[node]);
     }
     if (b.face.empty()) continue;
     const auto faces = values_at<Number>(std::get<beam>(p.geometry.kind), b.face, nodes);

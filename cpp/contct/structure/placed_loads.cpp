@@ -197,6 +197,20 @@ void add_rectangle(const acting& a, const line<rational>& along_x, const line<ra
   }
 }
 
+/// What of each point's half intervals lies between two places.
+rational_vector shares_between(const line<rational>& points, const line_place& from, const line_place& to) {
+  rational_vector all(points.size());
+  const loaded_part part = part_between(points, from, to);
+  const rational half(1, 2);
+  for (int i = part.first; i <= part.last; ++i) {
+    const auto [a, b] = part.in(i);
+    const rational h = points.length(i);
+    all[i] += h * (std::min(b, half) - std::min(a, half));
+    all[i + 1] += h * (std::max(b, half) - std::max(a, half));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<acting> acting_on(const line<rational>& x, const line<rational>* y, const load& l) {
@@ -218,6 +232,40 @@ std::vector<acting> acting_on(const line<rational>& x, const line<rational>* y, 
     all.push_back({p.what, part_between(x, p.from, p.to),
                    y == nullptr ? loaded_part() : part_between(*y, p.across[0], p.across[1]),
                    coefficients_of(p)});
+  return all;
+}
+
+bed_springs springs_of(const model& m, const std::vector<bed_part>& parts) {
+  if (parts.empty()) return {};
+  bed_springs all{rational_vector(nodes(m)), rational_vector(nodes(m))};
+  const auto* const p = std::get_if<plate>(&m.kind);
+  for (const bed_part& part : parts) {
+    const auto along = [&part](const auto& points, const auto& runs, std::size_t axis) {
+      return shares_between(line<rational>(points, runs), part.from.at(axis), part.to.at(axis));
+    };
+    const auto* const b = std::get_if<beam>(&m.kind);
+    const rational_vector x = p == nullptr ? along(b->x, b->runs, 0) : along(p->x, p->x_runs, 0);
+    const rational_vector y = p == nullptr ? rational_vector{1} : along(p->y, p->y_runs, 1);
+    for (std::size_t node = 0; node < all.share.size(); ++node) {
+      const rational share = x[node % x.size()] * y[node / x.size()];
+      all.share[node] += share;
+      all.stiffness[node] += decimal_of(part.modulus) * share;
+    }
+  }
+  return all;
+}
+
+std::vector<std::array<double, 2>> intervals_of(const bed& b, const beam& on) {
+  std::vector<std::array<double, 2>> all;
+  for (const bed_part& part : b.parts) all.push_back({part.from[0].x, part.to[0].x});
+  const auto middle = [&on](int i, int k) {
+    return on.x[i] + (on.x[std::clamp(k, 0, on.nodes() - 1)] - on.x[i]) / 2;
+  };
+  for (std::size_t n = 0; n < b.nodes.size(); ++n) {
+    const int node = b.nodes[n];
+    if (n == 0 || b.nodes[n - 1] + 1 != node) all.push_back({middle(node, node - 1), 0.0});
+    all.back()[1] = middle(node, node + 1);
+  }
   return all;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contct/number/double_double.hpp"
+#include "contct/number/rational.hpp"
 #include "contct/structure/problem.hpp"
 
 namespace contct {
@@ -29,6 +30,14 @@ struct summed_pressure {
 /// [elements] the pressure of all loads together, rounded once.
 template <class Number>
 [[nodiscard]] std::vector<summed_pressure<Number>> exact_pressures(const plate& p, const load& l);
+
+/// [nodes] for a bed's parts: modulus times share, and the share, of each node.
+struct bed_springs {
+  rational_vector stiffness, share;
+};
+[[nodiscard]] bed_springs springs_of(const model& m, const std::vector<bed_part>& parts);
+/// Where a bed acts on a beam, ascending, rounded: its parts, or the half elements at its nodes.
+[[nodiscard]] std::vector<std::array<double, 2>> intervals_of(const bed& b, const beam& on);
 
 /// A part of a beam's element along which the load is one polynomial. Each number is rounded once.
 struct element_piece {

@@ -304,14 +304,23 @@ struct resultant {
 
 [[nodiscard]] resultant resultant_of(const model& m, const load& l);
 
-/// The pairs of a [[bed]]: one at each node of the bed, with stiffness modulus * share.
+/// A part of a bed with one modulus, along x and on a plate along y.
+struct bed_part {
+  std::array<line_place, 2> from, to;
+  double modulus;  ///< force per length (area) of deflection, positive
+};
+
+/// The pairs of a [[bed]]: one at each node of the bed, with stiffness modulus * share. The share is what of
+/// the node's half elements, or quarters, lies inside the bed.
 struct bed {
-  double modulus;             ///< force per length (area) of deflection, positive
-  std::vector<double> share;  ///< tributary length, or area, of each pair
+  double modulus;             ///< the largest of its parts
+  std::vector<double> share;  ///< length, or area, of each pair
   std::size_t first_pair;     ///< the first pair of the bed, from 0; its other pairs follow
   /// The coefficients, constant first, if the faces are a polynomial in x along a beam; otherwise empty.
   std::vector<double> face = {};
-  std::optional<bool> closed = {};  ///< in contact at the start; empty: the file does not say
+  std::optional<bool> closed = {};   ///< in contact at the start; empty: the file does not say
+  std::vector<int> nodes = {};       ///< ascending, fixed ones too: the bed has their whole half elements
+  std::vector<bed_part> parts = {};  ///< instead of nodes; they do not overlap
 };
 
 /// The names of the units, which are only printed. Length and force are either both given or both empty.
