@@ -64,14 +64,14 @@ class Problem:
         for s in t.get("support", []):
             self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.pairs, self.others = [], []  # (dof, n, face, stiffness); the dof that carries the face, or None
+        self.pairs, self.others, self.held = [], [], []  # (dof, n, face, stiffness); the dof that carries the face, or None; pairs of beds at fixed nodes
         for c in t.get("contact", []):
             nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
         for c in t.get("bed", []):
             springs = self.bed(c, share)
             self.contact(c, [*springs], c.get("surface", "below"), [*springs.values()], self.fixed)
-        self.unmoved = self.pairs
+        self.unmoved, self.unmoved_held = self.pairs, self.held
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
         self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
         self.kinds |= {"reaction": sum(dof % len(self.names) == 0 for dof, _ in self.supports)} if self.supports else {}  # kind: number of results
@@ -107,7 +107,7 @@ class Problem:
         return {node: k for node, k in sorted(springs.items()) if k}
 
     def contact(self, c, nodes, surface, stiffness, without=()):
-        """Adds a pair at each node whose w is not in `without`."""
+        """Adds a pair at each node; at those whose w is in `without` one that only adds to the reaction."""
         if isinstance(c["face"], dict):
             powers = self.polynomial(only(c["face"], {"polynomial"})["polynomial"])
             faces = [sum(a * self.lines[0][node]**power for power, a in enumerate(powers)) for node in nodes]
@@ -118,9 +118,12 @@ class Problem:
             n, state = {"above": 1, "below": -1}[surface], c.get("state", "separated")
             need(n * x >= 0 and (state == "separated" or (state == "contact" and x == 0)), f"a face at {x} {surface}, {state}, of the undeformed structure")
             need(other is None or (other != node and not {node, other} & self.fixed), "a pair of a dof with itself, or with a fixed one")
-            if self.dof(node, "w") not in without:
-                self.pairs.append((self.dof(node, "w"), n, x, positive(k)))
-                self.others.append(other)
+            pair = self.dof(node, "w"), n, x, positive(k)
+            if pair[0] in without:
+                self.held.append(pair)
+                continue
+            self.pairs.append(pair)
+            self.others.append(other)
 
     def seen(self, i, u):
         """Returns the displacement of pair i: that of its dof, relative to the dof that carries the face."""
@@ -219,7 +222,7 @@ class Problem:
                 settled[dof] = value
         moved = {}
         for dof, value in (at for part in step.get("move", []) for at in self.at_dofs(part)):
-            need(dof in {pair[0] for pair in self.unmoved} - set(self.others) and dof not in moved, "a move where there is no pair, or a second one")
+            need(dof in {pair[0] for pair in self.unmoved + self.unmoved_held} - set(self.others) and dof not in moved, "a move where there is no pair, or a second one")
             moved[dof] = value
         self.move_faces(moved)
         return f, dict.fromkeys(self.fixed, F(0)) | settled, own
@@ -246,7 +249,7 @@ class Problem:
     def move_faces(self, moved):
         """Adds the moves to the faces: exactly in `pairs`, and rounded as in the program in `told_faces`."""
         self.moved = moved
-        self.pairs = [(dof, n, face + moved.get(dof, 0), k) for dof, n, face, k in self.unmoved]
+        self.pairs, self.held = ([(dof, n, face + moved.get(dof, 0), k) for dof, n, face, k in of] for of in (self.unmoved, self.unmoved_held))
         self.told_faces = [float(face) + float(moved.get(dof, 0)) for dof, _, face, _ in self.unmoved]
 
     def at_dofs(self, part):

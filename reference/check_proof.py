@@ -31,8 +31,10 @@ def bounded(p, f, settled, s):
         needed[dof] += n * k * max(d, 0)
         if other is not None:
             needed[other] -= n * k * max(d, 0)
+    for dof, n, face, k in p.held:
+        needed[dof] += n * k * max(n * (u[dof] - face), 0)
     if "L" not in s:  # nothing acts, and u = 0 is an equilibrium
-        need(not any(f) and not any(u) and all(n * face >= 0 for _, n, face, _ in p.pairs), "something acts, and there is no L")
+        need(not any(f) and not any(u) and all(n * face >= 0 for _, n, face, _ in p.pairs + p.held), "something acts, and there is no L")
         return u, needed, deep, F(0), [F(0)] * p.n
     closed, springs = [i - 1 for i in s["closed"]], [F(0)] * p.n
     A = SimpleNamespace(n=p.n, fixed=p.fixed, K=[dict(row) for row in p.K])  # off the diagonal also springs between two dofs

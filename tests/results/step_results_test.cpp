@@ -305,7 +305,7 @@ TEST_CASE("Refinement gives a new node of a bed the mean of the faces beside it,
   };
   const auto means = refined_bed("[-1, -2, -4]");
   REQUIRE(means.size() == 4);  // the first node is fixed
-  CHECK((means[0].face == -2.0 && means[2].face == -3.0 && means[3].stiffness == 2.0));
+  CHECK((means[0].face == -1.5 && means[2].face == -3.0 && means[3].stiffness == 2.0));
   const auto curve = refined_bed("{ polynomial = [-1, 0, -1] }");
   CHECK((curve[0].face == -1.25 && curve[2].face == -3.25));
 }
@@ -342,6 +342,28 @@ TEST_CASE(
     };
     CHECK((move_at(4) == 4.0 && move_at(5) == 3.0 && move_at(6) == 2.0 && move_at(3) == 2.0));
   }
+}
+
+TEST_CASE(
+    "the force of a bed under a settled support is part of the reaction, of the force of the bed and of the "
+    "balance") {
+  // The support at x = 0 presses 0.02 deep on half an element of 0.5, so with 100 * 0.02 * 0.25.
+  const a_run run(
+      "[beam]\nlength = 4\nelements = 8\nEI = 50\n[[support]]\nx = [0, 4]\nfix = 'w'\n[[bed]]\nmodulus = "
+      "100\nface = 0\nto = 3\n"
+      "[[step]]\nuniform = -4\nsettlement = [ { x = 0, w = -0.02 } ]\nmove = [ { x = 0, w = -0.005 } ]\n",
+      "corrected");
+  const step_results read = run.results();
+  CHECK(bed_pressure(read)[0] == Approx(100 * (0.02 - 0.005)).epsilon(1e-14));
+  const bed_reading bed = beds_in(read)[0];
+  CHECK(bed.contact == Approx(3.0).epsilon(1e-14));
+  CHECK((bed.pressure.least.node == 0 && bed.pressure.least.value == bed_pressure(read)[0]));
+  const double shear = read.elements.at(0, 0)[0];
+  CHECK(read.reactions[0] == Approx(shear - 1.5 * 0.25).epsilon(1e-12));
+  const force_balance sums = *balance_of(read);
+  CHECK(sums.loads + sums.reactions + sums.contact == Approx(0.0).margin(1e-12));
+  const exact_path exactly = follow_corrected_path(exact_problem_of(run.what));
+  CHECK(read.reactions[0] == Approx(rounded(exactly.steps[0].reactions[0])).epsilon(1e-13));
 }
 
 TEST_CASE("a bed on a rectangle of a plate has the same stiffness and area on every mesh") {

@@ -74,6 +74,7 @@ exact_step_end position::end(path_status status, std::vector<exact_increment> in
     e.force.push_back(force_of(c, c.seen_in(u), closed[i] != 0));
     if (pairs_react) c.add_to(pressing, rational(c.surface * e.force.back()));
   }
+  for (const exact_pair& h : problem.held) exact_problem::add_pressing(h, u, pressing);
   const exact_step& after = problem.steps[step];
   const auto needed = [&](int dof) {
     const rational load = before_.force[dof] + fraction * (after.force[dof] - before_.force[dof]);

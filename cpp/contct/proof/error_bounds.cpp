@@ -253,12 +253,20 @@ void error_prover::bound_forces(const structure_state& told, error_bounds& b) co
     const double noise = open ? 0.0 : p.stiffness.hi * system_.doubt(i, state_.u);
     errors.push_back(take(b, quantity::force, told.numbers.pair_forces[i], force, noise, moved));
   }
+  const std::vector<pair_in<double>> at_supports = held_under(problem_, problem_.steps[told.step - 1]);
+  auto held = at_supports.begin();
   for (const bed& on : problem_.beds) {
     double worst = 0.0;
     for (std::size_t i = 0; i < on.share.size(); ++i) {
       const std::size_t pair = on.first_pair + i;
       const double rounding = 0x1p-51 * std::abs(told.numbers.pair_forces[pair]);  // of share and quotient
       worst = std::max(worst, (errors[pair] + rounding) / on.share[i]);
+    }
+    for (std::size_t i = 0; i < on.held.size(); ++i, ++held) {  // its displacement is prescribed
+      const double unmoved = on.held[i].face;
+      const double sizes =
+          std::abs(told.displacement[held->dof]) + std::abs(unmoved) + std::abs(held->face - unmoved);
+      worst = std::max(worst, 0x1p-48 * held->stiffness * sizes / on.held_share[i]);
     }
     b.pressure = b.pressure.value_or(0.0) + worst * (1 + summation_slack);  // a node may be on several beds
   }

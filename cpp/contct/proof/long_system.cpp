@@ -188,15 +188,22 @@ long_residual long_system::residual(std::span<const double_double> u, const long
     }
     add_pressing(p, u, r.needed);
   }
+  for (const long_pair& p : with_moved_faces(held, l.moved)) {
+    r.slack[p.dof] +=
+        p.stiffness.hi * (std::abs(u[p.dof].hi) + std::abs(p.face.hi) + std::abs(l.moved[p.dof].hi));
+    add_pressing(p, u, r.needed);
+  }
   put_forces(r);
   return r;
 }
 
 bool long_system::is_at_rest(const long_loads& l) const {
   const auto none = [](const double_double& x) { return x == 0.0; };
+  const std::vector<long_pair> at_supports = with_moved_faces(held, l.moved);
+  const auto is_outside = [](const long_pair& p) { return p.face.hi * p.surface >= 0.0; };
   return std::ranges::all_of(l.size, [](double x) { return x == 0.0; }) &&
-         std::ranges::all_of(l.settlement, none) &&
-         std::ranges::all_of(pairs, [](const long_pair& p) { return p.face.hi * p.surface >= 0.0; });
+         std::ranges::all_of(l.settlement, none) && std::ranges::all_of(pairs, is_outside) &&
+         std::ranges::all_of(at_supports, is_outside);
 }
 
 double extent_of(const model& m) {

@@ -270,14 +270,22 @@ class problem_reader {
     if (exact_shares_.empty()) exact_shares_ = exact_shares(problem_.geometry);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const int node = at[i];
-      if (fixed_in_w(node)) continue;
-      contact_pair p = pair_at(t, common, node, faces[i], i);
+      const bool is_held = fixed_in_w(node);
+      if (is_held && common.surface * faces[i] < 0) {
+        problem_.warnings.push_back(
+            fmt::format("{}: {} is fixed, and its face is inside the structure; the face is not used",
+                        t.where(), place_words(problem_.geometry, node)));
+        continue;
+      }
+      contact_pair p =
+          is_held ? contact_pair{node, common.surface, faces[i], 0.0} : pair_at(t, common, node, faces[i], i);
       p.stiffness = made.parts.empty() ? made.modulus * shares_[node] : rounded(springs.stiffness[node]);
       if (!std::isnormal(p.stiffness))
         t.refuse(fmt::format("a stiffness of {:g} at node {}", p.stiffness, node + 1),
                  "modulus times tributary length, or area, within the range of double precision");
-      problem_.pairs.push_back(p);
-      made.share.push_back(made.parts.empty() ? exact_shares_[node] : rounded(springs.share[node]));
+      (is_held ? made.held : problem_.pairs).push_back(p);
+      (is_held ? made.held_share : made.share)
+          .push_back(made.parts.empty() ? exact_shares_[node] : rounded(springs.share[node]));
     }
     if (made.share.empty()) t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
     if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) {

@@ -36,6 +36,8 @@ class step_reader {
       paired_.insert(c.node);
       others_.insert(c.other);
     }
+    for (const bed& b : p.beds)
+      for (const contact_pair& c : b.held) paired_.insert(c.node);
     for (const support& s : p.supports) (s.fixed ? fixed_ : sprung_).insert({s.node, s.dof});
   }
 

@@ -134,21 +134,23 @@ void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& f
   std::map<int, double> faces;
   for (std::size_t i = 0; i < b.share.size(); ++i)
     faces[p.pairs[b.first_pair + i].node] = p.pairs[b.first_pair + i].face;
+  for (std::size_t i = 0; i < b.held.size(); ++i) faces[b.held[i].node] = b.held[i].face;
   const std::vector<char> fixed = fixed_in(fine, 0);
   bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed, {}, parts_of(b, grid, fine.geometry)};
   const bed_springs springs = springs_of(fine.geometry, made.parts);
   for (int node = 0; node < nodes(fine.geometry); ++node) {
-    if (fixed[node] != 0 || springs.share[node] == 0) continue;
+    if (springs.share[node] == 0) continue;
     const std::vector<int> around = grid.around(node);
     const auto known = std::ranges::count_if(around, [&](int n) { return faces.contains(n); });
-    double face = known == 0 ? p.pairs[b.first_pair].face : 0.0;
+    double face = 0.0;
     for (const int n : around)
       if (faces.contains(n)) face += faces[n] / static_cast<double>(known);
     if (!b.face.empty())
       face = values_at<double>(std::get<beam>(fine.geometry.kind), b.face, std::vector{node}).front();
-    made.share.push_back(rounded(springs.share[node]));
-    fine.pairs.push_back({node, p.pairs[b.first_pair].surface, face, rounded(springs.stiffness[node]),
-                          b.closed.value_or(true) && face == 0.0});
+    const contact_pair pair{node, p.pairs[b.first_pair].surface, face, rounded(springs.stiffness[node]),
+                            b.closed.value_or(true) && face == 0.0};
+    (fixed[node] != 0 ? made.held : fine.pairs).push_back(pair);
+    (fixed[node] != 0 ? made.held_share : made.share).push_back(rounded(springs.share[node]));
   }
   fine.beds.push_back(std::move(made));
 }
@@ -158,6 +160,8 @@ void add_moves(const problem& p, const halved_grid& grid, problem& fine) {
   const auto of_beds = [](const problem& of) {
     std::set<int> all;
     for (std::size_t i = contacts_of(of); i < of.pairs.size(); ++i) all.insert(of.pairs[i].node);
+    for (const bed& b : of.beds)
+      for (const contact_pair& at : b.held) all.insert(at.node);
     return all;
   };
   const std::set<int> known = of_beds(p);

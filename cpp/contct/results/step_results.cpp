@@ -115,6 +115,10 @@ step_results::step_results(const problem& p, const structure_state& s)
   for (const pair_in<double>& c : pairs_under(p, acting))
     pairs.push_back(reading_of(c, c.seen_in(s.displacement), s.closed(pairs.size())));
   for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].force = now.pair_forces[i];
+  for (const pair_in<double>& c : held_under(p, acting)) {
+    const double w = c.seen_in(s.displacement);
+    held.push_back(reading_of(c, w, !(depth_of(c, w) < 0.0)));
+  }
 }
 
 const std::vector<value_range>& step_results::ranges() const {
@@ -142,6 +146,9 @@ std::optional<force_balance> balance_of(const step_results& r) {
   for (std::size_t i = 0; i < r.reactions.size(); ++i)
     if (p.supports[i].dof == 0) held.push_back(r.reactions[i]);
   for (std::size_t i = 0; i < r.pairs.size(); ++i) pressed.push_back(-p.pairs[i].surface * r.pairs[i].force);
+  auto held_by = r.held.begin();
+  for (const bed& b : p.beds)
+    for (const contact_pair& at : b.held) pressed.push_back(-at.surface * held_by++->force);
   const auto sum_of = [](const std::vector<double>& forces) {  // 0 if the sum is only rounding
     const double sum = std::accumulate(forces.begin(), forces.end(), 0.0);
     const auto add_size = [](double size, double x) { return size + std::abs(x); };
@@ -151,36 +158,54 @@ std::optional<force_balance> balance_of(const step_results& r) {
   return force_balance{resultant_of(p.geometry, r.acting).force, sum_of(held), sum_of(pressed)};
 }
 
-std::vector<bed_reading> beds_in(const step_results& r) {
+namespace {
+
+/// A node of a bed, with its pair or, if it is fixed, its force on the support.
+struct bed_node {
+  int node;
+  const pair_reading& at;
+  bool in_contact;
+  double share;
+};
+
+/// Calls visit(bed, node) for the nodes of all beds; beds count from 0.
+template <class Visit>
+void for_each_bed_node(const step_results& r, const Visit& visit) {
   const problem& p = r.what;
-  std::vector<bed_reading> all;
-  for (const bed& b : p.beds) {
-    bed_reading of_bed;
+  auto held = r.held.begin();
+  for (std::size_t n = 0; n < p.beds.size(); ++n) {
+    const bed& b = p.beds[n];
     for (std::size_t i = 0; i < b.share.size(); ++i) {
       const std::size_t pair = b.first_pair + i;
-      const int node = p.pairs[pair].node;
-      const place at = place_of_node(p.geometry, node);
-      const placed_value here{r.pairs[pair].force / b.share[i], at.x, at.y, node};
-      if (i == 0) of_bed.pressure = {{}, here, here};
-      if (here.value < of_bed.pressure.least.value) of_bed.pressure.least = here;
-      if (here.value > of_bed.pressure.most.value) of_bed.pressure.most = here;
-      of_bed.force += r.pairs[pair].force;
-      if (r.state.closed(pair)) of_bed.contact += b.share[i];
+      visit(n, bed_node{p.pairs[pair].node, r.pairs[pair], r.state.closed(pair), b.share[i]});
     }
-    all.push_back(of_bed);
+    for (std::size_t i = 0; i < b.held.size(); ++i, ++held)
+      visit(n, bed_node{b.held[i].node, *held, held->gap == 0.0, b.held_share[i]});
   }
+}
+
+}  // namespace
+
+std::vector<bed_reading> beds_in(const step_results& r) {
+  std::vector<bed_reading> all(r.what.beds.size());
+  for_each_bed_node(r, [&](std::size_t bed, const bed_node& of) {
+    bed_reading& sum = all[bed];
+    const place at = place_of_node(r.what.geometry, of.node);
+    const placed_value here{of.at.force / of.share, at.x, at.y, of.node};
+    const bool is_first = sum.pressure.most.node < 0;
+    if (is_first || here.value < sum.pressure.least.value) sum.pressure.least = here;
+    if (is_first || here.value > sum.pressure.most.value) sum.pressure.most = here;
+    sum.force += of.at.force;
+    if (of.in_contact) sum.contact += of.share;
+  });
   return all;
 }
 
 std::vector<double> bed_pressure(const step_results& r) {
-  const problem& p = r.what;
-  std::vector<double> at(nodes(p.geometry));
-  for (const bed& b : p.beds) {
-    for (std::size_t i = 0; i < b.share.size(); ++i) {
-      const std::size_t pair = b.first_pair + i;
-      if (b.share[i] > 0.0) at[p.pairs[pair].node] += r.pairs[pair].force / b.share[i];
-    }
-  }
+  std::vector<double> at(nodes(r.what.geometry));
+  for_each_bed_node(r, [&at](std::size_t /*bed*/, const bed_node& of) {
+    if (of.share > 0.0) at[of.node] += of.at.force / of.share;
+  });
   return at;
 }
 

@@ -65,6 +65,7 @@ class step_results {
   element_results elements;
   std::vector<double> reactions;    ///< [supports]
   std::vector<pair_reading> pairs;  ///< [pairs]
+  std::vector<pair_reading> held;   ///< of the beds' fixed nodes, see bed::held, bed after bed
 
   /// See ranges_of.
   [[nodiscard]] const std::vector<value_range>& ranges() const;

@@ -25,6 +25,7 @@ struct equations {
   std::vector<char> fixed;        ///< [dofs]
   std::vector<support_in<Number>> supports;
   std::vector<pair_in<Number>> pairs;
+  std::vector<pair_in<Number>> held;  ///< see bed::held
   std::function<loads_in<Number>(const load&)> loads_of;
 
   [[nodiscard]] std::size_t dofs() const { return fixed.size(); }
@@ -50,7 +51,8 @@ struct equations {
     std::vector<Number> all;
     all.reserve(dofs());
     for (std::size_t dof = 0; dof < dofs(); ++dof) all.push_back(add_row(dof, u, -l.force[dof]));
-    for (const pair_in<Number>& p : with_moved_faces(pairs, l.moved)) add_pressing(p, u, all);
+    for (const auto* const list : {&pairs, &held})
+      for (const pair_in<Number>& p : with_moved_faces(*list, l.moved)) add_pressing(p, u, all);
     return all;
   }
   /// The loads for displacements relative to the faces, as right_hand_side has them: the force is 0 at fixed
@@ -121,20 +123,25 @@ void add_pairs(const problem& p, const Elements& elements, equations<Number>& e)
   if (p.beds.empty()) return;
   const std::vector<Number> shares = elements.shares();
   for (const bed& b : p.beds) {
+    std::vector<pair_in<Number>> held = pairs_in<Number>(b.held, dofs_per_node(p.geometry));
+    std::vector<pair_in<Number>*> all;
     std::vector<int> nodes;
+    for (std::size_t i = 0; i < b.share.size() + held.size(); ++i) {
+      all.push_back(i < b.share.size() ? &e.pairs[b.first_pair + i] : &held[i - b.share.size()]);
+      nodes.push_back(all.back()->dof / dofs_per_node(p.geometry));
+    }
     const bed_springs springs = springs_of(p.geometry, b.parts);
-    for (std::size_t i = 0; i < b.share.size(); ++i) {
-      const int node = nodes.emplace_back(p.pairs[b.first_pair + i].node);
-      e.pairs[b.first_pair + i].stiffness = b.parts.empty()
-                                                ? Number(number_of<Number>(b.modulus) * shares[node])
-                                                : nearest<Number>(springs.stiffness[node]);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i]->stiffness = b.parts.empty() ? Number(number_of<Number>(b.modulus) * shares[nodes[i]])
+                                          : nearest<Number>(springs.stiffness[nodes[i]]);
+    if (!b.face.empty()) {
+      const auto faces = values_at<Number>(std::get<beam>(p.geometry.kind), b.face, nodes);
+      for (std::size_t i = 0; i < faces.size(); ++i) {
+        all[i]->face = faces[i];
+        all[i]->closed = b.closed.value_or(faces[i] == Number(0));
+      }
     }
-    if (b.face.empty()) continue;
-    const auto faces = values_at<Number>(std::get<beam>(p.geometry.kind), b.face, nodes);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      e.pairs[b.first_pair + i].face = faces[i];
-      e.pairs[b.first_pair + i].closed = b.closed.value_or(faces[i] == Number(0));
-    }
+    e.held.insert(e.held.end(), held.begin(), held.end());
   }
 }
 

@@ -321,6 +321,9 @@ struct bed {
   std::optional<bool> closed = {};   ///< in contact at the start; empty: the file does not say
   std::vector<int> nodes = {};       ///< ascending, fixed ones too: the bed has their whole half elements
   std::vector<bed_part> parts = {};  ///< instead of nodes; they do not overlap
+  /// At nodes that a support fixes in w: pairs without calls, whose force is part of the reaction.
+  std::vector<contact_pair> held = {};
+  std::vector<double> held_share = {};
 };
 
 /// The names of the units, which are only printed. Length and force are either both given or both empty.

@@ -43,11 +43,26 @@ loads_in<double> nodal_loads(const model& m, const load& l) {
       m.kind);
 }
 
-std::vector<pair_in<double>> pairs_under(const problem& p, const load& l) {
+namespace {
+
+std::vector<pair_in<double>> moved_under(const problem& p, const load& l,
+                                         const std::vector<contact_pair>& pairs) {
   const int per_node = dofs_per_node(p.geometry);
-  std::vector<pair_in<double>> pairs = pairs_in<double>(p.pairs, per_node);
-  if (l.moves.empty()) return pairs;
-  return with_moved_faces(std::move(pairs), sums_at_dofs<double>(l.moves, dofs(p.geometry), per_node));
+  std::vector<pair_in<double>> all = pairs_in<double>(pairs, per_node);
+  if (l.moves.empty()) return all;
+  return with_moved_faces(std::move(all), sums_at_dofs<double>(l.moves, dofs(p.geometry), per_node));
+}
+
+}  // namespace
+
+std::vector<pair_in<double>> pairs_under(const problem& p, const load& l) {
+  return moved_under(p, l, p.pairs);
+}
+
+std::vector<pair_in<double>> held_under(const problem& p, const load& l) {
+  std::vector<contact_pair> held;
+  for (const bed& b : p.beds) held.insert(held.end(), b.held.begin(), b.held.end());
+  return held.empty() ? std::vector<pair_in<double>>() : moved_under(p, l, held);
 }
 
 statics<double> statics_of(const problem& p, const load& l, std::span<const double> u,
@@ -61,6 +76,7 @@ statics<double> statics_of(const problem& p, const load& l, std::span<const doub
     std::vector<double> needed = needed_without_pairs(p.geometry, l, supports, u);
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (forces[i] != 0.0) pairs[i].add_to(needed, pairs[i].surface * forces[i]);
+    for (const pair_in<double>& p_held : held_under(p, l)) equations<double>::add_pressing(p_held, u, needed);
     known.reactions.reserve(supports.size());
     for (const auto& support : supports)
       known.reactions.push_back(support.force(u, [&](int dof) { return needed[dof]; }));

@@ -59,8 +59,9 @@ template <class Number, class Vector>
 /// distributed load on a plate is not constant.
 [[nodiscard]] loads_in<double> nodal_loads(const model& m, const load& l);
 
-/// The pairs of `p`, with the faces moved as `l` prescribes.
+/// The pairs of `p`, and those of all beds at fixed nodes, with the faces moved as `l` prescribes.
 [[nodiscard]] std::vector<pair_in<double>> pairs_under(const problem& p, const load& l);
+[[nodiscard]] std::vector<pair_in<double>> held_under(const problem& p, const load& l);
 
 /// The numbers of a state that follow from its displacements.
 template <class Number>
