@@ -283,6 +283,31 @@ TEST_CASE("Refinement of a beam without a bed changes extremes only by rounding"
   CHECK(line<rational>(b.x, b.runs).at(3) == rational(2) / 5);
 }
 
+TEST_CASE("two halvings show the order of convergence, and without one there is no estimate") {
+  const auto estimated = [](double first, double second) {
+    std::vector<mesh_change> all = {{"w", first, 1.0}};
+    estimate_errors(all, {{"w", second, 1.0}});
+    return all[0];
+  };
+  CHECK(estimated(0.3, 0.075).order == Approx(2.0));
+  CHECK(estimated(0.3, 0.075).error == Approx(0.4));                // of the sum 0.3 (1 + 1/4 + 1/16 + ..)
+  CHECK(estimated(0.3, 0.01).error == Approx(0.3 + 0.01 * 4 / 3));  // no order is taken to be above 2
+  CHECK(estimated(0.3, 0.2).error == Approx(0.3 + 0.2 / (1 - std::exp2(-0.6))));
+  CHECK_FALSE(estimated(0.3, 0.25).error);
+  CHECK_FALSE(estimated(0.0, 0.25).error);
+  CHECK((estimated(0.3, 0.0).error == 0.3 && estimated(0.0, 0.0).error == 0.0));
+}
+
+TEST_CASE("the estimate for a simply supported plate is the error of its deflection, 0.00406235 q L^4 / D") {
+  const a_run coarse = reference_run("pp01a-simply-supported-plate-n4");
+  const a_run fine(refined(coarse.what), "corrected");
+  const a_run finest(refined(fine.what), "corrected");
+  std::vector<mesh_change> all = changes_between(coarse.result, fine.result);
+  estimate_errors(all, changes_between(fine.result, finest.result));
+  const double error = -coarse.results().ranges()[0].least.value - 0.00406235;
+  CHECK(std::ranges::find(all, "w", &mesh_change::kind)->error.value() == Approx(error).epsilon(0.01));
+}
+
 TEST_CASE("Refinement of a plate adds fixed nodes to a line, with the mean settlement beside them") {
   const a_run coarse = reference_run("pp06-plate-over-settling-line");
   const problem fine = refined(coarse.what);  // 9 by 5 nodes

@@ -202,6 +202,19 @@ problem refined(const problem& p) {
   return fine;
 }
 
+void estimate_errors(std::vector<mesh_change>& by_first, const std::vector<mesh_change>& by_second) {
+  constexpr double least = 0.3;  // below, an extreme may have no limit
+  for (mesh_change& c : by_first) {
+    const auto next = std::ranges::find(by_second, c.kind, &mesh_change::kind);
+    if (next == by_second.end()) continue;
+    c.order = c.change == next->change ? 0.0 : std::clamp(std::log2(c.change / next->change), -9.0, 9.0);
+    if (c.change == 0.0 && next->change == 0.0) c.error = 0.0;
+    if (!(*c.order >= least)) continue;
+    const double ratio = std::exp2(std::clamp(*c.order, 0.6, 2.0));
+    c.error = c.change + next->change * ratio / (ratio - 1);
+  }
+}
+
 std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine) {
   std::vector<mesh_change> all;
   const auto take = [&all](std::string_view kind, double before, double now) {

@@ -98,14 +98,18 @@ solved_path run::follow_leader(std::vector<observer*>& all, certifier& proof) {
   return follow(result.what, result.structure, result.engine, *leader_, all, &proof, wanted.max_increments);
 }
 
-void run::refine() {
+void run::refine(int halvings) {
   const problem finer = refined(result.what);
   const linear_structure of_finer = structure_of(finer);
   run ends(finer, of_finer, {.file = wanted.file, .kernels = {}});
   ends.go({});
   const bool solved =
       result.end.status == path_status::solved && ends.result.end.status == path_status::solved;
-  if (solved) result.refined = changes_between(result, ends.result);
+  if (!solved) return;
+  result.refined = changes_between(result, ends.result);
+  if (halvings < 2 || !std::holds_alternative<plate>(finer.geometry.kind)) return;
+  ends.refine(halvings - 1);
+  estimate_errors(result.refined, ends.result.refined);
 }
 
 const compared_path& run::follow_alone(const std::string& name) {

@@ -57,8 +57,9 @@ class run {
   /// The observers `shown`, which show the progress, are called after the comparison and the certificate.
   void go(const run_outputs& outputs, const std::vector<observer*>& shown = {});
 
-  /// Finds the ends of the steps with half the element size, and sets result.refined. Throws as refined does.
-  void refine();
+  /// Finds the ends of the steps with half the element size, of a plate also with a quarter, and sets
+  /// result.refined. Throws as refined does.
+  void refine(int halvings = 2);
 
   /// After a go() in free run: follows the path of kernel `name`, and compares it with the leader's path.
   const compared_path& follow_alone(const std::string& name);

@@ -31,7 +31,10 @@ struct compared_path {
 struct mesh_change {
   std::string_view kind;
   double change = 0.0;
-  double of = 0.0;  ///< the largest number of this quantity on the finer mesh
+  double of = 0.0;                   ///< the largest number of this quantity on the finer mesh
+  std::optional<double> order = {};  ///< of a plate: by what power of the element size two halvings change it
+  std::optional<double> error =
+      {};  ///< an estimate of the mesh's error, if the order shows that it converges
 };
 
 struct run_result : recorded_path {
@@ -74,13 +77,16 @@ template <class Comparing>
 [[nodiscard]] std::string title_of(const problem& p, const std::string& file);
 
 /// Returns the problem with every element of a beam divided in two, or of a plate in four. Loads, supports
-/// and [[contact]] keep their places. A new node is on a bed if each of its neighbours is on the bed or fixed
-/// in w, and at least one neighbour is on the bed. On a plate, a dof of a new node is fixed if it is fixed at
-/// all neighbours, and settles by their mean. Throws std::invalid_argument for a matrix.
+/// and [[contact]] keep their places, and beds the places where they end. On a plate, a dof of a new node is
+/// fixed if it is fixed at all neighbours, and settles by their mean. Throws std::invalid_argument for a
+/// matrix.
 [[nodiscard]] problem refined(const problem& p);
 
 /// Returns the largest difference, in any step, of each quantity of two solved meshes: the extremes, the
 /// forces of [[contact]], the numbers of beds, and the reactions of a beam.
 [[nodiscard]] std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine);
+/// Estimates the mesh's errors from the changes by two halvings of the element size; see
+/// reference/mesh-error.md.
+void estimate_errors(std::vector<mesh_change>& by_first, const std::vector<mesh_change>& by_second);
 
 }  // namespace contct

@@ -21,7 +21,7 @@ namespace contct {
 [[nodiscard]] std::size_t contacts_of(const problem& p);
 
 /// True for beams without beds: between places where something acts or changes, which are nodes, elements are
-/// exact, so that a finer mesh has the same numbers; see reference/certificate-proof.md.
+/// exact, so that a finer mesh has the same numbers; see reference/mesh-error.md.
 [[nodiscard]] bool has_no_mesh_error(const problem& p);
 
 /// The nodes whose displacement is a deflection, from 0: all of a beam or plate. In a matrix the dofs of

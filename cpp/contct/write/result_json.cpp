@@ -207,6 +207,17 @@ json beds_json(const step_results& r) {
   return out;
 }
 
+/// What is known of the mesh's error.
+json mesh_json(const run_result& r) {
+  json out = {{"kind", has_no_mesh_error(r.what) ? "none" : "unknown"}};
+  for (const mesh_change& c : r.refined)
+    if (c.order) {
+      out["kind"] = "estimated";
+      if (c.error) out["error"][std::string(c.kind)] = *c.error;
+    }
+  return out;
+}
+
 /// The combinations, from 0, whose states the page leaves out; empty if the page has room for all. The page
 /// keeps the combinations with an extreme of the envelope, those that failed, and every n-th of the others.
 std::set<std::size_t> ends_left_out(const run_result& r) {
@@ -381,7 +392,7 @@ class result_writer {
                     {"digits", s.judged ? json(digits_of(*s.judged)) : json(nullptr)},
                     {"error", errors_json(s.judged, at_end)},
                     {"certificate", certificate_json(s)},
-                    {"mesh", {{"kind", has_no_mesh_error(r_.what) ? "none" : "unknown"}}}});
+                    {"mesh", mesh_json(r_)}});
     std::vector<json_document::list> all;
     if (whole) all = lists(at_end, true);
     if (whole)
@@ -436,8 +447,10 @@ class result_writer {
     members["lockstep"] = calls != nullptr ? lockstep_json(*calls) : json(nullptr);
     if (r_.beside) members["rule_1989"] = rule_1989_json(r_);
     members["status"] = r_.status();
-    for (const mesh_change& c : r_.refined)
-      members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
+    for (const mesh_change& c : r_.refined) {
+      json& entry = members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
+      if (c.order) entry.update({{"order", *c.order}, {"error", c.error ? json(*c.error) : json(nullptr)}});
+    }
     if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
     members["certified"] = end.status == path_status::solved && r_.all_certified();
     members["warnings"] = warnings_of(r_);

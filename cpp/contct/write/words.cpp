@@ -267,15 +267,25 @@ std::vector<std::string> end_messages(const run_result& r) {
 std::vector<std::string> refinement_words(const run_result& r) {
   const problem& p = r.what;
   std::vector<std::string> items;
-  for (const auto& [key, change, of] : r.refined) {
-    const quantity_row& row = row_named(p, key);
+  const auto size = [&p](const quantity_row& row, double x, double of) {
     const std::string unit = unit_words(p, row.in);
-    const double percent = change == 0.0 ? 0.0 : 100 * change / of;
-    const std::string by = 0.0 < change && percent <= 1e-7
-                               ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit)
-                               : fmt::format("{:.3g}{} ({:.2g} % of {:.4g})", change, unit, percent, of);
+    const double percent = x == 0.0 ? 0.0 : 100 * x / of;
+    return 0.0 < x && percent <= 1e-7 ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit)
+                                      : fmt::format("{:.3g}{} ({:.2g} % of {:.4g})", x, unit, percent, of);
+  };
+  for (const mesh_change& c : r.refined) {
+    const quantity_row& row = row_named(p, c.kind);
     items.push_back(fmt::format("{}{} by {}", items.empty() ? "half the element size changes the " : "the ",
-                                row.words, by));
+                                row.words, size(row, c.change, c.of)));
+  }
+  std::size_t estimated = 0;
+  for (const mesh_change& c : r.refined) {
+    if (!c.order) continue;
+    const quantity_row& row = row_named(p, c.kind);
+    const std::string error = c.error ? size(row, *c.error, c.of) : "does not converge";
+    items.push_back(fmt::format("{}{}: {}",
+                                estimated++ == 0 ? "errors of the mesh, estimated by two halvings: " : "",
+                                row.words, error));
   }
   if (!items.empty() && std::holds_alternative<beam>(p.geometry.kind))
     items.emplace_back(p.beds.empty() ? "beams are exact between nodes"

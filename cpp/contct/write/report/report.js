@@ -386,9 +386,10 @@ function showHead() {
   byId("verdict").replaceChildren(...verdicts().map(([text, kind]) => element("li", { class: kind }, text)));
   showTitleOnSheets(result.title.trim() || file);
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
-  byId("mesh-words").textContent = result.steps.every((s) => s.mesh.kind === "none")
-    ? "Certified means that these are the right numbers. This beam has no mesh error: a finer mesh has the same numbers."
-    : "Certified means that these are the right numbers for this mesh. The error of the mesh itself is not judged.";
+  byId("mesh-words").textContent = "Certified means that these are the right numbers" + ({
+    none: ". This beam has no mesh error: a finer mesh has the same numbers.",
+    estimated: " for this mesh. The error of the mesh is estimated by halving the element size twice.",
+    unknown: " for this mesh. The error of the mesh itself is not judged." })[result.steps[0]?.mesh.kind];
 }
 
 // Puts the title into the CSS rule for the margin of printed pages, because margins cannot contain elements.
