@@ -286,7 +286,8 @@ function structureRows() {
   const along = ["Nodes along x", columns ?? nodes.length];
   const x = [inLength("x"), rangeWords(spread(nodes.map((n) => n.x)))];
   const runs = (key) => runsOf(structure[key] ?? []).map(([first, last]) => [inUnit(`${key} from x = ${short(nodes[first].x)} to ${short(nodes[last + 1].x)}`, key), structure[key][first]]);
-  if (structure.EI) return [along, x, ...ofElements.flatMap(runs), ...sections.map(sectionWords)];
+  const joints = (structure.hinges ?? []).map((node, i) => [inUnit(`Hinge at x = ${short(nodes[node - 1].x)}, stiffness`, "couple"), structure.hinge_stiffness[i]]);
+  if (structure.EI) return [along, x, ...ofElements.flatMap(runs), ...sections.map(sectionWords), ...joints];
   return [along, x, ["Nodes along y", nodes.length / columns], [inLength("y"), rangeWords(spread(nodes.map((n) => n.y)))],
     ...(E ? [[inUnit("Young's modulus E", "E"), E], [inLength("Thickness t"), thickness]] : []), [inUnit("D", "couple"), D], ["Poisson's ratio", nu]];
 }
