@@ -303,7 +303,7 @@ def check_doctored(texts, count):
             ends["mean the same"] += 1
         elif check((other := proof_of(problem)) and agree(proof, other), f"accepted with the proof of another problem: {now}\n{said}"):
             ends["have the same numbers"] += 1
-    check(ends["refused"] >= count / 2 and ends["mean the same"] + ends["have the same numbers"] >= count / 100 and (few or ends["have the same numbers"] > 0), f"of {count} doctored problems: {ends}")
+    check(ends["refused"] >= count / 2 and ends["mean the same"] + ends["have the same numbers"] >= count / 100 and (count < 2000 or ends["have the same numbers"] > 0), f"of {count} doctored problems: {ends}")
     print(f"{count} problems are doctored: {ends}")
 
 
