@@ -294,6 +294,7 @@ TEST_CASE("two halvings show the order of convergence, and without one there is 
   CHECK(estimated(0.3, 0.01).error == Approx(0.3 + 0.01 * 4 / 3));  // no order is taken to be above 2
   CHECK(estimated(0.3, 0.2).error == Approx(0.3 + 0.2 / (1 - std::exp2(-0.6))));
   CHECK_FALSE(estimated(0.3, 0.25).error);
+  CHECK(estimated(1e-15, 2e-15).error == Approx(3e-15));
   CHECK_FALSE(estimated(0.0, 0.25).error);
   CHECK((estimated(0.3, 0.0).error == 0.3 && estimated(0.0, 0.0).error == 0.0));
 }

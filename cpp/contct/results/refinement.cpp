@@ -208,7 +208,7 @@ void estimate_errors(std::vector<mesh_change>& by_first, const std::vector<mesh_
     const auto next = std::ranges::find(by_second, c.kind, &mesh_change::kind);
     if (next == by_second.end()) continue;
     c.order = c.change == next->change ? 0.0 : std::clamp(std::log2(c.change / next->change), -9.0, 9.0);
-    if (c.change == 0.0 && next->change == 0.0) c.error = 0.0;
+    if (std::max(c.change, next->change) <= 1e-9 * c.of) c.error = c.change + next->change;  // rounding
     if (!(*c.order >= least)) continue;
     const double ratio = std::exp2(std::clamp(*c.order, 0.6, 2.0));
     c.error = c.change + next->change * ratio / (ratio - 1);

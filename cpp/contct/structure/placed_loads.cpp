@@ -246,11 +246,14 @@ bed_springs springs_of(const model& m, const std::vector<bed_part>& parts) {
     const auto* const b = std::get_if<beam>(&m.kind);
     const rational_vector x = p == nullptr ? along(b->x, b->runs, 0) : along(p->x, p->x_runs, 0);
     const rational_vector y = p == nullptr ? rational_vector{1} : along(p->y, p->y_runs, 1);
-    for (std::size_t node = 0; node < all.share.size(); ++node) {
-      const rational share = x[node % x.size()] * y[node / x.size()];
-      all.share[node] += share;
-      all.stiffness[node] += decimal_of(part.modulus) * share;
-    }
+    const rational modulus = decimal_of(part.modulus);
+    for (std::size_t j = 0; j < y.size(); ++j)
+      for (std::size_t i = 0; i < x.size() && y[j] != 0; ++i) {
+        if (x[i] == 0) continue;  // most nodes, if there are many parts
+        const rational share = x[i] * y[j];
+        all.share[j * x.size() + i] += share;
+        all.stiffness[j * x.size() + i] += modulus * share;
+      }
   }
   return all;
 }
