@@ -107,8 +107,8 @@ double as_written(double x, double largest) {
 
 }  // namespace
 
-bool has_pieces(const toml_value& beam, std::string_view key) {
-  const toml_value value = beam[key];
+bool has_pieces(const toml_value& t, std::string_view key) {
+  const toml_value value = t[key];
   if (!value.is_array()) return false;
   const toml::array& pieces = *value.required("").as_array();
   return !pieces.empty() && pieces.front().is_table();
@@ -330,7 +330,7 @@ node_reader::area node_reader::read_area(const toml_value& t) const {
                                    : axes_[i].place_of(named[i]);
     return places;
   };
-  const area of{corner("from", false), corner("to", true)};
+  area of{corner("from", false), corner("to", true)};
   for (std::size_t i = 0; i < axes_.size(); ++i)
     if (axes_[i].points().place(of.from.at(i)) >= axes_[i].points().place(of.to.at(i)))
       coordinates(t.has("to") ? "to" : "from")[i].refuse(

@@ -108,8 +108,9 @@ void add_supports(const problem& p, const halved_grid& grid, int dof, problem& f
 std::vector<bed_part> parts_of(const bed& b, const halved_grid& grid, const model& fine) {
   std::vector<bed_part> all = b.parts;
   for (bed_part& part : all)
-    for (line_place* const at : {&part.from[0], &part.from[1], &part.to[0], &part.to[1]})
-      if (at->point > 0) at->point *= 2;
+    for (auto* const places : {&part.from, &part.to})
+      for (line_place& at : *places)
+        if (at.point > 0) at.point *= 2;
   const auto corner = [&](int i, int j) {
     const int column = std::clamp(i, 0, grid.fine_columns() - 1);
     const int row = std::clamp(j, 0, 2 * grid.rows - 2);
@@ -134,7 +135,7 @@ void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& f
   std::map<int, double> faces;
   for (std::size_t i = 0; i < b.share.size(); ++i)
     faces[p.pairs[b.first_pair + i].node] = p.pairs[b.first_pair + i].face;
-  for (std::size_t i = 0; i < b.held.size(); ++i) faces[b.held[i].node] = b.held[i].face;
+  for (const contact_pair& at : b.held) faces[at.node] = at.face;
   const std::vector<char> fixed = fixed_in(fine, 0);
   bed made{b.modulus, {}, fine.pairs.size(), b.face, b.closed, {}, parts_of(b, grid, fine.geometry)};
   const bed_springs springs = springs_of(fine.geometry, made.parts);

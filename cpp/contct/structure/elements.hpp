@@ -128,7 +128,7 @@ class beam_elements {
     [[nodiscard]] std::array<Number, 4> between(const std::array<Number, 4>& connected,
                                                 const std::array<Number, 4>& free) const {
       if (full == Number(0)) return free;
-      std::array<Number, 4> all;
+      std::array<Number, 4> all{};
       for (std::size_t i = 0; i < 4; ++i) all[i] = full * connected[i] + released * free[i];
       return all;
     }

@@ -307,7 +307,7 @@ struct resultant {
 /// A part of a bed with one modulus, along x and on a plate along y.
 struct bed_part {
   std::array<line_place, 2> from, to;
-  double modulus;  ///< force per length (area) of deflection, positive
+  double modulus = 0.0;  ///< force per length (area) of deflection, positive
 };
 
 /// The pairs of a [[bed]]: one at each node of the bed, with stiffness modulus * share. The share is what of
