@@ -288,8 +288,11 @@ def agree(proof, other):
         for s, t in zip(proof["steps"], other["steps"]) for key in kinds if key in s and t["error"] for a, b in zip(s[key], t[key], strict=True))
 
 
-def check_doctored(texts, count):
-    """Tests that check_proof.py refuses a right proof of a doctored problem, unless its numbers are right for this problem too."""
+def check_doctored(texts, count, alike, same):
+    """Tests that check_proof.py refuses a right proof of a doctored problem, unless its numbers are right for this problem too.
+
+    `alike`: the least number of doctored problems that mean the same; `same`: of those that have the same numbers.
+    """
     chance, originals, ends = random.Random(2026), [], dict.fromkeys(("refused", "mean the same", "have the same numbers"), 0)
     for text in (re.sub(r"#.*", "", text) for text in texts):
         originals.append((text, proof_of(file_of("doctored.toml", text)), meaning_of(text)))
@@ -303,7 +306,7 @@ def check_doctored(texts, count):
             ends["mean the same"] += 1
         elif check((other := proof_of(problem)) and agree(proof, other), f"accepted with the proof of another problem: {now}\n{said}"):
             ends["have the same numbers"] += 1
-    check(ends["refused"] >= count / 2 and ends["mean the same"] + ends["have the same numbers"] >= count / 100 and (count < 2000 or ends["have the same numbers"] > 0), f"of {count} doctored problems: {ends}")
+    check(ends["refused"] >= count / 2 and ends["mean the same"] >= alike and ends["have the same numbers"] >= same, f"of {count} doctored problems: {ends}")
     print(f"{count} problems are doctored: {ends}")
 
 
@@ -361,7 +364,7 @@ def check_beams(texts):
         check(code == 0, f"{text}\n{code}: {said}")
         certified += sum(step["certified"] for step in proof["steps"])
     check(certified >= count - 1, f"{certified} of {count} beams are certified")
-    check_doctored(texts, 5 * count)
+    check_doctored(texts, 5 * count, 1, 0)  # texts without a word or number to spare
 
 
 # Loads inside the elements of a cantilever that load no node.
@@ -438,7 +441,7 @@ with tempfile.TemporaryDirectory() as scratch:
     check_faults()
     check_semidefinite()
     check_places()
-    check_doctored(check_forms(), 200 if few else 2000)
+    check_doctored(check_forms(), *((200, 4, 0) if few else (2000, 40, 1)))
     check_beams(sheared_beams(20 if few else 60))
     check_beams(hinged_beams(20 if few else 60))
     check_beams(bedded(12 if few else 60))
