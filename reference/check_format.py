@@ -47,7 +47,7 @@ def check_format(p, s):
         need(sorted(s) == ["because", "certified", "error", "step"] and type(s["because"]) is str, "without bounds: other keys")
         return
     held = "L" in s
-    other = set(s) ^ {*FORCES, *(STATE if held else []), *(["L_low"] if held and "L_low" in s else [])}
+    other = set(s) ^ {*FORCES, *(STATE if held else []), *[key for key in ("L_low", "mesh") if held and key in s]}
     need(not other, f"missing or unknown keys: {sorted(other)}")
     need(type(s["error"]) is dict and set(s["error"]) == set(p.kinds), f"the bounds are not those of {sorted(p.kinds)}")
     for kind, bound in s["error"].items():
@@ -60,7 +60,13 @@ def check_format(p, s):
         check_state(p, s)
 
 
+MESH = ["kind", "error", "of", "extremes", "halvings", "ends", "u", "closed", "parts", "scale", "row_of", "shift", "L"]
+
+
 def check_state(p, s):
+    if "mesh" in s:
+        need(set(s["mesh"]) - {"L_low"} == set(MESH) and whole(s["mesh"]["halvings"], 1, 6), "mesh: other keys, or halvings")
+        need(p.continuum and set(s["mesh"]["error"]) == {*p.kinds, "pressure"} - {kind for kind, count in p.kinds.items() if not count}, "mesh: other bounds")
     each(s["displacement"], p.n, real, "displacement")
     each(s["state"], len(p.pairs), lambda x: x in ("contact", "separated"), "state")
     each(s["u"], p.n, pair, "u")

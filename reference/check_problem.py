@@ -1,6 +1,7 @@
 """Reads the decimals of a problem file into fractions, without the program, for check_proof.py."""
 from fractions import Fraction as F
 from itertools import product
+from types import SimpleNamespace
 
 from check_beam import beam, find, listed, need, numbers, only, positive, real
 from check_matrix import matrix
@@ -64,13 +65,18 @@ class Problem:
         for s in t.get("support", []):
             self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
+        self.continuum, self.bed_pairs = [], []  # of each bed its intervals, n and face; of each its pairs, with their tributary lengths
         self.pairs, self.others, self.held = [], [], []  # (dof, n, face, stiffness); the dof that carries the face, or None; pairs of beds at fixed nodes
         for c in t.get("contact", []):
             nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
+        self.contacts = len(self.pairs)
         for c in t.get("bed", []):
             springs = self.bed(c, share)
+            first = len(self.pairs)
             self.contact(c, [*springs], c.get("surface", "below"), [*springs.values()], self.fixed)
+            if len(self.lines) == 1:
+                self.along(c, first)
         self.unmoved, self.unmoved_held = self.pairs, self.held
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
         self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
@@ -105,6 +111,32 @@ class Problem:
         place = lambda x: self.lines[0][-1] if x is None else real(x) if (k := find(self.lines[0], x)) is None else self.lines[0][k]
         need(not pieces or place(pieces[-1]["to"]) == place(c.get("to")), "a bed with pieces that end elsewhere")
         return {node: k for node, k in sorted(springs.items()) if k}
+
+    def along(self, c, first):
+        """Adds a bed along a beam to `continuum`: where it acts, with which modulus, and its face as a polynomial in x in each element."""
+        x, place = self.lines[0], lambda at: self.lines[0][find(self.lines[0], at)] if find(self.lines[0], at) is not None else real(at)
+        middle = [x[0]] + [(a + b) / 2 for a, b in zip(x, x[1:])] + [x[-1]]
+        begin, end = place(c["from"]) if "from" in c else x[0], place(c["to"]) if "to" in c else x[-1]
+        parts = [[begin, end, None]]
+        if isinstance(c["modulus"], list):
+            ends = [begin] + [place(piece["to"]) for piece in c["modulus"]]
+            parts = [[a, b, real(piece["value"])] for a, b, piece in zip(ends, ends[1:], c["modulus"])]
+        elif not c.keys() & {"from", "to"}:
+            nodes = sorted(self.nodes(c, {"surface", "face", "modulus", "state"}, "all"))
+            parts = [[middle[node], middle[node + 1], None] for node in nodes]
+        parts = [(a, b, real(c["modulus"]) if k is None else k) for a, b, k in parts]
+        powers = [real(a) for a in c["face"]["polynomial"]] if isinstance(c["face"], dict) else []
+        faces = {pair[0] // 2: F(0) if powers else pair[2] for pair in self.pairs[first:] + self.held}
+
+        def face(e, moved):
+            at = [faces[node] + moved.get(2 * node, 0) if node in faces else None for node in (e, e + 1)]
+            a = next((y for y in at if y is not None), F(0))
+            rise = (a if at[1] is None else at[1]) - a
+            line = [a - rise * x[e] / (x[e + 1] - x[e]), rise / (x[e + 1] - x[e])]
+            return [y + (line[i] if i < 2 else 0) for i, y in enumerate(powers + [F(0)] * (2 - len(powers)))]
+        self.continuum.append(SimpleNamespace(parts=parts, n=self.pairs[first][1], face=face))
+        self.bed_pairs.append([(i, sum(max(F(0), min(b, middle[pair[0] // 2 + 1]) - max(a, middle[pair[0] // 2])) for a, b, _ in parts))
+                               for i, pair in enumerate(self.pairs) if i >= first])
 
     def contact(self, c, nodes, surface, stiffness, without=()):
         """Adds a pair at each node; at those whose w is in `without` one that only adds to the reaction."""

@@ -14,6 +14,7 @@ from types import SimpleNamespace
 
 from check_definite import reach_of, semidefinite, up
 from check_format import check_format, parsed
+from check_mesh import check_mesh
 from check_plate import dot, need
 from check_problem import Problem
 
@@ -157,6 +158,8 @@ def check(p, step, s, largest):
     need(not (s["certified"] and wrong), f"certified, with pairs that are not as they are said to be: {wrong}")
     words = f"{len(claims)} numbers are within their bounds; {'' if s['certified'] else 'not '}certified"
     words += f"; measured by a step without bounds: {large}" if unsized and s["certified"] else ""
+    if "mesh" in s:
+        words += check_mesh(p, s["mesh"], f, settled, own, s["displacement"] + s["force"] + s["reactions"] + s["elements"])
     return words + (f"; not as they are said to be: pairs {wrong}" if wrong else ""), not wrong
 
 

@@ -178,6 +178,7 @@ void go(shown_run& o) {
             f[csv_pairs], f[csv_states], f[csv_supports], f[csv_envelope]},
            {&progress});
   progress.line.erase();
+  o.run.find_mesh_errors();
   if (!o.prints) return;
   const run_table rows = table_of(o.run.result, o.screen, o.options.detail);
   print_text(rows.text);

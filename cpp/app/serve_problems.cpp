@@ -163,6 +163,7 @@ char* contct_run(const char* text, const char* options) {
     const linear_structure structure = structure_of(p);
     run run(p, structure, wanted);
     run.go(to);
+    run.find_mesh_errors();
     if (status_of(run.result.end.status) == exit_status::bad_input)
       throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));
     write_outputs(run);

@@ -435,6 +435,41 @@ def check_faults():
         expect(1, f"the proof of a problem in which {name} is another", file_of("other.toml", changed), proof)
 
 
+def check_mesh_faults():
+    """Tests that the line of a mesh's error is refused with any fault, and bounds below it."""
+    text = bedded(2)[1]
+    problem = file_of("mesh.toml", text)
+    proof = proof_of(problem)
+    number = len(proof["steps"]) - 1
+    expect(0, "a line", problem, proof, "(?s).*the mesh's error is proved: [0-9]{2,} numbers$")
+    mesh = proof["steps"][number]["mesh"]
+    pressing = next(i for i, part in enumerate(mesh["parts"]) if part["certain"])
+
+    def put_at(value, *way):
+        def fault(step):
+            at = step["mesh"]
+            for key in way[:-1]:
+                at = at[key]
+            at[way[-1]] = value
+        return fault
+    smaller = {f"the bound on {kind}": put_at(bound / 2, "error", kind) for kind, bound in mesh["error"].items() if kind not in ("gap", "force")}
+    faults = smaller | {
+        "a displacement of the line": put_at([mesh["u"][9][0] * 1.5, 0.0], "u", 9),
+        "a part of the pressure": put_at([x + 1e-3 for x in mesh["parts"][pressing]["before"]], "parts", pressing, "before"),
+        "a bed that does not press": put_at([], "parts", pressing, "pressed"),
+        "a stretch where no bed is": put_at([[9, 0.0, 1.0]], "parts", pressing, "certain"),
+        "no stretch": lambda step: [part.update(certain=[]) for part in step["mesh"]["parts"]],
+        "a largest number": put_at(mesh["of"]["w"] / 2, "of", "w"),
+        "an extreme": put_at(mesh["extremes"]["moment"]["max"] * 1.001, "extremes", "moment", "max"),
+        "an extreme that is not reached": put_at(mesh["extremes"]["w"]["min"] * 1.001, "extremes", "w", "min"),
+        "a part too few": lambda step: step["mesh"]["parts"].pop(),
+        "a part too many": lambda step: step["mesh"]["parts"].append(mesh["parts"][0]),
+        "another end of contact": put_at([1.234], "ends"),
+        "halvings": put_at(2, "halvings"), "L": put_at([[0.0] * len(row) for row in mesh["L"]], "L"), "no bounds": lambda step: step["mesh"].pop("error")}
+    for name, fault in faults.items():
+        expect(1, f"a line with a fault: {name}", problem, altered(proof, number, fault))
+
+
 with tempfile.TemporaryDirectory() as scratch:
     folder = Path(scratch)
     check_reference()
@@ -445,6 +480,7 @@ with tempfile.TemporaryDirectory() as scratch:
     check_beams(sheared_beams(20 if few else 60))
     check_beams(hinged_beams(20 if few else 60))
     check_beams(bedded(12 if few else 60))
+    check_mesh_faults()
     check_cancelled_and_balanced()
 least = (30, 25, 0) if few else (150, 140, 1)
 check.end(150, **dict(zip(("proved steps", "certified steps", "contradicted"), least)))

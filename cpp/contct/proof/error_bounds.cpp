@@ -79,22 +79,6 @@ long_vector error_prover::long_displacement(int step, std::span<const double> di
   return u;
 }
 
-/// The residual of u with the springs of the pairs in `closed`, which may pull, and no others. This residual
-/// is linear in u.
-long_vector error_prover::residual_of_set(const long_residual& r, std::span<const double_double> u,
-                                          const std::vector<int>& closed) const {
-  long_vector force = r.force;
-  for (std::size_t i = 0; i < system_.pairs.size(); ++i) {
-    const long_pair& p = system_.pairs[i];
-    const double_double deep = system_.depth(i, u);
-    const bool is_closed = std::ranges::binary_search(closed, static_cast<int>(i));
-    if (system_.fixed[p.dof] != 0 || is_closed == (deep.hi > 0.0)) continue;
-    const double_double spring = p.stiffness * deep * p.surface;
-    p.add_to(force, is_closed ? -spring : spring);
-  }
-  return force;
-}
-
 /// Sets `correction` to K_A^-1 r, with r = `force`; returns r' K_A^-1 r, the square of the norm of r.
 double error_prover::solve(const long_vector& force, std::vector<double>& correction) {
   double square = 0.0;
@@ -131,7 +115,7 @@ bool error_prover::correct(const long_loads& l) {
       state_.left = r;
       if (now == closed) least = square;
     }
-    if (now != closed) square = solve(residual_of_set(r, u, closed), correction);
+    if (now != closed) square = solve(system_.linear_residual(r, u, closed), correction);
     const bool nothing = (square >= 0.0 && square <= none * work) ||
                          std::ranges::all_of(correction, [](double x) { return x == 0.0; });
     if (nothing || !(square < before)) {

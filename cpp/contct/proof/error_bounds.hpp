@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contct/proof/certain_contacts.hpp"
+#include "contct/structure/extremes.hpp"
 
 namespace contct {
 
@@ -78,8 +79,6 @@ class error_prover {
   [[nodiscard]] long_vector long_displacement(int step, std::span<const double> displacement,
                                               const long_loads& l) const;
 
-  [[nodiscard]] long_vector residual_of_set(const long_residual& r, std::span<const double_double> u,
-                                            const std::vector<int>& closed) const;
   [[nodiscard]] double solve(const long_vector& force, std::vector<double>& correction);
   [[nodiscard]] bool correct(const long_loads& l);
   void settle_statuses(const long_loads& l, std::span<int> isep) const;
@@ -105,6 +104,9 @@ class error_prover {
   known_state state_;
   bool keeps_proofs_;
 };
+
+/// A bound on the largest value of a polynomial from t = 0 to 1, at most `close` and rounding above it.
+[[nodiscard]] double bound_on_largest(const line_polynomial<double>& p, double close);
 
 /// Widens the bounds on w, slope, moment and shear of a beam, which hold at the ends of elements, to include
 /// the extremes that ranges_of finds inside the elements, and every slope of a beam_lines. The sizes then

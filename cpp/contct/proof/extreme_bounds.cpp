@@ -45,10 +45,11 @@ double above(const poly& p, double top, double close, int bisections, double& re
                   above(right, top, close, bisections - 1, reached));
 }
 
+constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
+
 /// A bound on how far p goes beyond its printed extremes, plus its distance from the reported value at its
 /// right end, plus rounding.
 double off_extremes(const poly& p, const value_range& printed, double right_end) {
-  constexpr int bisections = 26;  // a half each: a smooth maximum is found to 4^-26 of the change in t
   const double close = rounding_in(p);
   poly b = bernstein_of(p);
   double reached = 0.0;
@@ -142,6 +143,13 @@ void widen(const beam& b, const structure_state& state, const load& l, error_bou
 }
 
 }  // namespace
+
+double bound_on_largest(const poly& p, double close) {
+  const poly b = bernstein_of(p);
+  const double top = std::max(b.front(), b.back());
+  double reached = 0.0;
+  return top + above(b, top, close, bisections, reached) + rounding_in(p);
+}
 
 void widen_by_extremes(const problem& p, const structure_state& state, error_bounds& b) {
   if (const auto* const of_beam = std::get_if<beam>(&p.geometry.kind))

@@ -197,6 +197,25 @@ long_residual long_system::residual(std::span<const double_double> u, const long
   return r;
 }
 
+long_vector long_system::linear_residual(const long_residual& r, std::span<const double_double> u,
+                                         const std::vector<int>& closed) const {
+  long_vector force = r.force;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const long_pair& p = pairs[i];
+    const double_double deep = depth(i, u);
+    const bool is_closed = std::ranges::binary_search(closed, static_cast<int>(i));
+    if (fixed[p.dof] != 0 || is_closed == (deep.hi > 0.0)) continue;
+    const double_double spring = p.stiffness * deep * p.surface;
+    p.add_to(force, is_closed ? -spring : spring);
+  }
+  return force;
+}
+
+void long_system::find_roots() {
+  for (int dof = 0; dof < static_cast<int>(dofs()); ++dof)
+    root.push_back(std::sqrt(stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
+}
+
 bool long_system::is_at_rest(const long_loads& l) const {
   const auto none = [](const double_double& x) { return x == 0.0; };
   const std::vector<long_pair> at_supports = with_moved_faces(held, l.moved);
@@ -215,10 +234,9 @@ double extent_of(const model& m) {
 long_system long_system_of(const problem& p) {
   long_system t(equations_of<double_double>(p));
   t.what = &p;
-  for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof) {
-    t.root.push_back(std::sqrt(t.stiffness[dof].at(dof).hi) * (1 + 0x1p-50));
+  t.find_roots();
+  for (int dof = 0; dof < static_cast<int>(t.dofs()); ++dof)
     t.deflects.push_back(dof % dofs_per_node(p.geometry) == 0 ? 1 : 0);
-  }
   std::visit(
       [&](const auto& kind) {
         t.least_product = least_product_of(kind);

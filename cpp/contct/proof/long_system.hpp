@@ -83,8 +83,15 @@ struct long_system : equations<double_double> {
   /// The residual f - K u - sum of n k max(0, d) over all pairs, whatever their statuses. f: the load; n, k,
   /// d: surface, stiffness and depth beyond the face of a pair.
   [[nodiscard]] long_residual residual(std::span<const double_double> u, const long_loads& l) const;
+  /// The residual of u with the springs of the pairs in `closed`, ascending, which may pull, and no others.
+  /// This residual is linear in u.
+  [[nodiscard]] long_vector linear_residual(const long_residual& r, std::span<const double_double> u,
+                                            const std::vector<int>& closed) const;
   /// The residual for a given long_residual::needed, each number of which was rounded once.
   [[nodiscard]] long_residual residual_of_rounded(long_vector needed) const;
+
+  /// Sets `root`.
+  void find_roots();
 
   /// True if a number of the equations that is not 0, or a product in the element formulas, is too small to
   /// have 32 digits.

@@ -29,6 +29,7 @@ inline constexpr std::array<quantity_name, 7> quantity_names = {{{"w", "deflecti
                                                                  {"moment", "moment"},
                                                                  {"shear", "shear force"},
                                                                  {"gap", "gap"}}};
+inline constexpr quantity_name pressure_name = {"pressure", "pressure"};
 [[nodiscard]] constexpr const quantity_name& name_of(quantity q) {
   return quantity_names[static_cast<std::size_t>(q)];
 }

@@ -143,6 +143,7 @@ void add_bed(const problem& p, const halved_grid& grid, const bed& b, problem& f
     if (springs.share[node] == 0) continue;
     const std::vector<int> around = grid.around(node);
     const auto known = std::ranges::count_if(around, [&](int n) { return faces.contains(n); });
+    if (known == 0) continue;  // a fixed node whose face, inside the structure, is not used
     double face = 0.0;
     for (const int n : around)
       if (faces.contains(n)) face += faces[n] / static_cast<double>(known);

@@ -112,6 +112,15 @@ void run::refine(int halvings) {
   estimate_errors(result.refined, ends.result.refined);
 }
 
+void run::find_mesh_errors() {
+  if (!std::holds_alternative<beam>(result.what.geometry.kind) || result.what.beds.empty()) return;
+  const auto mesh = std::make_shared<const fine_mesh>(result.what);
+  for (const solved_step& s : result.record.steps) {
+    result.mesh.push_back(mesh_error_of(result.what, mesh, s));
+    if (to.proof == nullptr) result.mesh.back().line.reset();  // a line takes much memory
+  }
+}
+
 const compared_path& run::follow_alone(const std::string& name) {
   recorded_path own;
   certifier proof(result.what, result.structure, exact_means_of(result.what));

@@ -61,6 +61,9 @@ class run {
   /// result.refined. Throws as refined does.
   void refine(int halvings = 2);
 
+  /// Of a beam with beds: finds what is proved about the mesh's error at the end of each step.
+  void find_mesh_errors();
+
   /// After a go() in free run: follows the path of kernel `name`, and compares it with the leader's path.
   const compared_path& follow_alone(const std::string& name);
 

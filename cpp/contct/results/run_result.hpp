@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contct/results/free_run.hpp"
+#include "contct/results/mesh_error.hpp"
 #include "contct/results/path_observers.hpp"
 #include "contct/structure/problem.hpp"
 #include "contct/structure/structure.hpp"
@@ -51,6 +52,8 @@ struct run_result : recorded_path {
   std::shared_ptr<const rule_1989> beside;   ///< null: not a run of both rules, or the answer is not_factored
   std::vector<compared_path> free_runs;
   bool equal = true;
+  /// [steps of the record] what is proved about the mesh of a beam with beds; empty otherwise
+  std::vector<mesh_error> mesh;
   std::vector<mesh_change> refined;  ///< empty: not requested, or not solved on both meshes
   std::string comparison;            ///< how far the kernels agree, in words; empty for a single kernel
   std::vector<std::string> facts;    ///< version, listing, floating point

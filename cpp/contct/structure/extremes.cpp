@@ -26,8 +26,8 @@ double zero_between(const poly& p, double a, double b) {
   return a;
 }
 
-/// The places between 0 and 1, ascending, at which p changes its sign. Between neighbouring zeros of its
-/// derivative, p changes its sign at most once.
+}  // namespace
+
 std::vector<double> zeros_of(const poly& p) {
   if (p.size() < 2) return {};
   std::vector<double> borders = zeros_of(derivative(p));
@@ -39,6 +39,8 @@ std::vector<double> zeros_of(const poly& p) {
       zeros.push_back(zero_between(p, borders[i], borders[i + 1]));
   return zeros;
 }
+
+namespace {
 
 /// Finds the least and the largest of the values of one quantity, taken in the order of their places. The
 /// place of an extreme is the first with a value equal to it: see tie_of.
@@ -272,55 +274,6 @@ bool beam_lines::is_broken(int e) const {
 }
 
 namespace {
-
-/// The values at the left end of an element or of a piece.
-template <class Number>
-struct line_start {
-  Number w, slope, moment, shear;
-};
-
-template <class Number>
-struct line_of {
-  line_polynomial<Number> w, slope, moment, shear;
-
-  [[nodiscard]] line_start<Number> right_end() const {
-    line_start<Number> end{};
-    for (const Number& c : w) end.w += c;
-    for (const Number& c : slope) end.slope += c;
-    for (const Number& c : moment) end.moment += c;
-    for (const Number& c : shear) end.shear += c;
-    return end;
-  }
-};
-
-/// Gives `line` its w, slope, moment and shear under the load q(t) and an imposed curvature. `flexibility` is
-/// that by shear, 1 / GA.
-template <class Line, class Number, class Coefficients>
-void put_along(Line& line, const line_start<Number>& left, const Coefficients& q, const Number& h,
-               const Number& EI, const Number& curvature, const Number& flexibility) {
-  const auto [w, slope, moment, shear] = std::tie(line.w, line.slope, line.moment, line.shear);
-  w.resize(q.size() + 4);
-  moment.resize(q.size() + 2);
-  shear.resize(q.size() + 1);
-  shear[0] = left.shear;
-  moment[0] = left.moment;
-  moment[1] = left.shear * h;
-  for (std::size_t j = 0; j < q.size(); ++j) {  // dV/dx = q, dM/dx = V
-    const auto n = static_cast<double>(j);
-    shear[j + 1] = q[j] * h / (n + 1);
-    moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
-  }
-  w[0] = left.w;
-  w[1] = left.slope * h;
-  for (std::size_t i = 0; i < moment.size(); ++i) {  // EI (w'' - curvature) = M
-    const auto n = static_cast<double>(i);
-    w[i + 2] = moment[i] * h * h / EI / (n + 1) / (n + 2);
-  }
-  w[2] += curvature * h * h / 2;
-  for (std::size_t i = 1; i < w.size(); ++i) slope.push_back(w[i] * static_cast<double>(i) / h);
-  for (std::size_t j = 0; j < shear.size() && flexibility != Number(0); ++j)  // dw/dx = slope - V / GA
-    w[j + 1] -= shear[j] * h * flexibility / static_cast<double>(j + 1);
-}
 
 /// With the slope, dw/dx without shear flexibility.
 void complete(element_line& line) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "contct/structure/placed_loads.hpp"
@@ -18,6 +19,55 @@ namespace contct {
 /// load, are stored without an allocation.
 template <class Number>
 using line_polynomial = boost::container::small_vector<Number, 6>;
+
+/// The values at the left end of an element or of a piece.
+template <class Number>
+struct line_start {
+  Number w, slope, moment, shear;
+};
+
+template <class Number>
+struct line_of {
+  line_polynomial<Number> w, slope, moment, shear;
+
+  [[nodiscard]] line_start<Number> right_end() const {
+    line_start<Number> end{};
+    for (const Number& c : w) end.w += c;
+    for (const Number& c : slope) end.slope += c;
+    for (const Number& c : moment) end.moment += c;
+    for (const Number& c : shear) end.shear += c;
+    return end;
+  }
+};
+
+/// Gives `line` its w, slope, moment and shear under the load q(t) and an imposed curvature. `flexibility` is
+/// that by shear, 1 / GA.
+template <class Line, class Number, class Coefficients>
+void put_along(Line& line, const line_start<Number>& left, const Coefficients& q, const Number& h,
+               const Number& EI, const Number& curvature, const Number& flexibility) {
+  const auto [w, slope, moment, shear] = std::tie(line.w, line.slope, line.moment, line.shear);
+  w.resize(q.size() + 4);
+  moment.resize(q.size() + 2);
+  shear.resize(q.size() + 1);
+  shear[0] = left.shear;
+  moment[0] = left.moment;
+  moment[1] = left.shear * h;
+  for (std::size_t j = 0; j < q.size(); ++j) {  // dV/dx = q, dM/dx = V
+    const auto n = static_cast<double>(j);
+    shear[j + 1] = q[j] * h / (n + 1);
+    moment[j + 2] = q[j] * h * h / (n + 1) / (n + 2);
+  }
+  w[0] = left.w;
+  w[1] = left.slope * h;
+  for (std::size_t i = 0; i < moment.size(); ++i) {  // EI (w'' - curvature) = M
+    const auto n = static_cast<double>(i);
+    w[i + 2] = moment[i] * h * h / EI / (n + 1) / (n + 2);
+  }
+  w[2] += curvature * h * h / 2;
+  for (std::size_t i = 1; i < w.size(); ++i) slope.push_back(w[i] * static_cast<double>(i) / h);
+  for (std::size_t j = 0; j < shear.size() && flexibility != Number(0); ++j)  // dw/dx = slope - V / GA
+    w[j + 1] -= shear[j] * h * flexibility / static_cast<double>(j + 1);
+}
 
 /// The exact deflected line of a beam's element or of a piece of an element: the solution of EI w_xxxx = q,
 /// or of the same equations with shear flexibility, with the displacements of the nodes. `slope` is the
@@ -63,6 +113,10 @@ class beam_lines {
 /// The Bernstein coefficients of a polynomial. From t = 0 to 1 the polynomial lies between the least and the
 /// largest Bernstein coefficient.
 [[nodiscard]] line_polynomial<double> bernstein_of(const line_polynomial<double>& polynomial);
+
+/// The places between 0 and 1, ascending, at which p changes its sign. Between neighbouring zeros of its
+/// derivative, p changes its sign at most once.
+[[nodiscard]] std::vector<double> zeros_of(const line_polynomial<double>& p);
 
 /// The sum of the magnitudes of the coefficients.
 [[nodiscard]] double sum_of_sizes(const line_polynomial<double>& p);

@@ -157,6 +157,18 @@ json error_json(const problem& p, const std::optional<certificate>& c) {
   return out;
 }
 
+json mesh_error_json(const mesh_error& e) {
+  if (!e.not_proved.empty()) return {{"kind", "unknown"}, {"because", e.not_proved}};
+  json out = {{"kind", "proved"}};
+  for (const mesh_number& n : e.numbers) {
+    out["error"][std::string(n.key)] = n.error;
+    out["of"][std::string(n.key)] = n.of;
+  }
+  for (const true_extremes& x : e.extremes)
+    out["extremes"][std::string(x.key)] = {{"min", x.least}, {"max", x.most}};
+  return out;
+}
+
 json agreement_json(std::int64_t calls, const tally& compared) {
   return {{"calls", calls}, {"values_compared", compared.values}, {"mismatches", compared.mismatches}};
 }
@@ -341,6 +353,29 @@ json step_json(const step_proof& s) {
   return step;
 }
 
+json mesh_proof_json(const mesh_error& e) {
+  const bed_line& line = *e.line;
+  json mesh = mesh_error_json(e);
+  mesh.update({{"halvings", line.mesh->halvings},
+               {"ends", line.ends},
+               {"u", sums(line.u)},
+               {"closed", numbered(line.closed)},
+               {"parts", json::array()}});
+  for (const line_element& on : line.elements)
+    for (const line_part& part : on.parts) {
+      json& out = mesh["parts"].emplace_back(
+          json{{"before", list_of(part.before, [](const double_double& x) { return x.hi; })},
+               {"pressed", json::array()},
+               {"certain", json::array()}});
+      for (const bed_along& b : part.beds) {
+        if (b.pressed.length() > 0.0) out["pressed"].push_back(b.bed + 1);
+        if (b.certain.length() > 0.0) out["certain"].push_back({b.bed + 1, b.certain.from, b.certain.to});
+      }
+    }
+  put_stiffness(mesh, *line.held);
+  return mesh;
+}
+
 std::string reason_without_proof(const std::optional<certificate>& c) {
   if (!c) return "the step did not reach its full load";
   if (!c->proved) return c->problem;
@@ -360,6 +395,8 @@ std::string proof_json(const run_result& r) {
     if (c && c->proof) {
       step["error"] = error_json(r.what, c);
       step.update(step_json(*c->proof));
+      if (!r.mesh.empty() && r.mesh[i].not_proved.empty() && c->proof->of_stiffness)
+        step["mesh"] = mesh_proof_json(r.mesh[i]);
     } else {
       step["because"] = reason_without_proof(c);
     }

@@ -207,8 +207,9 @@ json beds_json(const step_results& r) {
   return out;
 }
 
-/// What is known of the mesh's error.
-json mesh_json(const run_result& r) {
+/// What is known of the mesh's error at the end of a step of the record, from 0.
+json mesh_json(const run_result& r, std::size_t step) {
+  if (!r.mesh.empty()) return mesh_error_json(r.mesh[step]);
   json out = {{"kind", has_no_mesh_error(r.what) ? "none" : "unknown"}};
   for (const mesh_change& c : r.refined)
     if (c.order) {
@@ -392,7 +393,7 @@ class result_writer {
                     {"digits", s.judged ? json(digits_of(*s.judged)) : json(nullptr)},
                     {"error", errors_json(s.judged, at_end)},
                     {"certificate", certificate_json(s)},
-                    {"mesh", mesh_json(r_)}});
+                    {"mesh", mesh_json(r_, number)}});
     std::vector<json_document::list> all;
     if (whole) all = lists(at_end, true);
     if (whole)

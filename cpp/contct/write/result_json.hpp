@@ -70,6 +70,9 @@ class json_document {
 /// The certificate of a step in result files; null if there is none.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const solved_step& s);
 
+/// `mesh` of a step of a beam with beds.
+[[nodiscard]] nlohmann::ordered_json mesh_error_json(const mesh_error& e);
+
 /// The numbers of compared calls, compared values and mismatches.
 [[nodiscard]] nlohmann::ordered_json agreement_json(std::int64_t calls, const tally& compared);
 

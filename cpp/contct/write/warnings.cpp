@@ -79,32 +79,6 @@ std::string concentration_warning(const problem& p, std::span<const solved_step>
   return warning;
 }
 
-std::string shear_warning(const problem& p, std::span<const solved_step> steps) {
-  constexpr double noticeable = 0.05;  // share of the largest shear
-  if (!std::holds_alternative<beam>(p.geometry.kind) || p.beds.empty()) return "";
-  placed_value largest;
-  double force = 0.0;  // of the pair there
-  int step = 0;
-  for (const solved_step& s : steps) {
-    const step_results r(p, s);
-    const auto is_shear = [&p](const value_range& v) { return row_named(p, v.name).kind == quantity::shear; };
-    const placed_value& here = std::ranges::find_if(r.ranges(), is_shear)->largest();
-    if (std::abs(here.value) <= std::abs(largest.value)) continue;
-    largest = here;
-    step = s.step;
-    force = 0.0;
-    for (std::size_t i = contacts_of(p); i < p.pairs.size(); ++i)
-      if (p.pairs[i].node == here.node) force = r.pairs[i].force;
-  }
-  const double share = force / 2 / std::abs(largest.value);
-  if (!(share > noticeable)) return "";
-  return fmt::format(
-      "{}: the largest shear, {:.4g}{} at {}, may be {} too small: a bed acts at nodes, here with {:.3g}{}. "
-      "Use a finer mesh (element_size)",
-      step_words(p, step), largest.value, unit_words(p, unit::force), place_words(p.geometry, largest),
-      percent_words(share), force, unit_words(p, unit::force));
-}
-
 std::string digit_warning(std::span<const solved_step> steps) {
   int fewest = 5;  // a state with 5 digits needs no warning
   const solved_step* worst = nullptr;
@@ -127,8 +101,7 @@ std::string digit_warning(std::span<const solved_step> steps) {
 std::vector<std::string> state_warnings(const run_result& r) {
   std::vector<std::string> lines = {r.end.status == path_status::solved ? digit_warning(r.record.steps) : "",
                                     passage_warning(r.what, r.record.steps),
-                                    concentration_warning(r.what, r.record.steps),
-                                    shear_warning(r.what, r.record.steps)};
+                                    concentration_warning(r.what, r.record.steps)};
   std::erase(lines, "");
   return lines;
 }

@@ -93,6 +93,37 @@ std::string step_words(const problem& p, int step) {
                              : fmt::format("step {}", step);
 }
 
+namespace {
+
+/// What is proved about the mesh of a beam with beds, over all steps.
+std::vector<std::string> mesh_words(const problem& p, const mesh_error& e) {
+  if (!e.not_proved.empty())
+    return {"the error of the mesh is not proved: " + e.not_proved + "; use a finer mesh (element_size)"};
+  std::vector<std::string> shares;
+  for (const mesh_number& n : e.numbers) {
+    const auto is = [&n](quantity q) { return n.key == name_of(q).key; };
+    const bool is_force = is(quantity::force);
+    const bool is_told = !is(quantity::slope) && !is(quantity::gap) && (!is_force || contacts_of(p) > 0);
+    if (is_told && n.of > 0.0)
+      shares.push_back(fmt::format("{} {:.2g} %", is_force ? name_of(quantity::force).words : n.key,
+                                   100 * n.error / n.of));
+  }
+  std::vector<std::string> items = {"mesh error, proved: " + joined(shares, ", ") + " of the largest"};
+  std::vector<std::string> without;
+  constexpr double noticeable = 0.01;
+  for (const true_extremes& x : e.extremes) {
+    const bool is_most = x.most >= -x.least;
+    const double exact = is_most ? x.most : x.least;
+    const double told = std::max(x.told_most, -x.told_least) * (is_most ? 1 : -1);
+    if (std::abs(exact - told) > noticeable * std::abs(exact))
+      without.push_back(fmt::format("{} {:.6g}{}", x.key, exact, unit_words(p, row_named(p, x.key).in)));
+  }
+  if (!without.empty()) items.push_back("without mesh error: " + joined(without, ", "));
+  return items;
+}
+
+}  // namespace
+
 std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
   const std::vector<solved_step>& steps = r.record.steps;
   const auto bad =
@@ -117,10 +148,14 @@ std::vector<std::string> certificate_summary(const run_result& r, bool solved) {
   const std::string states = certified == 1   ? "the final state is"
                              : certified == 2 ? "both final states are"
                                               : fmt::format("all {} final states are", certified);
+  constexpr double little = 1e-6;  // of the largest number
+  const mesh_error of_mesh = largest_of(r.mesh);
   std::vector<std::string> items = {
-      states + (has_no_mesh_error(r.what) ? " certified: this beam has no mesh error"
-                                          : " certified for this mesh"),
+      states + (has_no_mesh_error(r.what)                      ? " certified: this beam has no mesh error"
+                : !r.mesh.empty() && of_mesh.is_within(little) ? " certified"
+                                                               : " certified for this mesh"),
       "proved: " + digits_words(worst) + " of every number"};
+  if (!r.mesh.empty()) std::ranges::move(mesh_words(r.what, of_mesh), std::back_inserter(items));
   const auto loose = std::ranges::find_if(steps, [](const auto& s) { return s.judged && !s.judged->unique; });
   if (loose != steps.end())
     items.push_back(

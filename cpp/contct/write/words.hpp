@@ -91,10 +91,6 @@ constexpr std::string_view end_reason(path_status status) {
 /// empty.
 [[nodiscard]] std::string concentration_warning(const problem& p, std::span<const solved_step> steps);
 
-/// A warning if the largest shear of a beam is at a pair of a bed whose force is more than a tenth of the
-/// shear; otherwise empty.
-[[nodiscard]] std::string shear_warning(const problem& p, std::span<const solved_step> steps);
-
 /// The warnings about the states of the run.
 [[nodiscard]] std::vector<std::string> state_warnings(const run_result& r);
 

@@ -155,6 +155,8 @@ function showCalls() {
 // ---- the ends of steps, the envelope and the input ----
 
 const markOf = (c) => (!c ? "no certificate" : c.certified ? "certified" : "NOT certified");
+const shareOf = (x, of) => `${Number((100 * x / of).toPrecision(2))} %`;
+const meshErrorOf = ({ kind, error, of }) => (kind !== "proved" ? null : Object.keys(error).filter((key) => of[key] > 0).map((key) => `${key} ${shareOf(error[key], of[key])}`).join(", "));
 const quantityHead = (key) => inUnit(sentence(quantityOf(key).words).slice(0, -1), key);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const kindOf = ({ direction }) => (direction > 3 ? "couple" : direction > 0 ? "force" : "");  // empty: not known
@@ -178,12 +180,13 @@ function endTables() {
   const whole = steps.filter((s) => s.pairs);
   const someOf = (of) => (of.length < steps.length ? `, ${of.length} of ${steps.length} steps` : "");
   const quantities = Object.keys(steps[0]?.extremes || {});
+  const provesMesh = steps.some((s) => s.mesh.kind === "proved");
   const most = (list = [], key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
   const kinds = ["force", "couple", ""].filter((kind) => places.supports.some((s) => kindOf(s) === kind));
   const ofKind = (all, kind) => all.filter((r) => kindOf(places.locate(r, r.dof)) === kind);
   const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v) => ({ number: v.value, at: placeOf(v) }))),
     most([s.largest.pair ?? []].flat(), "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.largest.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`)),
-    markOf(s.certificate)];
+    ...(provesMesh ? [meshErrorOf(s.mesh)] : []), markOf(s.certificate)];
   const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
   const [ownPairs, bedPairs] = [places.pairs.filter((p) => !p.bed), places.pairs.filter((p) => p.bed)];
   const paired = new Set(places.pairs.map((p) => p.u));
@@ -195,7 +198,7 @@ function endTables() {
   return [
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
-    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "couple" ? "Reaction moment" : "Reaction", kind)), "Certificate"], steps.map(row)),
+    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "couple" ? "Reaction moment" : "Reaction", kind)), ...(provesMesh ? ["Mesh error, proved, of the largest"] : []), "Certificate"], steps.map(row)),
     ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds),
     ...tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
@@ -389,8 +392,9 @@ function showHead() {
   byId("mesh-words").hidden = !result.steps.some((s) => s.certificate);
   byId("mesh-words").textContent = "Certified means that these are the right numbers" + ({
     none: ". This beam has no mesh error: a finer mesh has the same numbers.",
+    proved: " for this mesh. The error of the mesh is proved, and stands beside the largest values.",
     estimated: " for this mesh. The error of the mesh is estimated by halving the element size twice.",
-    unknown: " for this mesh. The error of the mesh itself is not judged." })[result.steps[0]?.mesh.kind];
+    unknown: " for this mesh. The error of the mesh itself is not judged." })[(result.steps.find((s) => s.mesh.kind === "unknown") ?? result.steps[0])?.mesh.kind];
 }
 
 // Puts the title into the CSS rule for the margin of printed pages, because margins cannot contain elements.

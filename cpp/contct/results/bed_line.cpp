@@ -1,0 +1,443 @@
+#include "contct/results/bed_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "contct/results/run_result.hpp"
+#include "contct/results/step_results.hpp"
+
+namespace contct {
+namespace {
+
+using poly = line_polynomial<double>;
+
+/// a + share b.
+long_vector sum_of(const long_vector& a, const long_vector& b, const double_double& share = 1.0) {
+  long_vector sum = a;
+  sum.resize(std::max(a.size(), b.size()));
+  for (std::size_t i = 0; i < b.size(); ++i) sum[i] += b[i] * share;
+  return sum;
+}
+
+/// w_I, the part of w that Hermite's functions and the displacements of the nodes make.
+long_vector between_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
+  long_vector w(4);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 4; ++k) w[k] += part.hermite->shapes[i][k] * u[e.dofs[i]];
+  return w;
+}
+
+/// b, the rest of w.
+long_vector beyond_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
+  return sum_of({part.line.w.begin(), part.line.w.end()}, between_nodes(e, part, u), -1.0);
+}
+
+const line_part& part_at(const line_element& e, const double_double& place) {
+  auto part = e.parts.begin();
+  while (part + 1 != e.parts.end() && (part + 1)->from < place) ++part;
+  return *part;
+}
+
+double size_of(const long_vector& p) {
+  double sum = 0.0;
+  for (const double_double& x : p) sum += std::abs(x.hi);
+  return sum;
+}
+
+}  // namespace
+
+fine_mesh::fine_mesh(const problem& p) : fine(refined(p)) {
+  const auto is_coarse = [this] {
+    constexpr double little = 0.02;
+    const auto& b = std::get<beam>(fine.geometry.kind);
+    double modulus = 0.0;
+    for (const bed& on : fine.beds) modulus += on.modulus;
+    for (int e = 0; e < b.elements(); ++e)
+      if (modulus * std::pow(b.length_of(e), 4) > little * 500 * b.EI[e]) return true;
+    return false;
+  };
+  for (; halvings < 6 && is_coarse(); ++halvings) fine = refined(fine);
+}
+
+hermite_part::hermite_part(const double_double& h, const double_double& from, const double_double& share,
+                           std::size_t powers)
+    : of_h(h), at(from), along(share) {
+  const std::array<long_vector, 4> whole = {
+      {{1.0, 0.0, -3.0, 2.0}, {0.0, h, h * -2.0, h}, {0.0, 0.0, 3.0, -2.0}, {0.0, 0.0, -h, h}}};
+  long_vector inverse;
+  for (std::size_t i = 0; i < powers + 4; ++i)
+    inverse.push_back(double_double(1.0) / (static_cast<int>(i) + 1));
+  for (std::size_t i = 0; i < 4; ++i) {
+    shapes[i] = formulas::in_element<double_double>(whole[i], from, share);
+    moments[i].resize(powers);
+    for (std::size_t m = 0; m < powers; ++m)
+      for (std::size_t k = 0; k < 4; ++k) moments[i][m] += shapes[i][k] * inverse[m + k];
+  }
+  for (std::size_t i = 0; i < 4; ++i) stiffness[i] = products(shapes[i]);
+}
+
+std::array<double_double, 4> hermite_part::products(const long_vector& p) const {
+  std::array<double_double, 4> all;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t m = 0; m < p.size(); ++m) all[i] += p[m] * moments[i][m];
+  return all;
+}
+
+poly line_part::depth(const bed_along& b) const {
+  poly d;
+  for (std::size_t i = 0; i < std::max(line.w.size(), b.face.size()); ++i) {
+    const double_double w = i < line.w.size() ? line.w[i] : 0.0;
+    d.push_back(((w - (i < b.face.size() ? b.face[i] : 0.0)) * b.surface).hi);
+  }
+  return d;
+}
+
+double line_part::modulus() const {
+  double sum = 0.0;
+  for (const bed_along& b : beds) sum += b.modulus.hi;
+  return sum;
+}
+
+double line_element::modulus() const {
+  double most = 0.0;
+  for (const line_part& part : parts) most = std::max(most, part.modulus());
+  return most;
+}
+
+bed_line::bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, const structure_state& told)
+    : mesh(std::move(fine)),
+      coarse_(p),
+      on_(std::get<beam>(mesh->fine.geometry.kind)),
+      acting_(mesh->fine.steps[told.step - 1]),
+      points_(on_.x, on_.runs) {
+  for (int node = 0, row = 0; node < on_.nodes(); ++node, row = rows_.back() + 1)
+    rows_.insert(rows_.end(), {row, row + (on_.has_hinge(node) ? 2 : 1)});
+  for (const int node : on_.hinges) rows_.push_back(rows_[2 * node] + 1);
+  const auto moved = sums_at_dofs<double_double>(p.steps[told.step - 1].moves, dofs(p.geometry), 2);
+  for (const bed& b : p.beds) {
+    powers_ = std::max(powers_, b.face.size());
+    auto& at = faces_.emplace_back(nodes(p.geometry));
+    const auto put = [&](const contact_pair& c) {
+      at[c.node] = moved[2 * c.node] + (b.face.empty() ? number_of<double_double>(c.face) : 0.0);
+    };
+    for (std::size_t i = 0; i < b.share.size(); ++i) put(p.pairs[b.first_pair + i]);
+    for (const contact_pair& c : b.held) put(c);
+  }
+  pairs_ = pairs_in<double_double>(std::span(mesh->fine.pairs).first(contacts_of(p)), 2);
+  for (long_pair& c : pairs_) c.face += moved[c.dof >> mesh->halvings];
+  const beam_elements<double_double> all(on_);
+  for (int e = 0; e < on_.elements(); ++e) {
+    const auto hinge = static_cast<int>(std::ranges::lower_bound(on_.hinges, e + 1) - on_.hinges.begin());
+    elements.push_back(
+        {{2 * e, 2 * e + 1, 2 * e + 2, on_.has_hinge(e + 1) ? 2 * on_.nodes() + hinge : 2 * e + 3},
+         all.lengths()[e],
+         all.EI(e),
+         {}});
+  }
+  for_each_exact_work<double_double>(on_, acting_,
+                                     [this](int e, const auto& work) { elements[e].work = work; });
+  begin_with(told.displacement);
+}
+
+/// Sets u to the displacements of the problem's nodes, with cubics between them.
+void bed_line::begin_with(std::span<const double> at_nodes) {
+  u.assign(rows_.size(), 0.0);
+  for (std::size_t dof = 0; dof < at_nodes.size(); ++dof)
+    u[2 * mesh->at(static_cast<int>(dof) / 2) + dof % 2] = at_nodes[dof];
+  for (int apart = mesh->at(1); apart > 1; apart /= 2) {
+    for (int left = 0; left + apart < on_.nodes(); left += apart) {
+      const double h = on_.x[left + apart] - on_.x[left];
+      const double_double* const l = &u[2 * left];
+      const double_double* const r = &u[2 * (left + apart)];
+      const double_double chord = (r[0] - l[0]) / h;
+      const double_double turned = on_.has_hinge(left + apart) ? (chord * 3.0 - l[1]) * 0.5 : r[1];
+      u[2 * left + apart] = (l[0] + r[0] + (l[1] - turned) * (h / 4)) * 0.5;
+      u[2 * left + apart + 1] = chord * 1.5 - (l[1] + turned) * 0.25;
+    }
+  }
+}
+
+/// The face of a bed along a part of element `e`: the polynomial of the file, or linear between the nodes of
+/// the problem; moves are linear. Beyond the bed's last node it is as at this node.
+long_vector bed_line::face_along(std::size_t bed, int e, const line_part& part) const {
+  const int wide = e >> mesh->halvings;
+  const double share = 1.0 / mesh->at(1);
+  const auto [left, right] = std::pair(faces_[bed][wide], faces_[bed][wide + 1]);
+  const double_double first = left ? *left : right.value_or(0.0);
+  const double_double rise = right.value_or(first) - first;
+  const long_vector moved = {first + rise * ((part.from + (e - mesh->at(wide))) * share),
+                             rise * part.share * share};
+  long_vector face;
+  for (const double c : coarse_.beds[bed].face) face.push_back(number_of<double_double>(c));
+  if (face.empty()) return moved;
+  const double_double left_end = points_.at(e) + part.from * elements[e].h;
+  return sum_of(moved, formulas::in_element<double_double>(face, left_end, part.share * elements[e].h));
+}
+
+/// Adds to a part of element `e` the beds along it.
+void bed_line::add_beds(line_part& part, int e) const {
+  const double middle = part.load.left + (part.load.right - part.load.left) / 2;
+  const std::vector<bed>& beds = mesh->fine.beds;
+  for (std::size_t i = 0; i < beds.size(); ++i)
+    for (const bed_part& b : beds[i].parts)
+      if (b.from[0].x < middle && middle < b.to[0].x)
+        part.beds.push_back({i, mesh->fine.pairs[beds[i].first_pair].surface,
+                             number_of<double_double>(b.modulus), face_along(i, e, part)});
+}
+
+/// Divides the elements at the places where a load or a bed begins or ends, or has another modulus, and at
+/// the ends of contact. False if such places are too close for their order to be certain.
+bool bed_line::divide() {
+  load cut = acting_;
+  const auto add_cut = [&cut](const line_place& from, const line_place& to) {
+    cut.placed.push_back({from == to ? load_kind::point : load_kind::force, from, to, {0.0}});
+  };
+  for (const bed& b : mesh->fine.beds)
+    for (const bed_part& part : b.parts) add_cut(part.from[0], part.to[0]);
+  for (const double x : ends) add_cut(x, x);
+  const auto all = pieces_of(on_, cut);
+  const double near = 0x1p-40 * std::max(std::abs(on_.x.front()), std::abs(on_.x.back()));
+  std::shared_ptr<const hermite_part> last;
+  for (int e = 0; e < on_.elements(); ++e) {
+    line_element now = elements[e];
+    now.parts.clear();
+    const auto* const on = pieces_at(all, e);
+    std::vector<element_piece> pieces = {{on_.x[e], on_.x[e + 1], now.h, now.EI, {0.0}, 0.0}};
+    if (on != nullptr) pieces = *on;
+    pieces.front().left = on_.x[e];  // equal elements share their pieces
+    pieces.back().right = on_.x[e + 1];
+    double_double from;
+    for (element_piece& piece : pieces) {
+      if (!(piece.right - piece.left > near)) return false;
+      const double_double share = pieces.size() == 1 ? double_double(1.0) : piece.h / now.h;
+      if (!last || !(last->of_h == now.h && last->at == from && last->along == share))
+        last = std::make_shared<hermite_part>(now.h, from, share, powers_);
+      add_beds(now.parts.emplace_back(line_part{std::move(piece), from, share, last}), e);
+      from += share;
+    }
+    if (!elements[e].parts.empty()) carry_over(elements[e], now);
+    elements[e] = std::move(now);
+  }
+  return true;
+}
+
+/// Gives the parts of an element what the line before has at their places.
+void bed_line::carry_over(const line_element& old, line_element& now) const {
+  for (line_part& part : now.parts) {
+    const double_double middle = part.from + part.share * 0.5;
+    const line_part& at = part_at(old, middle);
+    const auto in_old = [&at](const double_double& t) { return (t - at.from) / at.share; };
+    part.before = formulas::in_element<double_double>(beyond_nodes(old, at, u), in_old(part.from),
+                                                      part.share / at.share);
+    part.before.resize(std::min(part.before.size(), powers_));  // those above hardly count
+    for (double_double& c : part.before) c.lo = 0.0;            // any polynomial will do
+    for (bed_along& b : part.beds) {
+      const auto was = std::ranges::find(at.beds, b.bed, &bed_along::bed);
+      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle).hi) > 0.0)
+        b.pressed = {0.0, 1.0};
+    }
+  }
+}
+
+long_system bed_line::system_with(stretch bed_along::*at_all) const {
+  equations<double_double> e;
+  e.fixed.assign(rows_.size(), 0);
+  e.stiffness.resize(rows_.size());
+  for (const line_element& on : elements) {
+    auto own = formulas::beam_stiffness<double_double>(on.EI, on.h, 0.0);
+    for (const line_part& part : on.parts)
+      for (const bed_along& b : part.beds) {
+        const stretch& at = b.*at_all;
+        if (at.length() == 0.0) continue;
+        std::shared_ptr<const hermite_part> shapes = part.hermite;
+        if (at.length() < 1.0)
+          shapes = std::make_shared<hermite_part>(on.h, part.from + part.share * at.from,
+                                                  part.share * at.length(), 4);
+        const double_double k = b.modulus * part.load.h * at.length();
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t j = 0; j < 4; ++j) own[i][j] += k * shapes->stiffness[i][j];
+      }
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) e.stiffness[on.dofs[i]][on.dofs[j]] += own[i][j];
+  }
+  for (std::size_t i = 0; i < on_.hinges.size(); ++i) {
+    const auto s = number_of<double_double>(on_.stiffness_of_hinge(on_.hinges[i]));
+    const std::array<int, 2> turns = {2 * on_.hinges[i] + 1, static_cast<int>(2 * on_.nodes() + i)};
+    for (const int row : turns)
+      for (const int column : turns) e.stiffness[row][column] += row == column ? s : -s;
+  }
+  put_on_supports(mesh->fine, e);
+  e.pairs = pairs_;
+  long_system system(std::move(e));
+  system.find_roots();
+  return system;
+}
+
+long_loads bed_line::loads() const {
+  long_loads l;
+  l.force = sums_at_dofs<double_double>(acting_.points, rows_.size(), 2);
+  l.settlement = sums_at_dofs<double_double>(acting_.settlements, rows_.size(), 2);
+  l.size.resize(rows_.size());
+  for (std::size_t dof = 0; dof < rows_.size(); ++dof) l.size[dof] = std::abs(l.force[dof].hi);
+  const auto add = [&l](int dof, const double_double& work) {
+    l.force[dof] += work;
+    l.size[dof] += std::abs(work.hi);
+  };
+  for (const line_element& on : elements) {
+    for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], on.work[i]);
+    for (const line_part& part : on.parts) {
+      long_vector from_faces;  // P at w_I = 0
+      for (const bed_along& b : part.beds)
+        if (b.pressed.length() > 0.0)
+          from_faces = sum_of(from_faces, sum_of(b.face, part.before, -1.0), b.modulus);
+      const auto work = part.hermite->products(from_faces);
+      for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], part.load.h * work[i]);
+    }
+  }
+  return l;
+}
+
+/// Solves for u with the pressed stretches and pairs as springs in both directions.
+bool bed_line::solve() {
+  const long_system system = system_with(&bed_along::pressed);
+  const long_loads l = loads();
+  scaled_stiffness stiffness = scaled(system);
+  if (!stiffness.factor(pressed)) return false;
+  for (std::size_t dof = 0; dof < u.size(); ++dof)
+    if (system.fixed[dof] != 0) u[dof] = l.settlement[dof];
+  constexpr int most = 8;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most; ++i) {
+    const long_vector force = system.linear_residual(system.residual(u, l), u, pressed);
+    std::vector<double> correction;
+    for (const double_double& f : force) correction.push_back(f.hi);
+    stiffness.solve(correction);
+    double work = 0.0;
+    for (std::size_t dof = 0; dof < u.size(); ++dof) {
+      work += correction[dof] * force[dof].hi;
+      u[dof] += correction[dof];
+    }
+    if (!(work < before / 4)) break;
+    before = work;
+  }
+  return true;
+}
+
+/// Sets the pressure of the beds on a part of `on`. Returns the sum of the sizes of the polynomials that it
+/// is made of.
+double bed_line::press(line_part& part, const line_element& on) const {
+  const long_vector w = sum_of(between_nodes(on, part, u), part.before);
+  double sizes = size_of(part.before);
+  part.pressure = {0.0};
+  for (const bed_along& b : part.beds) {
+    sizes += size_of(b.face);
+    if (b.pressed.length() > 0.0) part.pressure = sum_of(part.pressure, sum_of(w, b.face, -1.0), -b.modulus);
+  }
+  return sizes;
+}
+
+/// Sets pressure and line of all parts from u. Each number has fewer than 2^12 roundings, of 2^-100 each.
+void bed_line::evaluate() {
+  for (line_element& on : elements) {
+    std::array<double_double, 4> own;
+    for (std::size_t i = 0; i < 4; ++i) own[i] = u[on.dofs[i]];
+    const double h = on.h.hi;
+    double sizes =
+        std::abs(own[0].hi) + std::abs(own[2].hi) + h * (std::abs(own[1].hi) + std::abs(own[3].hi));
+    std::array<double_double, 4> work = on.work;
+    for (line_part& part : on.parts) {
+      sizes += press(part, on);
+      const auto of_part = part.hermite->products(part.pressure);
+      for (std::size_t i = 0; i < 4; ++i) work[i] += part.load.h * of_part[i];
+    }
+    const auto forces = formulas::beam_end_forces<double_double>(on.EI, on.h, 0.0, own);
+    line_start<double_double> at{own[0], own[1], forces[2] + work[1], forces[0] - work[0]};
+    double bent =
+        std::abs(at.moment.hi) + h * std::abs(at.shear.hi) + std::abs(work[1].hi) + h * std::abs(work[0].hi);
+    for (line_part& part : on.parts) {
+      const element_piece& load = part.load;
+      at.shear += load.force;
+      at.moment -= load.moment;
+      part.line = {};
+      const long_vector q = sum_of(load.q, part.pressure);
+      put_along(part.line, at, q, load.h, on.EI, load.curvature, double_double());
+      bent += h * h * (size_of(q) + load.size) + on.EI.hi * std::abs(load.curvature.hi);
+      at = part.line.right_end();
+    }
+    for (line_part& part : on.parts) part.slack = 0x1p-88 * (sizes + h * h / on.EI.hi * bent);
+  }
+}
+
+/// The ends of contact: where the depth of a bed changes its sign. An end that is found again, up to
+/// rounding, stays where it is, and a place that is nearly an end already divides the element.
+std::vector<double> bed_line::ends_found() const {
+  std::vector<double> all;
+  for (const line_element& on : elements)
+    for (const line_part& part : on.parts)
+      for (const bed_along& b : part.beds) {
+        const double left = part.load.left;
+        const double right = part.load.right;
+        const poly d = part.depth(b);
+        const double rise = std::abs(polynomial_at(derivative(d), 0.5)) * on.h.hi / part.load.h.hi;
+        const auto ends_at = [&](double x, double depth) {
+          const bool again = std::ranges::binary_search(ends, x);
+          const bool is_end = std::abs(depth) <= (again ? 1e-9 : 1e-6) * rise;
+          if (is_end && again) all.push_back(x);
+          return is_end;
+        };
+        const double first = ends_at(left, polynomial_at(d, 0.0)) ? 1e-4 : 0.0;
+        const double last = ends_at(right, polynomial_at(d, 1.0)) ? 1 - 1e-4 : 1.0;
+        for (const double s : zeros_of(d))
+          if (first < s && s < last) all.push_back(left + s * (right - left));
+      }
+  std::ranges::sort(all);
+  const double near = 1e-12 * (on_.x.back() - on_.x.front());
+  all.erase(std::unique(all.begin(), all.end(), [near](double a, double b) { return b - a <= near; }),
+            all.end());
+  return all;
+}
+
+std::string bed_line::settle() {
+  constexpr int most = 20;
+  for (int i = 0; i < most; ++i) {
+    if (!divide()) return "places are too close to each other";
+    if (i > 0 && !solve()) return "nothing holds the beam";
+    evaluate();
+    std::vector<int> pressing;
+    for (std::size_t pair = 0; pair < pairs_.size(); ++pair)
+      if (depth_of(pairs_[pair], u[pairs_[pair].dof]).hi > 0.0) pressing.push_back(static_cast<int>(pair));
+    const bool pairs_stay = std::exchange(pressed, pressing) == pressing;
+    std::vector<double> next = ends_found();
+    if (i > 0 && pairs_stay && is_settled(next)) break;
+    if (i + 1 < most) ends = std::move(next);
+  }
+  return "";
+}
+
+/// Is the pressure that P lacks, and the change of the ends of contact to `next`, too small to count?
+bool bed_line::is_settled(const std::vector<double>& next) const {
+  constexpr double of_pressure = 1e-8;
+  constexpr double of_length = 1e-5;
+  double off = 0.0;
+  double all = 0.0;
+  double shortest = on_.x.back() - on_.x.front();
+  for (const line_element& on : elements)
+    for (const line_part& part : on.parts) {
+      off = std::max(off, part.modulus() * sum_of_sizes(late(on, part)));
+      all = std::max(all, size_of(part.pressure));
+      shortest = std::min(shortest, on.h.hi);
+    }
+  const auto is_near = [&](double a, double b) { return std::abs(a - b) <= of_length * shortest; };
+  return off <= of_pressure * all && std::ranges::equal(next, ends, is_near);
+}
+
+poly bed_line::late(const line_element& on, const line_part& part) const {
+  poly late;
+  for (const double_double& c : sum_of(beyond_nodes(on, part, u), part.before, -1.0)) late.push_back(c.hi);
+  return late;
+}
+
+}  // namespace contct

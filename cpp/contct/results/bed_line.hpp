@@ -1,0 +1,142 @@
+// The line w1: the deflection of a beam on beds whose pressure acts along the beam, not at its nodes. What it
+// proves about the mesh is in results/mesh_error.hpp; symbols are those of reference/mesh-error.md.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contct/path/structure_state.hpp"
+#include "contct/proof/scaled_stiffness.hpp"
+#include "contct/structure/extremes.hpp"
+#include "contct/structure/problem.hpp"
+
+namespace contct {
+
+/// A problem with its elements halved until the pressure of the beds changes each element's deflection
+/// little, so that P converges quickly.
+struct fine_mesh {
+  explicit fine_mesh(const problem& p);
+
+  /// The node at node `n` of the problem, and the element at the left end of its element `n`.
+  [[nodiscard]] int at(int n) const { return n << halvings; }
+
+  problem fine;
+  int halvings = 1;
+};
+
+/// A stretch of a part of an element, as shares of the part's length; empty if both are equal.
+struct stretch {
+  double from = 0.0, to = 0.0;
+
+  [[nodiscard]] double length() const { return to - from; }
+};
+
+/// A bed along a part of an element.
+struct bed_along {
+  std::size_t bed;  ///< from 0
+  int surface;
+  double_double modulus;
+  long_vector face;      ///< a polynomial
+  stretch pressed = {};  ///< the whole part if P has the pressure of the bed, otherwise empty
+  stretch certain = {};  ///< in the set A: where the bed certainly presses
+};
+
+/// Hermite's functions of an element of length h, along a part of it, and the integrals over the part of
+/// their products with powers of s; both divided by lengths in s.
+struct hermite_part {
+  hermite_part(const double_double& h, const double_double& from, const double_double& share,
+               std::size_t powers);
+
+  /// The integrals of the products with the polynomial p.
+  [[nodiscard]] std::array<double_double, 4> products(const long_vector& p) const;
+
+  double_double of_h, at, along;
+  std::array<long_vector, 4> shapes, moments;
+  std::array<std::array<double_double, 4>, 4> stiffness;  ///< of a bed with a modulus of 1 / length
+};
+
+/// A part of an element along which load, beds and faces are polynomials in s, from 0 to 1.
+struct line_part {
+  element_piece load;
+  double_double from, share;  ///< its left end and its length, as shares of the element's length
+  std::shared_ptr<const hermite_part> hermite;
+  std::vector<bed_along> beds = {};
+  long_vector before = {};    ///< b of the pass before, from which P is made
+  long_vector pressure = {};  ///< P, upward
+  line_of<double_double> line = {};
+  double slack = 0.0;  ///< a bound on the rounding of `line.w`, of w_I and of faces
+  double off = 0.0;    ///< a bound on |r|
+
+  /// n (w1 - c) of a bed.
+  [[nodiscard]] line_polynomial<double> depth(const bed_along& b) const;
+  /// The sum of the moduli of all beds.
+  [[nodiscard]] double modulus() const;
+};
+
+struct line_element {
+  std::array<int, 4> dofs;
+  double_double h, EI;
+  std::array<double_double, 4> work;  ///< of the loads on Hermite's functions
+  std::vector<line_part> parts = {};
+
+  /// The largest sum of moduli of a part.
+  [[nodiscard]] double modulus() const;
+};
+
+class bed_line {
+ public:
+  /// The line of the program's state `told` of `p`, a beam with beds and without shear flexibility. `p` must
+  /// outlive this object.
+  bed_line(const problem& p, std::shared_ptr<const fine_mesh> mesh, const structure_state& told);
+
+  /// Solves for the line, and moves the ends of contact to its zeros, until both hardly change. Returns why
+  /// this failed, or "".
+  [[nodiscard]] std::string settle();
+
+  /// The equations of the beam with the beds along all these stretches.
+  [[nodiscard]] long_system system_with(stretch bed_along::*at_all) const;
+  /// The loads, with those that P adds to the beds' springs.
+  [[nodiscard]] long_loads loads() const;
+  /// K_A of scaled_stiffness.
+  [[nodiscard]] scaled_stiffness scaled(const long_system& s) const {
+    return {s, rows_, on_.hinges.empty() ? 3 : 4, false, true};
+  }
+  /// b - `before` on a part of `on`.
+  [[nodiscard]] line_polynomial<double> late(const line_element& on, const line_part& part) const;
+
+  const std::shared_ptr<const fine_mesh> mesh;
+  std::vector<line_element> elements;
+  long_vector u;                        ///< [dofs] of the nodes, then the rotations left of hinges
+  std::vector<int> pressed;             ///< the pairs of [[contact]] in contact, from 0
+  std::vector<double> ends;             ///< of contact, ascending
+  std::vector<int> closed;              ///< the pairs of A
+  std::optional<stiffness_proof> held;  ///< the proof of mu
+
+ private:
+  void begin_with(std::span<const double> at_nodes);
+  [[nodiscard]] bool divide();
+  void add_beds(line_part& part, int e) const;
+  [[nodiscard]] long_vector face_along(std::size_t bed, int e, const line_part& part) const;
+  void carry_over(const line_element& old, line_element& now) const;
+  [[nodiscard]] bool solve();
+  [[nodiscard]] double press(line_part& part, const line_element& on) const;
+  void evaluate();
+  [[nodiscard]] std::vector<double> ends_found() const;
+  [[nodiscard]] bool is_settled(const std::vector<double>& next) const;
+
+  const problem& coarse_;
+  const beam& on_;
+  const load& acting_;
+  line<double_double> points_;
+  std::size_t powers_ = 12;  // of the polynomials of P
+  std::vector<int> rows_;
+  std::vector<long_pair> pairs_;  // those of [[contact]], with their moves
+  /// [beds][nodes of the problem] the move of the face, with the face unless it is a polynomial; empty where
+  /// the bed has no node.
+  std::vector<std::vector<std::optional<double_double>>> faces_;
+};
+
+}  // namespace contct

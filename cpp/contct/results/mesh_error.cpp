@@ -1,0 +1,372 @@
+#include "contct/results/mesh_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contct/proof/error_bounds.hpp"
+#include "contct/results/step_results.hpp"
+
+namespace contct {
+namespace {
+
+using poly = line_polynomial<double>;
+
+constexpr double close = 1e-10;  // relative accuracy of extremes
+
+double bound_on_most(const poly& p) {
+  return bound_on_largest(p, close * sum_of_sizes(p));
+}
+
+double bound_on_least(poly p) {
+  for (double& c : p) c = -c;
+  return -bound_on_most(p);
+}
+
+/// A bound on the least value of p along a stretch.
+double least_along(const poly& p, const stretch& s) {
+  const auto part =
+      formulas::in_element<double>(std::span<const double>(p.data(), p.size()), s.from, s.length());
+  return bound_on_least(poly(part.begin(), part.end())) - 0x1p-45 * sum_of_sizes(p);
+}
+
+/// A stretch of a part where the depth d is certainly more than `least`, as long as is found; else empty.
+stretch stretch_beyond(const poly& d, double least) {
+  const std::array<bool, 2> cut = {d.front() <= least, polynomial_at(d, 1.0) <= least};
+  for (double share = 0x1p-8; share < 0.3; share *= 2) {
+    const stretch s{cut[0] ? share : 0.0, cut[1] ? 1.0 - share : 1.0};
+    if (least_along(d, s) > least) return s;
+  }
+  return {};
+}
+
+poly in_doubles(const line_polynomial<double_double>& p) {
+  poly rounded;
+  for (const double_double& c : p) rounded.push_back(c.hi);
+  return rounded;
+}
+
+class mesh_prover {
+ public:
+  /// All arguments must outlive this object.
+  mesh_prover(const step_results& told, bed_line& line)
+      : told_(told),
+        line_(line),
+        system_(line.system_with(&bed_along::pressed)),
+        left_(system_.residual(line.u, line.loads())) {}
+
+  /// Proves A, rho and Xh. Returns why this failed, or "".
+  [[nodiscard]] std::string find_rho();
+  /// Sets the errors of the printed numbers.
+  void compare(mesh_error& e) const;
+
+ private:
+  void measure();
+  [[nodiscard]] bool hold();
+  void sum_up();
+  [[nodiscard]] bool shrink();
+  /// C of a dof, and of w in an element.
+  [[nodiscard]] double reach(std::size_t dof) const {
+    return system_.fixed[dof] != 0 ? 0.0 : scale_[dof] * root_;
+  }
+  [[nodiscard]] double reach_in(const line_element& on) const {
+    const auto largest = [&](std::size_t i) { return std::max(reach(on.dofs[i]), reach(on.dofs[i + 2])); };
+    return largest(0) + on.h.hi / 4 * largest(1) + std::sqrt(std::pow(on.h.hi, 3) / 192 / on.EI.hi);
+  }
+  /// The squares of the bounds for a moment and for a shear, divided by Xh, at an end of an element or
+  /// inside.
+  [[nodiscard]] static double moment_square(const line_element& on, bool inside) {
+    const double h = on.h.hi;
+    return (inside ? 8 : 4) * on.EI.hi / h + on.modulus() * h * h * h / 105;
+  }
+  [[nodiscard]] static double shear_square(const line_element& on, bool inside) {
+    const double h = on.h.hi;
+    return (inside ? 96 : 12) * on.EI.hi / (h * h * h) + on.modulus() * h * 13 / 35;
+  }
+  void compare_nodes(mesh_error& e) const;
+  void compare_elements(mesh_error& e) const;
+  void compare_supports(mesh_error& e) const;
+  void compare_pairs(mesh_error& e) const;
+  void compare_extremes(mesh_error& e) const;
+
+  const step_results& told_;
+  bed_line& line_;
+  long_system system_;
+  long_residual left_;
+  std::vector<double> scale_;        // S of K_A
+  double root_ = 0.0;                // sqrt((1 + eta) / mu)
+  double rho_ = 0.0, forces_ = 0.0;  // forces_: Xh
+};
+
+/// Bounds |r| in all parts, and begins A with all stretches and pairs that press.
+void mesh_prover::measure() {
+  double deepest = 0.0;
+  for (line_element& on : line_.elements)
+    for (line_part& part : on.parts)
+      for (const bed_along& b : part.beds) deepest = std::max(deepest, bound_on_most(part.depth(b)));
+  for (line_element& on : line_.elements)
+    for (line_part& part : on.parts) {
+      const poly late = line_.late(on, part);
+      const double most = sum_of_sizes(late);
+      for (bed_along& b : part.beds) {
+        const poly d = part.depth(b);
+        const bool presses = b.pressed.length() > 0.0;
+        const double wrong = std::max(0.0, presses ? -bound_on_least(d) : bound_on_most(d));
+        part.off += b.modulus.hi * ((presses ? most : 0.0) + wrong + part.slack);
+        b.certain = stretch_beyond(d, 0x1p-20 * deepest + part.slack);
+      }
+    }
+  for (std::size_t i = 0; i < system_.pairs.size(); ++i)
+    if (system_.depth(i, line_.u).hi > 0.0) line_.closed.push_back(static_cast<int>(i));
+}
+
+/// Factors K_A, and proves mu and eta.
+bool mesh_prover::hold() {
+  const long_system system = line_.system_with(&bed_along::certain);
+  scaled_stiffness held = line_.scaled(system);
+  const double mu = held.factor(line_.closed) ? held.least_eigenvalue() : 0.0;
+  line_.held = held.proof();
+  double eta = 0.0;
+  for (const line_element& on : line_.elements)
+    eta = std::max(eta, on.modulus() * std::pow(on.h.hi, 4) / 500.56 / on.EI.hi);
+  root_ = std::sqrt((1 + eta) / mu) * (1 + summation_slack);
+  scale_.clear();
+  for (std::size_t dof = 0; dof < system.dofs(); ++dof) scale_.push_back(held.scale(dof));
+  return mu > 0.0;
+}
+
+/// rho and Xh by A.
+void mesh_prover::sum_up() {
+  double nodal = 0.0;   // squares
+  double inside = 0.0;  // A, squares
+  double all = 0.0;     // all beds, squares
+  double outside = 0.0;
+  for (std::size_t dof = 0; dof < system_.dofs(); ++dof) {
+    const double off = reach(dof) * (std::abs(left_.force[dof].hi) + left_.slack[dof]);
+    nodal += off * off;
+  }
+  for (const line_element& on : line_.elements)
+    for (const line_part& part : on.parts) {
+      if (part.beds.empty()) continue;
+      const double h = part.load.h.hi;
+      const auto of_A =
+          std::ranges::max_element(part.beds, {}, [](const bed_along& b) { return b.certain.length(); });
+      const double share = of_A->certain.length();
+      inside += share * h * part.off * part.off / of_A->modulus.hi;
+      all += h * part.off * part.off / part.modulus();
+      outside += reach_in(on) * ((1 - share) * part.off + part.modulus() * part.slack) * h;
+    }
+  rho_ = (std::sqrt(nodal) + std::sqrt(inside) + outside) * (1 + summation_slack);
+  forces_ = (rho_ + std::sqrt(all)) * (1 + summation_slack);
+}
+
+/// Takes out of A what may not press; false if nothing was taken out.
+bool mesh_prover::shrink() {
+  bool any = false;
+  for (line_element& on : line_.elements) {
+    const double least = reach_in(on) * rho_ * (1 + summation_slack);
+    for (line_part& part : on.parts)
+      for (bed_along& b : part.beds) {
+        if (b.certain.length() == 0.0) continue;
+        const poly d = part.depth(b);
+        if (least_along(d, b.certain) > least + part.slack) continue;
+        b.certain = stretch_beyond(d, 2 * least + part.slack);
+        any = true;
+      }
+  }
+  return std::erase_if(line_.closed,
+                       [&](int i) {
+                         return !(system_.depth(i, line_.u).hi - system_.doubt(i, line_.u) >
+                                  reach(system_.pairs[i].dof) * rho_);
+                       }) > 0 ||
+         any;
+}
+
+std::string mesh_prover::find_rho() {
+  constexpr int most = 12;
+  measure();
+  for (int i = 0; i < most; ++i) {
+    if (!hold()) return "it is not certain that contact holds the beam";
+    sum_up();
+    if (!std::isfinite(forces_)) break;
+    if (!shrink()) return "";
+  }
+  return "it is not certain where the beds press";
+}
+
+void mesh_prover::compare_nodes(mesh_error& e) const {
+  for (int node = 0; node < nodes(told_.what.geometry); ++node)
+    for (const int dof : {0, 1}) {
+      const std::size_t at = 2 * line_.mesh->at(node) + dof;
+      e.take(name_of(dof == 0 ? quantity::w : quantity::slope), told_.state.displacement[2 * node + dof],
+             line_.u[at].hi, reach(at) * rho_);
+    }
+}
+
+void mesh_prover::compare_elements(mesh_error& e) const {
+  for (int i = 0; i < elements(told_.what.geometry); ++i) {
+    const line_element& left = line_.elements[line_.mesh->at(i)];
+    const line_element& right = line_.elements[line_.mesh->at(i + 1) - 1];
+    const auto end = right.parts.back().line.right_end();
+    const line_part& first = left.parts.front();
+    const auto shears = told_.elements.at(i, 0);
+    const auto moments = told_.elements.at(i, 1);
+    e.take(name_of(quantity::shear), shears[0], (first.line.shear[0] - first.load.force).hi,
+           std::sqrt(shear_square(left, false)) * forces_);
+    e.take(name_of(quantity::shear), shears[1], end.shear.hi,
+           std::sqrt(shear_square(right, false)) * forces_);
+    e.take(name_of(quantity::moment), moments[0], (first.line.moment[0] + first.load.moment).hi,
+           std::sqrt(moment_square(left, false)) * forces_);
+    e.take(name_of(quantity::moment), moments[1], end.moment.hi,
+           std::sqrt(moment_square(right, false)) * forces_);
+  }
+}
+
+void mesh_prover::compare_supports(mesh_error& e) const {
+  for (std::size_t i = 0; i < system_.supports.size(); ++i) {
+    const auto& s = system_.supports[i];
+    const std::size_t node = s.dof / 2;
+    const double_double force = s.force(line_.u, [this](int dof) { return left_.needed[dof]; });
+    double bound = std::min(std::sqrt(s.spring.hi), s.spring.hi * reach(s.dof)) * rho_;
+    if (s.fixed) {
+      double squares = 0.0;
+      for (std::size_t on = node == 0 ? 0 : node - 1; on <= node && on < line_.elements.size(); ++on)
+        squares += s.dof % 2 == 0 ? shear_square(line_.elements[on], false)
+                                  : moment_square(line_.elements[on], false);
+      bound = std::sqrt(squares) * forces_ + left_.slack[s.dof];
+    }
+    e.take(name_of(s.dof % 2 == 0 ? quantity::reaction : quantity::moment), told_.reactions[i], force.hi,
+           bound);
+  }
+}
+
+void mesh_prover::compare_pairs(mesh_error& e) const {
+  const problem& p = told_.what;
+  const auto compare_pair = [&](std::size_t i, double share) {
+    const pair_reading& at = told_.pairs[i];
+    const double k = p.pairs[i].stiffness;
+    const std::size_t dof = 2 * line_.mesh->at(p.pairs[i].node);
+    const double w = line_.u[dof].hi;
+    const double deep = p.pairs[i].surface * (w - at.face);
+    const double rounding = 0x1p-48 * (std::abs(w) + std::abs(at.face));
+    const double moved = reach(dof) * rho_ + rounding;
+    const double force = k * std::max(deep, 0.0);
+    e.take(name_of(quantity::gap), at.gap, std::max(-deep, 0.0), moved);
+    e.take(name_of(quantity::force), at.force, force,
+           share > 0.0 ? k * moved : std::min(k * moved, std::sqrt(k) * rho_ + k * rounding));
+    if (share > 0.0) e.take(pressure_name, at.force / share, force / share, k / share * moved);
+  };
+  for (std::size_t i = 0; i < contacts_of(p); ++i) compare_pair(i, 0.0);
+  for (const bed& b : p.beds)
+    for (std::size_t i = 0; i < b.share.size(); ++i) compare_pair(b.first_pair + i, b.share[i]);
+  const std::vector<bed_reading> printed = beds_in(told_);
+  for (std::size_t bed = 0; bed < printed.size(); ++bed) {
+    double largest = 0.0;
+    double moved = 0.0;
+    for (const line_element& on : line_.elements)
+      for (const line_part& part : on.parts)
+        for (const bed_along& b : part.beds) {
+          if (b.bed != bed) continue;
+          largest = std::max(largest, b.modulus.hi * bound_on_most(part.depth(b)));
+          moved = std::max(moved, b.modulus.hi * (reach_in(on) * rho_ + part.slack));
+        }
+    e.take(pressure_name, printed[bed].pressure.most.value, largest, moved + close * largest);
+  }
+}
+
+void mesh_prover::compare_extremes(mesh_error& e) const {
+  using line = line_of<double_double>;
+  const std::array all = {&line::w, &line::moment, &line::shear};
+  constexpr std::array kinds = {quantity::w, quantity::moment, quantity::shear};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const value_range& printed = told_.ranges()[i];
+    true_extremes& now = e.extremes.emplace_back(
+        true_extremes{name_of(kinds[i]).key, printed.least.value, printed.most.value,
+                      std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+    double bound = 0.0;
+    double size = 0.0;
+    for (const line_element& on : line_.elements) {
+      const double square = i == 1 ? moment_square(on, true) : shear_square(on, true);
+      bound = std::max(bound, i == 0 ? reach_in(on) * rho_ : std::sqrt(square) * forces_);
+      for (const line_part& part : on.parts) {
+        const poly p = in_doubles(part.line.*all[i]);
+        now.least = std::min(now.least, bound_on_least(p));
+        now.most = std::max(now.most, bound_on_most(p));
+        size = std::max(size, sum_of_sizes(p));
+      }
+    }
+    e.take(name_of(kinds[i]), now.told_least, now.least, bound + close * size);
+    e.take(name_of(kinds[i]), now.told_most, now.most, bound + close * size);
+  }
+}
+
+void mesh_prover::compare(mesh_error& e) const {
+  compare_extremes(e);
+  compare_nodes(e);
+  compare_elements(e);
+  compare_supports(e);
+  compare_pairs(e);
+}
+
+}  // namespace
+
+void mesh_error::take(const quantity_name& kind, double printed, double exact, double bound) {
+  auto at = std::ranges::find(numbers, kind.key, &mesh_number::key);
+  if (at == numbers.end()) at = numbers.insert(at, {kind.key});
+  const double error =
+      (std::abs(printed - exact) + bound) * (1 + summation_slack) + 0x1p-48 * std::abs(exact);
+  at->error = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(at->error, error);
+  at->of = std::max(at->of, std::abs(printed));
+}
+
+bool mesh_error::is_within(double share) const {
+  return not_proved.empty() && std::ranges::all_of(numbers, [share](const mesh_number& n) {
+           return n.key == name_of(quantity::gap).key || n.error <= share * n.of;
+         });
+}
+
+mesh_error largest_of(std::span<const mesh_error> all) {
+  mesh_error largest;
+  for (const mesh_error& e : all) {
+    if (!e.not_proved.empty()) return {e.not_proved};
+    for (const mesh_number& n : e.numbers) {
+      auto most = std::ranges::find(largest.numbers, n.key, &mesh_number::key);
+      if (most == largest.numbers.end()) most = largest.numbers.insert(most, n);
+      most->error = std::max(most->error, n.error);
+      most->of = std::max(most->of, n.of);
+    }
+    if (largest.extremes.empty()) largest.extremes = e.extremes;
+    for (std::size_t i = 0; i < e.extremes.size(); ++i) {
+      true_extremes& most = largest.extremes[i];
+      most.told_least = std::min(most.told_least, e.extremes[i].told_least);
+      most.told_most = std::max(most.told_most, e.extremes[i].told_most);
+      most.least = std::min(most.least, e.extremes[i].least);
+      most.most = std::max(most.most, e.extremes[i].most);
+    }
+  }
+  return largest;
+}
+
+mesh_error mesh_error_of(const problem& p, const std::shared_ptr<const fine_mesh>& mesh,
+                         const solved_step& s) {
+  mesh_error e;
+  const auto* const on = std::get_if<beam>(&p.geometry.kind);
+  if (on == nullptr || p.beds.empty())
+    e.not_proved = "only of beams with beds";
+  else if (!on->GA.empty())
+    e.not_proved = "with shear flexibility, nothing is proved about beds";
+  else if (!s.judged || !s.judged->certified)
+    e.not_proved = "the state is not certified";
+  if (!e.not_proved.empty()) return e;
+  const auto line = std::make_shared<bed_line>(p, mesh, s);
+  e.not_proved = line->settle();
+  if (!e.not_proved.empty()) return e;
+  const step_results told(p, s);
+  mesh_prover prover(told, *line);
+  e.not_proved = prover.find_rho();
+  if (e.not_proved.empty()) prover.compare(e);
+  e.line = line;
+  return e;
+}
+
+}  // namespace contct
