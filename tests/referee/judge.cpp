@@ -8,7 +8,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "contct/read/problem_file.hpp"
 #include "contct/results/kernel_digits.hpp"
+#include "support/bedded_beams.hpp"
 #include "support/judged_run.hpp"
 
 namespace contct::referee {
@@ -180,6 +182,29 @@ judgement judge(const problem& p, const exact_answer& exactly, way how) {
     j.findings.push_back({fault::refused, e.what()});
   } catch (const std::invalid_argument& e) {
     j.findings.push_back({fault::refused, e.what()});
+  }
+  return j;
+}
+
+judgement judge_meshes(std::uint64_t number) {
+  const double length = std::pow(10.0, static_cast<double>(number % 13) - 6.0);
+  const double force = std::pow(10.0, static_cast<double>(number % 11) - 5.0);
+  const int elements = 8 << number % 5;
+  constexpr int ratio = 4;
+  const auto mesh_of = [&](int count) {
+    return parse_problem(bedded(number, count, length, force), "beds.toml", reach::anywhere);
+  };
+  const proved_run coarse(mesh_of(elements));
+  const proved_run fine(mesh_of(ratio * elements));
+  judgement j;
+  if (!coarse.certified() || !fine.certified()) return j;  // a mechanism
+  ++j.steps;
+  if (!coarse.error().not_proved.empty() || !fine.error().not_proved.empty()) return j;
+  ++j.certified;
+  for (const auto& [key, off] : differences(coarse.results(), fine.results(), ratio)) {
+    ++j.values;
+    if (!(off <= coarse.bound(key) + fine.bound(key)))
+      j.findings.push_back({fault::outside, fmt::format("{} differs by {} between two meshes", key, off)});
   }
   return j;
 }

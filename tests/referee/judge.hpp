@@ -64,6 +64,10 @@ struct judgement {
 /// are compared.
 [[nodiscard]] judgement judge(const problem& p, const exact_answer& exactly, way how);
 
+/// Judges what is proved about the mesh of a random beam on beds: the numbers of two meshes must not differ
+/// by more than both bounds. `certified` counts the proved steps.
+[[nodiscard]] judgement judge_meshes(std::uint64_t number);
+
 inline constexpr int hard_kinds = 9;
 
 /// Returns problem `number` of `seed` of a hard kind, from 0. Its title names the kind. Problems are the same

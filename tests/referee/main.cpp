@@ -1,5 +1,5 @@
 // Judges the corrected rule and its certificate by the exact path:
-//     contct_referee COUNT SEED [--jobs N] [--shear] [--hinge]
+//     contct_referee COUNT SEED [--jobs N] [--shear] [--hinge] [--bed]
 //     contct_referee 0 SEED --only NUMBER      prints all errors of one problem
 // Judges random problems and prints the number of each error and where it was first found. Fails on a
 // forbidden error, on more errors than are known, or if too little was compared.
@@ -25,9 +25,9 @@ using namespace contct::referee;
 namespace {
 
 /// What all problems have: shear flexibility, of which phi is 10^-7 to 10^6, or hinges, most of them with a
-/// stiffness of 10^-6 to 10^7 EI / h.
+/// stiffness of 10^-6 to 10^7 EI / h. With `bed`: what is proved about the mesh of a beam on beds is judged.
 struct family {
-  bool shear = false, hinge = false;
+  bool shear = false, hinge = false, bed = false;
   bool operator==(const family&) const = default;
   [[nodiscard]] bool named() const { return shear || hinge; }
 };
@@ -84,7 +84,8 @@ std::vector<judgements> judge_all(std::uint64_t count, std::uint64_t seed, int j
   std::vector<std::future<void>> threads;
   for (int j = 0; j < jobs; ++j)
     threads.push_back(std::async(std::launch::async, [&] {
-      for (std::size_t i = next++; i < count; i = next++) judged[i] = judge_all_ways(draw(seed, i, of));
+      for (std::size_t i = next++; i < count; i = next++)
+        judged[i] = of.bed ? judgements{judge_meshes(seed + i)} : judge_all_ways(draw(seed, i, of));
     }));
   for (std::future<void>& t : threads) t.get();
   return judged;
@@ -105,6 +106,7 @@ const known_run known_runs[] = {
     {300, 2026, 36'939, {{loose, 2}, {other_events, 22}, {exactly, 12}}},
     {20'000, 2026, 2'551'180, {{loose, 3}, {other_events, 1187}, {exactly, 349}}},
     {1000, 2026, 154'716, {{loose, 6}, {other_events, 10}}, {.shear = true}},
+    {1000, 2026, 6363, {}, {.bed = true}},
     {1000, 2026, 147'567, {{other_events, 15}, {exactly, 7}}, {.hinge = true}},
 };
 constexpr long any = LONG_MAX;
@@ -170,6 +172,7 @@ int main(int argc, char** argv) {
   program.add_option("--only", only,
                      "Only the problem of this number, from 0, and all that is wrong with it");
   program.add_flag("--shear", of.shear, "Beams with shear flexibility");
+  program.add_flag("--bed", of.bed, "Beams on beds, each with two meshes");
   program.add_flag("--hinge", of.hinge, "Beams with semi-rigid hinges");
   CLI11_PARSE(program, argc, argv);
   try {

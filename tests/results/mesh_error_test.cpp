@@ -1,104 +1,17 @@
 // Tests the proved error of the mesh of beams on beds.
 #include "contct/results/mesh_error.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "catch.hpp"
-#include "contct/number/random.hpp"
-#include "contct/path/solve_problem.hpp"
-#include "contct/results/run.hpp"
-#include "contct/results/step_results.hpp"
 #include "support/a_run.hpp"
+#include "support/bedded_beams.hpp"
 
 using namespace contct;
 
 namespace {
-
-/// Returns random beam `number` on beds with a mesh of `elements`, a multiple of 8. Every mesh has the same
-/// beam.
-std::string bedded(std::uint64_t number, int elements) {
-  random_numbers chance(number * 977 + 5);
-  const auto place = [&chance] { return 0.25 * chance.whole(1, 15) + 0.01 * chance.whole(0, 9); };
-  const auto pick = [&chance](const std::vector<std::string>& all) {
-    return all[chance.whole(0, static_cast<int>(all.size()) - 1)];
-  };
-  std::string text = fmt::format(
-      "[beam]\nlength = 4\nelements = {}\nEI = {}\n[[bed]]\nfrom = {:.2f}\nmodulus = {}\nface = {}\n",
-      elements, pick({"3", "12", "0.8"}), std::min(place(), 3.0),
-      pick({"40", "[ { to = 3.5, value = 15 }, { to = 4, value = 60 } ]"}),
-      pick({"0", "-0.01", "{ polynomial = [ 0, -0.02, 0.003 ] }"}));
-  if (chance.chance(0.7))
-    text += fmt::format("[[bed]]\nto = {:.2f}\nmodulus = 25\nface = {}\n", std::max(place(), 0.8),
-                        pick({"0", "-0.005"}));
-  if (chance.chance(0.3)) text += "[[bed]]\nsurface = 'above'\nto = 2\nmodulus = 30\nface = 0.02\n";
-  if (chance.chance(0.4)) text += "[[hinge]]\nx = 1.5\n" + pick({"", "stiffness = 3\n"});
-  if (chance.chance(0.5)) text += "[[contact]]\nx = 2.5\nsurface = 'below'\nface = -0.02\nstiffness = 300\n";
-  text += pick({"[[support]]\nx = 0\nfix = 'w'\n", "[[support]]\nx = 4\nfix = ['w', 'theta']\n",
-                "[[support]]\nx = [0, 4]\nspring = { w = 2, theta = 1 }\n", ""});
-  return text +
-         fmt::format(
-             "[[step]]\nuniform = -{}\npoint = [ {{ x = {:.2f}, w = -{} }}, {{ x = 2, theta = {} }} ]\n",
-             pick({"0.3", "1", "0.05"}), place(), pick({"2", "0.5"}), pick({"0", "0.6"}));
-}
-
-struct proved_run {
-  explicit proved_run(problem p)
-      : what(std::move(p)), structure(structure_of(what)), ends(what, structure, {}) {
-    ends.go({});
-    ends.find_mesh_errors();
-  }
-
-  [[nodiscard]] bool certified() const { return !ends.result.mesh.empty() && ends.result.all_certified(); }
-  [[nodiscard]] const mesh_error& error() const { return ends.result.mesh.back(); }
-  [[nodiscard]] step_results results() const { return {what, ends.result.record.steps.back()}; }
-  [[nodiscard]] double bound(std::string_view key) const {
-    return std::ranges::find(error().numbers, key, &mesh_number::key)->error;
-  }
-  [[nodiscard]] const true_extremes& without(std::string_view key) const {
-    return *std::ranges::find(error().extremes, key, &true_extremes::key);
-  }
-
-  problem what;
-  linear_structure structure;
-  run ends;
-};
-
-/// The largest differences between two meshes of the numbers that both have; the second mesh has `ratio`
-/// times as many elements.
-std::map<std::string_view, double> differences(const step_results& coarse, const step_results& fine,
-                                               std::size_t ratio) {
-  std::map<std::string_view, double> most;
-  const auto take = [&most](std::string_view key, double a, double b) {
-    most[key] = std::max(most[key], std::abs(a - b));
-  };
-  const std::vector<double>& u = coarse.state.displacement;
-  for (std::size_t dof = 0; dof < u.size(); ++dof)
-    take(dof % 2 == 0 ? "w" : "slope", u[dof], fine.state.displacement[dof / 2 * 2 * ratio + dof % 2]);
-  for (std::size_t e = 0; e < coarse.elements.elements(); ++e)
-    for (const std::size_t name : {0, 1}) {
-      const std::string_view key = coarse.elements.names[name];
-      take(key, coarse.elements.at(e, name)[0], fine.elements.at(e * ratio, name)[0]);
-      take(key, coarse.elements.at(e, name)[1], fine.elements.at((e + 1) * ratio - 1, name)[1]);
-    }
-  for (std::size_t i = 0; i < coarse.reactions.size(); ++i)
-    take(coarse.what.supports[i].dof == 0 ? "reaction" : "moment", coarse.reactions[i], fine.reactions[i]);
-  for (std::size_t i = 0; i < contacts_of(coarse.what); ++i) {
-    take("force", coarse.pairs[i].force, fine.pairs[i].force);
-    take("gap", coarse.pairs[i].gap, fine.pairs[i].gap);
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    take(coarse.ranges()[i].name, coarse.ranges()[i].least.value, fine.ranges()[i].least.value);
-    take(coarse.ranges()[i].name, coarse.ranges()[i].most.value, fine.ranges()[i].most.value);
-  }
-  for (std::size_t bed = 0; bed < coarse.what.beds.size(); ++bed)
-    take("pressure", beds_in(coarse)[bed].pressure.most.value, beds_in(fine)[bed].pressure.most.value);
-  return most;
-}
 
 struct tally_of_bounds {
   int from_32 = 0, proved_from_32 = 0;

@@ -33,7 +33,8 @@ double least_along(const poly& p, const stretch& s) {
 /// A stretch of a part where the depth d is certainly more than `least`, as long as is found; else empty.
 stretch stretch_beyond(const poly& d, double least) {
   const std::array<bool, 2> cut = {d.front() <= least, polynomial_at(d, 1.0) <= least};
-  for (double share = 0x1p-8; share < 0.3; share *= 2) {
+  for (int halvings = 8; halvings > 1; --halvings) {
+    const double share = std::ldexp(1.0, -halvings);
     const stretch s{cut[0] ? share : 0.0, cut[1] ? 1.0 - share : 1.0};
     if (least_along(d, s) > least) return s;
   }
@@ -197,7 +198,7 @@ std::string mesh_prover::find_rho() {
 void mesh_prover::compare_nodes(mesh_error& e) const {
   for (int node = 0; node < nodes(told_.what.geometry); ++node)
     for (const int dof : {0, 1}) {
-      const std::size_t at = 2 * line_.mesh->at(node) + dof;
+      const std::size_t at = std::size_t{2} * line_.mesh->at(node) + dof;
       e.take(name_of(dof == 0 ? quantity::w : quantity::slope), told_.state.displacement[2 * node + dof],
              line_.u[at].hi, reach(at) * rho_);
     }
@@ -245,7 +246,7 @@ void mesh_prover::compare_pairs(mesh_error& e) const {
   const auto compare_pair = [&](std::size_t i, double share) {
     const pair_reading& at = told_.pairs[i];
     const double k = p.pairs[i].stiffness;
-    const std::size_t dof = 2 * line_.mesh->at(p.pairs[i].node);
+    const std::size_t dof = std::size_t{2} * line_.mesh->at(p.pairs[i].node);
     const double w = line_.u[dof].hi;
     const double deep = p.pairs[i].surface * (w - at.face);
     const double rounding = 0x1p-48 * (std::abs(w) + std::abs(at.face));
@@ -345,6 +346,21 @@ mesh_error largest_of(std::span<const mesh_error> all) {
     }
   }
   return largest;
+}
+
+fine_mesh finely_divided(const problem& p) {
+  constexpr double little = 10;  // then each pass of the line makes what P lacks 50 times smaller
+  fine_mesh mesh{refined(p), 1};
+  const auto is_coarse = [&mesh] {
+    const auto& b = std::get<beam>(mesh.fine.geometry.kind);
+    double modulus = 0.0;
+    for (const bed& on : mesh.fine.beds) modulus += on.modulus;
+    for (int e = 0; e < b.elements(); ++e)
+      if (modulus * std::pow(b.length_of(e), 4) > little * b.EI[e]) return true;
+    return false;
+  };
+  for (; mesh.halvings < 6 && is_coarse(); ++mesh.halvings) mesh.fine = refined(mesh.fine);
+  return mesh;
 }
 
 mesh_error mesh_error_of(const problem& p, const std::shared_ptr<const fine_mesh>& mesh,

@@ -1,5 +1,5 @@
 // The error that the mesh of a beam on beds makes, proved by a line with distributed pressure
-// (results/bed_line.hpp). Symbols are those of reference/mesh-error.md.
+// (proof/bed_line.hpp). Symbols are those of reference/mesh-error.md.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/proof/bed_line.hpp"
 #include "contct/proof/solved_path.hpp"
-#include "contct/results/bed_line.hpp"
 
 namespace contct {
 
@@ -38,6 +38,9 @@ struct mesh_error {
   /// Is every error, but that of gaps, at most `share` of the largest number of its kind?
   [[nodiscard]] bool is_within(double share) const;
 };
+
+/// The fine mesh of a beam with beds.
+[[nodiscard]] fine_mesh finely_divided(const problem& p);
 
 /// Proves the mesh's error of the final state `s` of `p`. `mesh`: its fine mesh, not null for beams with
 /// beds.

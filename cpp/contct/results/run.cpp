@@ -114,7 +114,7 @@ void run::refine(int halvings) {
 
 void run::find_mesh_errors() {
   if (!std::holds_alternative<beam>(result.what.geometry.kind) || result.what.beds.empty()) return;
-  const auto mesh = std::make_shared<const fine_mesh>(result.what);
+  const auto mesh = std::make_shared<const fine_mesh>(finely_divided(result.what));
   for (const solved_step& s : result.record.steps) {
     result.mesh.push_back(mesh_error_of(result.what, mesh, s));
     if (to.proof == nullptr) result.mesh.back().line.reset();  // a line takes much memory

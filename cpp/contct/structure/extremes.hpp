@@ -27,6 +27,7 @@ struct line_start {
 };
 
 template <class Number>
+// NOLINTNEXTLINE(bugprone-exception-escape): moving numbers throws nothing
 struct line_of {
   line_polynomial<Number> w, slope, moment, shear;
 

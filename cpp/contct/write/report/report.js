@@ -155,8 +155,8 @@ function showCalls() {
 // ---- the ends of steps, the envelope and the input ----
 
 const markOf = (c) => (!c ? "no certificate" : c.certified ? "certified" : "NOT certified");
-const shareOf = (x, of) => `${Number((100 * x / of).toPrecision(2))} %`;
-const meshErrorOf = ({ kind, error, of }) => (kind !== "proved" ? null : Object.keys(error).filter((key) => of[key] > 0).map((key) => `${key} ${shareOf(error[key], of[key])}`).join(", "));
+// The proved error of the mesh beside a largest value.
+const meshErrorOf = ({ kind, error, of }, read) => (kind === "proved" && read(of) > 0 ? `; mesh error ${Number((100 * read(error) / read(of)).toPrecision(2))} %` : "");
 const quantityHead = (key) => inUnit(sentence(quantityOf(key).words).slice(0, -1), key);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const kindOf = ({ direction }) => (direction > 3 ? "couple" : direction > 0 ? "force" : "");  // empty: not known
@@ -180,25 +180,24 @@ function endTables() {
   const whole = steps.filter((s) => s.pairs);
   const someOf = (of) => (of.length < steps.length ? `, ${of.length} of ${steps.length} steps` : "");
   const quantities = Object.keys(steps[0]?.extremes || {});
-  const provesMesh = steps.some((s) => s.mesh.kind === "proved");
   const most = (list = [], key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
   const kinds = ["force", "couple", ""].filter((kind) => places.supports.some((s) => kindOf(s) === kind));
   const ofKind = (all, kind) => all.filter((r) => kindOf(places.locate(r, r.dof)) === kind);
-  const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v) => ({ number: v.value, at: placeOf(v) }))),
+  const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v, i) => ({ number: v.value, at: placeOf(v) + (i === 0 ? meshErrorOf(s.mesh, (of) => of[name]) : "") }))),
     most([s.largest.pair ?? []].flat(), "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.largest.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`)),
-    ...(provesMesh ? [meshErrorOf(s.mesh)] : []), markOf(s.certificate)];
+    markOf(s.certificate)];
   const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
   const [ownPairs, bedPairs] = [places.pairs.filter((p) => !p.bed), places.pairs.filter((p) => p.bed)];
   const paired = new Set(places.pairs.map((p) => p.u));
   const motionOf = (d) => (kindOf(d) === "couple" ? "Rotations" : kindOf(d) || paired.has(d.u) ? inUnit("Displacements u", "w") : "Displacements of dofs of unknown direction");
   const onBeds = bedPairs.length > 0 ? endsOf(6) : [];
   if (onBeds.length < whole.length && bedPairs.length > 0) cuts.add(`Contact forces of beds: the tables have ${onBeds.length} of ${steps.length} steps, those with the largest values.`);
-  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), b.force, ...[b.pressure.min, b.pressure.max].map((v) => [{ number: v.value, at: placeOf(v) }]), b.contact]));
+  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), b.force, ...[b.pressure.min, b.pressure.max].map((v, i) => [{ number: v.value, at: placeOf(v) + (i === 1 ? meshErrorOf(s.mesh, (of) => of.pressure) : "") }]), b.contact]));
   const hinges = steps.flatMap((s) => (s.hinges || []).map((h) => [stepName(s), String(h.hinge), h.x, h.rotation, h.moment]));
   return [
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
-    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "couple" ? "Reaction moment" : "Reaction", kind)), ...(provesMesh ? ["Mesh error, proved, of the largest"] : []), "Certificate"], steps.map(row)),
+    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "couple" ? "Reaction moment" : "Reaction", kind)), "Certificate"], steps.map(row)),
     ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds),
     ...tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],

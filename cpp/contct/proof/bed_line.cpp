@@ -1,4 +1,4 @@
-#include "contct/results/bed_line.hpp"
+#include "contct/proof/bed_line.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,16 @@
 #include <tuple>
 #include <utility>
 
-#include "contct/results/run_result.hpp"
-#include "contct/results/step_results.hpp"
-
 namespace contct {
 namespace {
 
 using poly = line_polynomial<double>;
+
+constexpr stretch whole = {0.0, 1.0};
+
+std::size_t dof_of(int node) {
+  return std::size_t{beam::dofs_per_node} * node;
+}
 
 /// a + share b.
 long_vector sum_of(const long_vector& a, const long_vector& b, const double_double& share = 1.0) {
@@ -49,29 +52,16 @@ double size_of(const long_vector& p) {
 
 }  // namespace
 
-fine_mesh::fine_mesh(const problem& p) : fine(refined(p)) {
-  const auto is_coarse = [this] {
-    constexpr double little = 0.02;
-    const auto& b = std::get<beam>(fine.geometry.kind);
-    double modulus = 0.0;
-    for (const bed& on : fine.beds) modulus += on.modulus;
-    for (int e = 0; e < b.elements(); ++e)
-      if (modulus * std::pow(b.length_of(e), 4) > little * 500 * b.EI[e]) return true;
-    return false;
-  };
-  for (; halvings < 6 && is_coarse(); ++halvings) fine = refined(fine);
-}
-
 hermite_part::hermite_part(const double_double& h, const double_double& from, const double_double& share,
                            std::size_t powers)
     : of_h(h), at(from), along(share) {
-  const std::array<long_vector, 4> whole = {
+  const std::array<long_vector, 4> hermite = {
       {{1.0, 0.0, -3.0, 2.0}, {0.0, h, h * -2.0, h}, {0.0, 0.0, 3.0, -2.0}, {0.0, 0.0, -h, h}}};
   long_vector inverse;
   for (std::size_t i = 0; i < powers + 4; ++i)
     inverse.push_back(double_double(1.0) / (static_cast<int>(i) + 1));
   for (std::size_t i = 0; i < 4; ++i) {
-    shapes[i] = formulas::in_element<double_double>(whole[i], from, share);
+    shapes[i] = formulas::in_element<double_double>(hermite[i], from, share);
     moments[i].resize(powers);
     for (std::size_t m = 0; m < powers; ++m)
       for (std::size_t k = 0; k < 4; ++k) moments[i][m] += shapes[i][k] * inverse[m + k];
@@ -109,24 +99,25 @@ double line_element::modulus() const {
 
 bed_line::bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, const structure_state& told)
     : mesh(std::move(fine)),
-      coarse_(p),
       on_(std::get<beam>(mesh->fine.geometry.kind)),
       acting_(mesh->fine.steps[told.step - 1]),
       points_(on_.x, on_.runs) {
   for (int node = 0, row = 0; node < on_.nodes(); ++node, row = rows_.back() + 1)
     rows_.insert(rows_.end(), {row, row + (on_.has_hinge(node) ? 2 : 1)});
-  for (const int node : on_.hinges) rows_.push_back(rows_[2 * node] + 1);
+  for (const int node : on_.hinges) rows_.push_back(rows_[dof_of(node)] + 1);
   const auto moved = sums_at_dofs<double_double>(p.steps[told.step - 1].moves, dofs(p.geometry), 2);
   for (const bed& b : p.beds) {
     powers_ = std::max(powers_, b.face.size());
-    auto& at = faces_.emplace_back(nodes(p.geometry));
-    const auto put = [&](const contact_pair& c) {
-      at[c.node] = moved[2 * c.node] + (b.face.empty() ? number_of<double_double>(c.face) : 0.0);
+    auto& at = nodes_.emplace_back(nodes(p.geometry));
+    const auto put = [&](const contact_pair& c, bool presses) {
+      const auto own = b.face.empty() ? number_of<double_double>(c.face) : double_double();
+      at[c.node] = {own + moved[dof_of(c.node)], presses};
     };
-    for (std::size_t i = 0; i < b.share.size(); ++i) put(p.pairs[b.first_pair + i]);
-    for (const contact_pair& c : b.held) put(c);
+    for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
+      put(p.pairs[i], told.closed(i));
+    for (const contact_pair& c : b.held) put(c, true);
   }
-  pairs_ = pairs_in<double_double>(std::span(mesh->fine.pairs).first(contacts_of(p)), 2);
+  pairs_ = pairs_in<double_double>(std::span(mesh->fine.pairs).first(p.beds.front().first_pair), 2);
   for (long_pair& c : pairs_) c.face += moved[c.dof >> mesh->halvings];
   const beam_elements<double_double> all(on_);
   for (int e = 0; e < on_.elements(); ++e) {
@@ -139,53 +130,33 @@ bed_line::bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, cons
   }
   for_each_exact_work<double_double>(on_, acting_,
                                      [this](int e, const auto& work) { elements[e].work = work; });
-  begin_with(told.displacement);
+  u.resize(rows_.size());
 }
 
-/// Sets u to the displacements of the problem's nodes, with cubics between them.
-void bed_line::begin_with(std::span<const double> at_nodes) {
-  u.assign(rows_.size(), 0.0);
-  for (std::size_t dof = 0; dof < at_nodes.size(); ++dof)
-    u[2 * mesh->at(static_cast<int>(dof) / 2) + dof % 2] = at_nodes[dof];
-  for (int apart = mesh->at(1); apart > 1; apart /= 2) {
-    for (int left = 0; left + apart < on_.nodes(); left += apart) {
-      const double h = on_.x[left + apart] - on_.x[left];
-      const double_double* const l = &u[2 * left];
-      const double_double* const r = &u[2 * (left + apart)];
-      const double_double chord = (r[0] - l[0]) / h;
-      const double_double turned = on_.has_hinge(left + apart) ? (chord * 3.0 - l[1]) * 0.5 : r[1];
-      u[2 * left + apart] = (l[0] + r[0] + (l[1] - turned) * (h / 4)) * 0.5;
-      u[2 * left + apart + 1] = chord * 1.5 - (l[1] + turned) * 0.25;
-    }
-  }
-}
-
-/// The face of a bed along a part of element `e`: the polynomial of the file, or linear between the nodes of
-/// the problem; moves are linear. Beyond the bed's last node it is as at this node.
-long_vector bed_line::face_along(std::size_t bed, int e, const line_part& part) const {
-  const int wide = e >> mesh->halvings;
-  const double share = 1.0 / mesh->at(1);
-  const auto [left, right] = std::pair(faces_[bed][wide], faces_[bed][wide + 1]);
-  const double_double first = left ? *left : right.value_or(0.0);
-  const double_double rise = right.value_or(first) - first;
-  const long_vector moved = {first + rise * ((part.from + (e - mesh->at(wide))) * share),
-                             rise * part.share * share};
-  long_vector face;
-  for (const double c : coarse_.beds[bed].face) face.push_back(number_of<double_double>(c));
-  if (face.empty()) return moved;
-  const double_double left_end = points_.at(e) + part.from * elements[e].h;
-  return sum_of(moved, formulas::in_element<double_double>(face, left_end, part.share * elements[e].h));
-}
-
-/// Adds to a part of element `e` the beds along it.
+/// Adds to a part of element `e` the beds along it. Their faces are the polynomials of the file, or linear
+/// between the nodes of the problem, as moves are; beyond the bed's last node as at this node.
 void bed_line::add_beds(line_part& part, int e) const {
   const double middle = part.load.left + (part.load.right - part.load.left) / 2;
   const std::vector<bed>& beds = mesh->fine.beds;
   for (std::size_t i = 0; i < beds.size(); ++i)
-    for (const bed_part& b : beds[i].parts)
-      if (b.from[0].x < middle && middle < b.to[0].x)
-        part.beds.push_back({i, mesh->fine.pairs[beds[i].first_pair].surface,
-                             number_of<double_double>(b.modulus), face_along(i, e, part)});
+    for (const bed_part& b : beds[i].parts) {
+      if (!(b.from[0].x < middle && middle < b.to[0].x)) continue;
+      const int wide = e >> mesh->halvings;
+      const double share = 1.0 / mesh->at(1);
+      const std::optional<bed_node>& right = nodes_[i][wide + 1];
+      const bed_node first = nodes_[i][wide].value_or(right.value_or(bed_node()));
+      const bed_node last = right.value_or(first);
+      const double_double rise = (last.face - first.face) * share;
+      long_vector face = {first.face + rise * (part.from + (e - mesh->at(wide))), rise * part.share};
+      long_vector polynomial;
+      for (const double c : beds[i].face) polynomial.push_back(number_of<double_double>(c));
+      const double_double& h = elements[e].h;
+      face = sum_of(face, formulas::in_element<double_double>(polynomial, points_.at(e) + part.from * h,
+                                                              part.share * h));
+      part.beds.push_back({i, mesh->fine.pairs[beds[i].first_pair].surface,
+                           number_of<double_double>(b.modulus), std::move(face),
+                           first.presses || last.presses ? whole : stretch()});
+    }
 }
 
 /// Divides the elements at the places where a load or a bed begins or ends, or has another modulus, and at
@@ -232,12 +203,14 @@ void bed_line::carry_over(const line_element& old, line_element& now) const {
     const auto in_old = [&at](const double_double& t) { return (t - at.from) / at.share; };
     part.before = formulas::in_element<double_double>(beyond_nodes(old, at, u), in_old(part.from),
                                                       part.share / at.share);
-    part.before.resize(std::min(part.before.size(), powers_));  // those above hardly count
-    for (double_double& c : part.before) c.lo = 0.0;            // any polynomial will do
+    part.before.resize(std::min(part.before.size(), powers_));
+    const double size = 0x1p-60 * size_of(part.before);  // any polynomial will do
+    while (part.before.size() > 4 && std::abs(part.before.back().hi) <= size) part.before.pop_back();
+    for (double_double& c : part.before) c.lo = 0.0;
     for (bed_along& b : part.beds) {
       const auto was = std::ranges::find(at.beds, b.bed, &bed_along::bed);
-      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle).hi) > 0.0)
-        b.pressed = {0.0, 1.0};
+      b.pressed = {};
+      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle).hi) > 0.0) b.pressed = whole;
     }
   }
 }
@@ -265,7 +238,7 @@ long_system bed_line::system_with(stretch bed_along::*at_all) const {
   }
   for (std::size_t i = 0; i < on_.hinges.size(); ++i) {
     const auto s = number_of<double_double>(on_.stiffness_of_hinge(on_.hinges[i]));
-    const std::array<int, 2> turns = {2 * on_.hinges[i] + 1, static_cast<int>(2 * on_.nodes() + i)};
+    const std::array<int, 2> turns = {2 * on_.hinges[i] + 1, static_cast<int>(dof_of(on_.nodes()) + i)};
     for (const int row : turns)
       for (const int column : turns) e.stiffness[row][column] += row == column ? s : -s;
   }
@@ -404,7 +377,7 @@ std::string bed_line::settle() {
   constexpr int most = 20;
   for (int i = 0; i < most; ++i) {
     if (!divide()) return "places are too close to each other";
-    if (i > 0 && !solve()) return "nothing holds the beam";
+    if (!solve()) return "nothing holds the beam";
     evaluate();
     std::vector<int> pressing;
     for (std::size_t pair = 0; pair < pairs_.size(); ++pair)

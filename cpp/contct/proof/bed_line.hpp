@@ -18,8 +18,6 @@ namespace contct {
 /// A problem with its elements halved until the pressure of the beds changes each element's deflection
 /// little, so that P converges quickly.
 struct fine_mesh {
-  explicit fine_mesh(const problem& p);
-
   /// The node at node `n` of the problem, and the element at the left end of its element `n`.
   [[nodiscard]] int at(int n) const { return n << halvings; }
 
@@ -59,6 +57,7 @@ struct hermite_part {
 };
 
 /// A part of an element along which load, beds and faces are polynomials in s, from 0 to 1.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving numbers throws nothing
 struct line_part {
   element_piece load;
   double_double from, share;  ///< its left end and its length, as shares of the element's length
@@ -88,9 +87,9 @@ struct line_element {
 
 class bed_line {
  public:
-  /// The line of the program's state `told` of `p`, a beam with beds and without shear flexibility. `p` must
-  /// outlive this object.
-  bed_line(const problem& p, std::shared_ptr<const fine_mesh> mesh, const structure_state& told);
+  /// The line of the program's state `told` of `p`, a beam with beds and without shear flexibility, on
+  /// its fine mesh.
+  bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, const structure_state& told);
 
   /// Solves for the line, and moves the ends of contact to its zeros, until both hardly change. Returns why
   /// this failed, or "".
@@ -116,10 +115,8 @@ class bed_line {
   std::optional<stiffness_proof> held;  ///< the proof of mu
 
  private:
-  void begin_with(std::span<const double> at_nodes);
   [[nodiscard]] bool divide();
   void add_beds(line_part& part, int e) const;
-  [[nodiscard]] long_vector face_along(std::size_t bed, int e, const line_part& part) const;
   void carry_over(const line_element& old, line_element& now) const;
   [[nodiscard]] bool solve();
   [[nodiscard]] double press(line_part& part, const line_element& on) const;
@@ -127,16 +124,17 @@ class bed_line {
   [[nodiscard]] std::vector<double> ends_found() const;
   [[nodiscard]] bool is_settled(const std::vector<double>& next) const;
 
-  const problem& coarse_;
   const beam& on_;
   const load& acting_;
   line<double_double> points_;
   std::size_t powers_ = 12;  // of the polynomials of P
   std::vector<int> rows_;
   std::vector<long_pair> pairs_;  // those of [[contact]], with their moves
-  /// [beds][nodes of the problem] the move of the face, with the face unless it is a polynomial; empty where
-  /// the bed has no node.
-  std::vector<std::vector<std::optional<double_double>>> faces_;
+  struct bed_node {
+    double_double face = {};  // its move, with the face unless that is a polynomial
+    bool presses = false;     // in the state that the line begins with
+  };
+  std::vector<std::vector<std::optional<bed_node>>> nodes_;  // [beds][nodes of the problem]
 };
 
 }  // namespace contct
