@@ -309,10 +309,10 @@ def leaves_nothing_out():
     check("gap" in paper and not re.search(r"[Cc]lick|[Pp]oint at", paper), "gaps are on paper, and nothing is to be clicked")
 
 
-def tells_warnings():
-    """Warnings are shown before the results, on screen and on paper."""
+def tells_of_the_mesh():
+    """What is known about the mesh is shown before the results, on screen and on paper."""
     paper = " ".join("".join(sheets()).split())
-    for piece in ("the mesh is coarse for this bed", "Half the element size changes the deflection by"):
+    for piece in ("mesh error, proved: ", "Half the element size changes the deflection by"):
         check(piece in words_of("verdict") and -1 < paper.find(piece) < paper.find("Results at the ends"), f"before the results, on paper too, it says \"{piece}\"")
 
 
@@ -555,7 +555,7 @@ RUNS = [  # (check, pages, arguments)
     (paper_has, "pp05a", "PP5a Free square plate on a tensionless bed, 8 x 8 to a quarter",
      ("Deflection", "Pressure of the beds", "Moment mx", "Moment my", "Twisting moment mxy")),
     (paper_has, "strip", "Slab strip (22 axle places): \"A & B\"", ("Moment, positive", "Shear, of the left", "Bed's pressure [kN/m]", "EI from x = 0 to 24", "20000")),
-    (has_the_largest_rows, "strip"), (has_envelope_curves, "strip"), (leaves_nothing_out, "yard"), (tells_warnings, "yard"),
+    (has_the_largest_rows, "strip"), (has_envelope_curves, "strip"), (leaves_nothing_out, "yard"), (tells_of_the_mesh, "yard"),
     (tells_every_force, "pb07 row", 3), (tells_every_force, "close", 14), (tells_every_force, "bolts", 2), (tells_loads_of_beams, "close"),
     (outlines_loads_of_plates, "bolts"), (adds_up_by_direction, "frame", ["x", "y"] * 3), (saves_its_picture, "pb07 pp05a"),
     (pressed_faces_are_where_the_beam_is, "pb07", 6), (tells_sums_of_forces, "pb07"), (tables_fit, "pb07 strip settling"),

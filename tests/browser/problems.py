@@ -35,7 +35,7 @@ for k in range(22):
     strip += f'[[step]]\nname = "axles at {0.5 + k}"\npoint = [ {axles} ]\n'
 write("strip", strip + '[[step]]\nname = "one axle alone, in the middle of the strip, where the soil is softest"\npoint = [ { x = 12.0, w = -100.66 } ]\n')
 
-# 27 combinations of a strip on a bed with a coarse mesh, held down by two bolts, one of which has a gap.
+# 27 combinations of a strip on a bed, held down by two bolts, one of which has a gap.
 write("yard", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 10.0\nelement_size = 0.2\nEI = 2.0e4\n[[bed]]\nmodulus = 4.0e6\nface = 0.0\n'
       '[[contact]]\nx = [2.0, 8.0]\nsurface = "above"\nface = [0.0, 0.001]\nstiffness = 1.0e4\n[[case]]\nname = "G"\nuniform = -5.0\n'
       '[[combination]]\nname = "G alone"\nterms = { G = 1.0 }\n[[train]]\nname = "fork"\naxles = [ { at = 0.0, w = -80.0 } ]\n'

@@ -257,8 +257,10 @@ TEST_CASE("the data of the report page have the loads of each case without the f
 TEST_CASE("the JSON result and the report page have the warnings about the problem and about the states") {
   for (const auto& [text, warning] :
        {std::pair(span + "[[step]]\nuniform = -261502222.2222222222\n", "~261502222"),
-        {"[beam]\nlength = 4\nelements = 2\nEI = 1\n[[bed]]\nmodulus = 4\nface = 0\n[[step]]\nuniform = -1\n",
-         "~bed[1]: the mesh is coarse for this bed"},  // (4 EI / modulus)^(1/4) is 1
+        {"[beam]\nlength = 4\nelements = 2\nEI = 1\n[[support]]\nnode = 3\nfix = 'w'\n[[bed]]\nnodes = [1, "
+         "2]\nmodulus = 4\nface = 0\n"
+         "[[step]]\nuniform = -1\n",
+         "~bed[1]: the bed acts to x = 3"},
         {"[plate]\nsize = [1, 1]\nelements = [2, 2]\nE = 1\nnu = 0.3\nthickness = 1\n[[support]]\n"
          "nodes = [1, 2, 3, 4, 6, 7, 8, 9]\nfix = 'w'\n[[step]]\npoint = [ { node = 5, w = -1 } ]\n",
          "~under a point load"}}) {

@@ -33,12 +33,6 @@ facing read_facing(const toml_value& t, int default_surface) {
   return f;
 }
 
-/// The positive number x, rounded down to 3 digits, so that a user can type it as printed.
-double rounded_down(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
-  return std::floor(x / unit * (1 + 1e-12)) * unit;
-}
-
 /// Reads one file into one problem, table by table.
 class problem_reader {
  public:
@@ -288,10 +282,7 @@ class problem_reader {
           .push_back(made.parts.empty() ? exact_shares_[node] : rounded(springs.share[node]));
     }
     if (made.share.empty()) t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
-    if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) {
-      warn_of_spacing(t, *b, made.modulus, at);
-      warn_of_ends(t, *b, made);
-    }
+    if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) warn_of_ends(t, *b, made);
     problem_.beds.push_back(std::move(made));
   }
 
@@ -315,26 +306,6 @@ class problem_reader {
               fmt::format("; the half elements at node {} belong to another bed too", node + 1);
         return;
       }
-  }
-
-  /// Warns if neighbouring nodes of a bed are more than half of (4 EI / modulus)^(1/4) apart, the length over
-  /// which the beam bends on ground of this modulus. Names only the worst place.
-  void warn_of_spacing(const toml_value& t, const beam& b, double modulus, std::vector<int> at) {
-    std::ranges::sort(at);
-    double worst = 1.0 + 1e-9;
-    std::string warning;
-    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
-      const int e = at[i];
-      if (at[i + 1] != e + 1) continue;
-      const double most = std::pow(4 * b.EI[e], 0.25) / std::pow(modulus, 0.25) / 2;  // cannot underflow
-      if (b.length_of(e) <= worst * most) continue;
-      worst = b.length_of(e) / most;
-      warning = fmt::format(
-          "{0}: the mesh is coarse for this bed: nodes {1} and {2} are {3:.6g} apart; allowed: {4:.3g}, "
-          "half of (4 EI / modulus)^(1/4); set element_size = {4:.3g} in [beam]",
-          t.where(), e + 1, e + 2, b.length_of(e), rounded_down(most));
-    }
-    if (!warning.empty()) problem_.warnings.push_back(warning);
   }
 
   named_files files_;
