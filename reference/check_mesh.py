@@ -11,6 +11,8 @@ KINDS = ("w", "moment", "shear")
 
 def root(x):
     """Returns the square root of x >= 0, rounded up."""
+    if not x:
+        return F(0)
     shift = max(0, 200 - x.numerator.bit_length() + x.denominator.bit_length()) // 2 * 2
     return F(isqrt((x.numerator << shift) // x.denominator) + 1, 1 << shift // 2)
 
@@ -41,7 +43,8 @@ def grown(p, start, h):
 def most(p, reached=-inf):
     """Returns a bound on the values of p from 0 to 1, and the largest of `reached` and of the values that were seen, nearly."""
     n = len(p) - 1
-    first = [nextafter(float(sum(F(comb(j, i), comb(n, i)) * p[i] for i in range(j + 1))), inf) for j in range(n + 1)]  # Bernstein's coefficients
+    exact = [sum(F(comb(j, i), comb(n, i)) * p[i] for i in range(j + 1)) for j in range(n + 1)]  # Bernstein's coefficients
+    first = [float(x) if F(float(x)) >= x else nextafter(float(x), inf) for x in exact]
     size, bound, open = max(map(abs, first)), -inf, [(first, 0)]
     while open:
         b, halved = open.pop()
@@ -223,13 +226,14 @@ def check_mesh(p, mesh, f, settled, own, told):
     error, of = ({kind: F(x) for kind, x in mesh[key].items()} for key in ("error", "of"))
     for number, ((kind, true, bound), x) in enumerate(zip(line.claims(), told, strict=True)):
         need(abs(F(x) - true) + bound <= error[kind] and abs(F(x)) <= of[kind], f"the mesh's bound on {kind} does not hold for number {number + 1}")
-    for kind in KINDS:
+    for kind in mesh["extremes"]:
+        need(kind in KINDS, f"extremes of {kind}")
         for key, sign in (("min", -1), ("max", 1)):
             claimed, reached, bound = sign * F(mesh["extremes"][kind][key]), -inf, -inf
             for part in line.parts:
                 here, reached = most([sign * c for c in getattr(part, kind)], reached)
                 bound = max(bound, here)
-            size = F(mesh["of"][kind]) / 10**6
+            size = F(mesh["of"][kind]) / 10**6 + F(1, 2**1000)
             need(reached - size <= claimed <= bound + size, f"the {key} of {kind} without mesh error is another")
     for bed, pairs in enumerate(p.bed_pairs):
         for i, share in pairs:

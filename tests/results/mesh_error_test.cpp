@@ -135,5 +135,6 @@ TEST_CASE("What is not proved about the mesh says why") {
   CHECK(why("[beam]\nlength = 2\nelements = 8\nEI = 1\n[[support]]\nnode = 1\nfix = ['w', "
             "'theta']\n[[hinge]]\nx = 1\n"
             "[[bed]]\nmodulus = 10\nface = 0\n[[step]]\nuniform = [ { value = -1, to = 1 }, { value = -1e-8, "
-            "from = 1 } ]\n") == "it is not certain that contact holds the beam");
+            "from = 1 } ]\n") ==
+        "it is not certain that contact holds the beam; use a finer mesh (element_size)");
 }

@@ -115,10 +115,13 @@ bed_line::bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, cons
     };
     for (std::size_t i = b.first_pair; i < b.first_pair + b.share.size(); ++i)
       put(p.pairs[i], told.closed(i));
-    for (const contact_pair& c : b.held) put(c, true);
+    for (const contact_pair& c : b.held)  // its displacement is prescribed
+      put(c, depth_of(c, told.displacement[dof_of(c.node)] - moved[dof_of(c.node)].hi) > 0.0);
   }
   pairs_ = pairs_in<double_double>(std::span(mesh->fine.pairs).first(p.beds.front().first_pair), 2);
   for (long_pair& c : pairs_) c.face += moved[c.dof >> mesh->halvings];
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (told.closed(i)) pressed.push_back(static_cast<int>(i));
   const beam_elements<double_double> all(on_);
   for (int e = 0; e < on_.elements(); ++e) {
     const auto hinge = static_cast<int>(std::ranges::lower_bound(on_.hinges, e + 1) - on_.hinges.begin());
@@ -374,7 +377,7 @@ std::vector<double> bed_line::ends_found() const {
 }
 
 std::string bed_line::settle() {
-  constexpr int most = 20;
+  constexpr int most = 50;
   for (int i = 0; i < most; ++i) {
     if (!divide()) return "places are too close to each other";
     if (!solve()) return "nothing holds the beam";
@@ -384,7 +387,10 @@ std::string bed_line::settle() {
       if (depth_of(pairs_[pair], u[pairs_[pair].dof]).hi > 0.0) pressing.push_back(static_cast<int>(pair));
     const bool pairs_stay = std::exchange(pressed, pressing) == pressing;
     std::vector<double> next = ends_found();
-    if (i > 0 && pairs_stay && is_settled(next)) break;
+    if (i > 0 && pairs_stay && is_settled(next)) {
+      settled = true;
+      break;
+    }
     if (i + 1 < most) ends = std::move(next);
   }
   return "";
@@ -399,7 +405,8 @@ bool bed_line::is_settled(const std::vector<double>& next) const {
   double shortest = on_.x.back() - on_.x.front();
   for (const line_element& on : elements)
     for (const line_part& part : on.parts) {
-      off = std::max(off, part.modulus() * sum_of_sizes(late(on, part)));
+      const double lacks = sum_of_sizes(late(on, part));
+      for (const bed_along& b : part.beds) off = std::max(off, b.modulus.hi * b.pressed.length() * lacks);
       all = std::max(all, size_of(part.pressure));
       shortest = std::min(shortest, on.h.hi);
     }

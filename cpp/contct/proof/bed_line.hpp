@@ -23,6 +23,7 @@ struct fine_mesh {
 
   problem fine;
   int halvings = 1;
+  bool coarse = false;  ///< the elements are too long for P to converge
 };
 
 /// A stretch of a part of an element, as shares of the part's length; empty if both are equal.
@@ -109,6 +110,7 @@ class bed_line {
   const std::shared_ptr<const fine_mesh> mesh;
   std::vector<line_element> elements;
   long_vector u;                        ///< [dofs] of the nodes, then the rotations left of hinges
+  bool settled = false;                 ///< further passes would hardly change the line
   std::vector<int> pressed;             ///< the pairs of [[contact]] in contact, from 0
   std::vector<double> ends;             ///< of contact, ascending
   std::vector<int> closed;              ///< the pairs of A

@@ -189,8 +189,8 @@ long_residual long_system::residual(std::span<const double_double> u, const long
     add_pressing(p, u, r.needed);
   }
   for (const long_pair& p : with_moved_faces(held, l.moved)) {
-    r.slack[p.dof] +=
-        p.stiffness.hi * (std::abs(u[p.dof].hi) + std::abs(p.face.hi) + std::abs(l.moved[p.dof].hi));
+    const double size = std::abs(u[p.dof].hi) + std::abs(p.face.hi) + std::abs(l.moved[p.dof].hi);
+    if (depth_of(p, p.seen_in(u)).hi > -long_rounding * size) r.slack[p.dof] += p.stiffness.hi * size;
     add_pressing(p, u, r.needed);
   }
   put_forces(r);

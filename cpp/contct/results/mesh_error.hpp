@@ -30,7 +30,7 @@ struct true_extremes {
 struct mesh_error {
   std::string not_proved = {};  ///< why nothing is proved, in words; empty if the bounds are proved
   std::vector<mesh_number> numbers = {};
-  std::vector<true_extremes> extremes = {};
+  std::vector<true_extremes> extremes = {};   ///< empty unless w1 is within certificate::allowed
   std::shared_ptr<const bed_line> line = {};  ///< the proof: w1, and A in bed_along::certain
 
   /// Takes the error and the size of a printed number. `exact`: that of w1, which is off by at most `bound`.

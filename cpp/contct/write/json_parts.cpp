@@ -164,6 +164,7 @@ json mesh_error_json(const mesh_error& e) {
     out["error"][std::string(n.key)] = n.error;
     out["of"][std::string(n.key)] = n.of;
   }
+  out["extremes"] = json::object();
   for (const true_extremes& x : e.extremes)
     out["extremes"][std::string(x.key)] = {{"min", x.least}, {"max", x.most}};
   return out;

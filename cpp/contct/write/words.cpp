@@ -97,24 +97,25 @@ namespace {
 
 /// What is proved about the mesh of a beam with beds, over all steps.
 std::vector<std::string> mesh_words(const problem& p, const mesh_error& e) {
-  if (!e.not_proved.empty())
-    return {"the error of the mesh is not proved: " + e.not_proved + "; use a finer mesh (element_size)"};
+  if (!e.not_proved.empty()) return {"the error of the mesh is not proved: " + e.not_proved};
   std::vector<std::string> shares;
   for (const mesh_number& n : e.numbers) {
     const auto is = [&n](quantity q) { return n.key == name_of(q).key; };
     const bool is_force = is(quantity::force);
     const bool is_told = !is(quantity::slope) && !is(quantity::gap) && (!is_force || contacts_of(p) > 0);
     if (is_told && n.of > 0.0)
-      shares.push_back(fmt::format("{} {:.2g} %", is_force ? name_of(quantity::force).words : n.key,
-                                   100 * n.error / n.of));
+      shares.push_back(fmt::format("{} {}", is_force ? name_of(quantity::force).words : n.key,
+                                   percent_words(n.error / n.of)));
   }
+  if (shares.empty()) return {};
   std::vector<std::string> items = {"mesh error, proved: " + joined(shares, ", ") + " of the largest"};
   std::vector<std::string> without;
   constexpr double noticeable = 0.01;
   for (const true_extremes& x : e.extremes) {
     const bool is_most = x.most >= -x.least;
-    const double exact = is_most ? x.most : x.least;
     const double told = std::max(x.told_most, -x.told_least) * (is_most ? 1 : -1);
+    const double found = is_most ? x.most : x.least;
+    const double exact = std::abs(found) > 1e-9 * std::abs(told) ? found : 0.0;  // rounding
     if (std::abs(exact - told) > noticeable * std::abs(exact))
       without.push_back(fmt::format("{} {:.6g}{}", x.key, exact, unit_words(p, row_named(p, x.key).in)));
   }
