@@ -60,25 +60,48 @@ def check_format(p, s):
         check_state(p, s)
 
 
-MESH = ["kind", "error", "of", "extremes", "halvings", "ends", "u", "closed", "parts", "scale", "row_of", "shift", "L"]
-
-
 def check_state(p, s):
-    if "mesh" in s:
-        need(set(s["mesh"]) - {"L_low"} == set(MESH) and whole(s["mesh"]["halvings"], 1, 6), "mesh: other keys, or halvings")
-        need(p.continuum and set(s["mesh"]["error"]) == {*p.kinds, "pressure"} - {kind for kind, count in p.kinds.items() if not count}, "mesh: other bounds")
     each(s["displacement"], p.n, real, "displacement")
     each(s["state"], len(p.pairs), lambda x: x in ("contact", "separated"), "state")
-    each(s["u"], p.n, pair, "u")
     each(s["z"], p.n if s["z"] else 0, pair, "z")
-    each(s["scale"], p.n, lambda x: whole(x, -1100, 1100), "scale")
-    each(s["row_of"], p.n, lambda x: whole(x, 0, p.n - 1), "row_of")
-    need(len(set(s["row_of"])) == p.n, "row_of: two dofs have one row")
+    check_held(s, p.n, len(p.pairs))
+    if "mesh" in s:
+        check_line(p, s["mesh"])
+
+
+def check_held(s, n, pairs):
+    """Raises ValueError if u, A or the factor of K_A, for n dofs and so many pairs, breaks the format."""
+    each(s["u"], n, pair, "u")
+    each(s["scale"], n, lambda x: whole(x, -1100, 1100), "scale")
+    each(s["row_of"], n, lambda x: whole(x, 0, n - 1), "row_of")
+    need(len(set(s["row_of"])) == n, "row_of: two dofs have one row")
     need(real(s["shift"]) and s["shift"] > 0, "shift: not a positive number")
-    each(s["closed"], len(s["closed"]) if type(s["closed"]) is list else 0, lambda x: whole(x, 1, len(p.pairs)), "closed")
-    need(all(a < b for a, b in zip(s["closed"], s["closed"][1:])), "closed: not in increasing order")
-    each(s["L"], p.n, lambda row: type(row) is list and all(map(real, row)), "L")
+    ascends(s["closed"], pairs, "closed")
+    each(s["L"], n, lambda row: type(row) is list and all(map(real, row)), "L")
     need(all(1 <= len(row) <= i + 1 for i, row in enumerate(s["L"])), "L: a row is empty or too long")
     if "L_low" in s:
-        each(s["L_low"], p.n, lambda row: type(row) is list and all(map(real, row)), "L_low")
+        each(s["L_low"], n, lambda row: type(row) is list and all(map(real, row)), "L_low")
         need(list(map(len, s["L"])) == list(map(len, s["L_low"])), "L_low: not the rows of L")
+
+
+def ascends(numbers, most, what):
+    each(numbers, len(numbers) if type(numbers) is list else 0, lambda x: whole(x, 1, most), what)
+    need(all(a < b for a, b in zip(numbers, numbers[1:])), f"{what}: not in increasing order")
+
+
+LINE = {"kind", "error", "of", "extremes", "halvings", "ends", "u", "closed", "parts", "scale", "row_of", "shift", "L"}
+
+
+def check_line(p, line):
+    """Raises ValueError if the line of a mesh's error breaks the format. A stretch or pair of A that stood twice would count twice."""
+    need(type(line) is dict and set(line) - {"L_low"} == LINE and line["kind"] == "proved" and p.continuum, "mesh: other keys")
+    need(whole(line["halvings"], 1, 6), "halvings: not from 1 to 6")
+    kinds = {kind for kind, count in p.kinds.items() if count} | {"pressure"}
+    need(all(type(line[key]) is dict and set(line[key]) == kinds and all(map(real, line[key].values())) for key in ("error", "of")), "mesh: other bounds")
+    nodes = (len(p.lines[0]) - 1) * 2**line["halvings"] + 1
+    check_held(line, 2 * nodes + sum(element.free > 0 for element, _, _ in p.elements), p.contacts)
+    for values in (line["ends"], *(part["before"] for part in line["parts"])):
+        each(values, len(values), real, "a number of the line")
+    for part in line["parts"]:
+        ascends(part["pressed"], len(p.continuum), "pressed")
+        ascends([number for number, _, _ in part["certain"]], len(p.continuum), "certain")

@@ -69,16 +69,15 @@ class Line:
     def __init__(self, p, s, f, settled, own):
         self.p, self.s = p, s
         N, x = 2**s["halvings"], p.lines[0]
-        self.nodes = [a + (b - a) * i / N for a, b in zip(x, x[1:]) for i in range(N)] + [x[-1]]
+        nodes = [a + (b - a) * i / N for a, b in zip(x, x[1:]) for i in range(N)] + [x[-1]]
         self.node = lambda node: node * N
         hinges = [e for e, (element, _, _) in enumerate(p.elements) if element.free]
-        count = 2 * len(self.nodes) + len(hinges)
-        need(len(s["u"]) == count, "the line has another number of displacements")
+        count = 2 * len(nodes) + len(hinges)
         self.fixed = {self.dof(dof) for dof in p.fixed}
         u = self.u = [F(hi) + F(lo) for hi, lo in s["u"]]
         for dof, at in settled.items():
             u[self.dof(dof)] = at
-        self.K, self.held = ([{i: F(0)} for i in range(count)] for _ in range(2))  # the beam; K_A
+        self.held = [{i: F(0)} for i in range(count)]  # K_A
         self.rest, self.parts, self.ends = [F(0)] * count, [], []
         for dof, force in enumerate(f):
             self.rest[self.dof(dof)] += force
@@ -86,11 +85,11 @@ class Line:
             for dof, force in zip(dofs, work):
                 self.rest[self.dof(dof)] -= force
         cuts, given = sorted({at for _, at, _ in p.acting} | {x for bed in p.continuum for part in bed.parts for x in part[:2]} | {F(str(x)) for x in s["ends"]}), iter(s["parts"])
-        for e, (element, _, left) in enumerate(p.elements):
+        for e, (element, _, _) in enumerate(p.elements):
             for i in range(N):
                 node = N * e + i
-                right = 2 * len(self.nodes) + hinges.index(e) if i == N - 1 and element.free else 2 * node + 3
-                self.element(element, e, [2 * node, 2 * node + 1, 2 * node + 2, right], self.nodes[node], self.nodes[node + 1], cuts, given)
+                right = 2 * len(nodes) + hinges.index(e) if i == N - 1 and element.free else 2 * node + 3
+                self.element(element, e, [2 * node, 2 * node + 1, 2 * node + 2, right], nodes[node], nodes[node + 1], cuts, given)
             if element.free:
                 spring, pair = element.near * (1 - element.free) / element.free, (right, 2 * node + 3)
                 for i, j in ((i, j) for i in pair for j in pair):
@@ -120,7 +119,7 @@ class Line:
         for a, b in zip(places, places[1:]):
             told = next(given, None)
             need(told is not None, "the line has fewer parts than the beam")
-            part = SimpleNamespace(e=len(self.ends), x=a, h=b - a, shapes=[along(shape, (a - x0) / H, (b - a) / H) for shape in base], beds=[], certain=[])
+            part = SimpleNamespace(e=len(self.ends), h=b - a, shapes=[along(shape, (a - x0) / H, (b - a) / H) for shape in base], beds=[], certain=[])
             at = lambda kind, power: sum(jump for (k, x, i), jump in self.p.acting.items() if k == kind and i == power and x <= a)
             powers = max([i for k, _, i in self.p.acting if k == "uniform"] + [0])
             part.q, part.curvature = along([at("uniform", i) for i in range(powers + 1)], a, b - a), F(at("curvature", 0))

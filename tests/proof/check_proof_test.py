@@ -468,6 +468,11 @@ def check_mesh_faults():
         "halvings": put_at(2, "halvings"), "L": put_at([[0.0] * len(row) for row in mesh["L"]], "L"), "no bounds": lambda step: step["mesh"].pop("error")}
     for name, fault in faults.items():
         expect(1, f"a line with a fault: {name}", problem, altered(proof, number, fault))
+    stretch = mesh["parts"][pressing]["certain"][0]
+    for name, fault, said in (("a stretch counts twice", put_at([stretch, stretch], "parts", pressing, "certain"), "certain: not in increasing order"),
+                              ("a pair before the first", put_at([0], "closed"), "closed: not"), ("a bed's pair, which the line does not have", put_at([1], "closed"), "closed: not"),
+                              ("two dofs have one row", put_at([0] * len(mesh["row_of"]), "row_of"), "row_of: two")):
+        expect(1, f"a line with a fault: {name}", problem, altered(proof, number, fault), f"(?s).*REFUSED: {said}")
 
 
 with tempfile.TemporaryDirectory() as scratch:

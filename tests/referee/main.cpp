@@ -146,11 +146,10 @@ int judge_and_count(std::uint64_t count, std::uint64_t seed, int jobs, family of
   return passed ? 0 : 1;
 }
 
-int judge_one(const contct::problem& p) {
-  const judgements all = judge_all_ways(p);
+int tell(const std::string& title, const judgements& all) {
   for (std::size_t w = 0; w < ways; ++w) {
     const judgement& j = all[w];
-    fmt::print("{}, {}: {} steps, {} certified, {} values compared\n", p.title, way_names[w], j.steps,
+    fmt::print("{}, {}: {} steps, {} certified, {} values compared\n", title, way_names[w], j.steps,
                j.certified, j.values);
     for (const finding& f : j.findings)
       fmt::print("  {}: {}\n", fault_names[static_cast<int>(f.what)], f.words);
@@ -176,7 +175,9 @@ int main(int argc, char** argv) {
   program.add_flag("--hinge", of.hinge, "Beams with semi-rigid hinges");
   CLI11_PARSE(program, argc, argv);
   try {
-    return only ? judge_one(draw(seed, *only, of)) : judge_and_count(count, seed, jobs, of);
+    if (!only) return judge_and_count(count, seed, jobs, of);
+    const contct::problem p = draw(seed, *only, of);
+    return of.bed ? tell("a beam on beds", {judge_meshes(seed + *only)}) : tell(p.title, judge_all_ways(p));
   } catch (const std::exception& e) {
     fmt::print(stderr, "contct_referee: {}\n", e.what());
     return 2;

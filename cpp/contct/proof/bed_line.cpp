@@ -218,7 +218,7 @@ void bed_line::carry_over(const line_element& old, line_element& now) const {
   }
 }
 
-long_system bed_line::system_with(stretch bed_along::*at_all) const {
+long_system bed_line::system_with(stretch bed_along::*where) const {
   equations<double_double> e;
   e.fixed.assign(rows_.size(), 0);
   e.stiffness.resize(rows_.size());
@@ -226,7 +226,7 @@ long_system bed_line::system_with(stretch bed_along::*at_all) const {
     auto own = formulas::beam_stiffness<double_double>(on.EI, on.h, 0.0);
     for (const line_part& part : on.parts)
       for (const bed_along& b : part.beds) {
-        const stretch& at = b.*at_all;
+        const stretch& at = b.*where;
         if (at.length() == 0.0) continue;
         std::shared_ptr<const hermite_part> shapes = part.hermite;
         if (at.length() < 1.0)
@@ -347,8 +347,8 @@ void bed_line::evaluate() {
   }
 }
 
-/// The ends of contact: where the depth of a bed changes its sign. An end that is found again, up to
-/// rounding, stays where it is, and a place that is nearly an end already divides the element.
+/// The places where the depth of a bed is 0. One that is nearly where it was before stays there, and none is
+/// set close beside a place that divides the element anyway.
 std::vector<double> bed_line::ends_found() const {
   std::vector<double> all;
   for (const line_element& on : elements)
@@ -396,7 +396,7 @@ std::string bed_line::settle() {
   return "";
 }
 
-/// Is the pressure that P lacks, and the change of the ends of contact to `next`, too small to count?
+/// Is the pressure that P lacks negligible, and the distance of the ends of contact from `next`?
 bool bed_line::is_settled(const std::vector<double>& next) const {
   constexpr double of_pressure = 1e-8;
   constexpr double of_length = 1e-5;

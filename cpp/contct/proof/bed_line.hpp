@@ -43,18 +43,18 @@ struct bed_along {
   stretch certain = {};  ///< in the set A: where the bed certainly presses
 };
 
-/// Hermite's functions of an element of length h, along a part of it, and the integrals over the part of
-/// their products with powers of s; both divided by lengths in s.
+/// Hermite's functions of an element of length h, as polynomials in s, from 0 to 1 along a part of the
+/// element, and integrals over s of their products.
 struct hermite_part {
   hermite_part(const double_double& h, const double_double& from, const double_double& share,
                std::size_t powers);
 
-  /// The integrals of the products with the polynomial p.
+  /// The integral of each function times the polynomial p.
   [[nodiscard]] std::array<double_double, 4> products(const long_vector& p) const;
 
   double_double of_h, at, along;
-  std::array<long_vector, 4> shapes, moments;
-  std::array<std::array<double_double, 4>, 4> stiffness;  ///< of a bed with a modulus of 1 / length
+  std::array<long_vector, 4> shapes, moments;  ///< moments[i][m]: the integral of function i times s^m
+  std::array<std::array<double_double, 4>, 4> stiffness;  ///< the integrals of products of two functions
 };
 
 /// A part of an element along which load, beds and faces are polynomials in s, from 0 to 1.
@@ -92,15 +92,15 @@ class bed_line {
   /// its fine mesh.
   bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, const structure_state& told);
 
-  /// Solves for the line, and moves the ends of contact to its zeros, until both hardly change. Returns why
-  /// this failed, or "".
+  /// Solves for the line, and moves the ends of contact to where depths are 0, until both hardly change, or
+  /// 50 times. Returns why there is no line, or "".
   [[nodiscard]] std::string settle();
 
-  /// The equations of the beam with the beds along all these stretches.
-  [[nodiscard]] long_system system_with(stretch bed_along::*at_all) const;
+  /// The equations of the beam on two-sided beds along these stretches, with the pairs of [[contact]].
+  [[nodiscard]] long_system system_with(stretch bed_along::*where) const;
   /// The loads, with those that P adds to the beds' springs.
   [[nodiscard]] long_loads loads() const;
-  /// K_A of scaled_stiffness.
+  /// The stiffness of a system_with, ready to be factored. Its proof is kept.
   [[nodiscard]] scaled_stiffness scaled(const long_system& s) const {
     return {s, rows_, on_.hinges.empty() ? 3 : 4, false, true};
   }

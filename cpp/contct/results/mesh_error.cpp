@@ -30,7 +30,8 @@ double least_along(const poly& p, const stretch& s) {
   return bound_on_least(poly(part.begin(), part.end())) - 0x1p-45 * sum_of_sizes(p);
 }
 
-/// A stretch of a part where the depth d is certainly more than `least`, as long as is found; else empty.
+/// A stretch of a part along which the depth d certainly exceeds `least`; empty if none is found. Begins with
+/// almost the whole part, and takes away more and more of the ends where d is too small.
 stretch stretch_beyond(const poly& d, double least) {
   const std::array<bool, 2> cut = {d.front() <= least, polynomial_at(d, 1.0) <= least};
   for (int halvings = 8; halvings > 1; --halvings) {
@@ -210,18 +211,15 @@ void mesh_prover::compare_elements(mesh_error& e) const {
   for (int i = 0; i < elements(told_.what.geometry); ++i) {
     const line_element& left = line_.elements[line_.mesh->at(i)];
     const line_element& right = line_.elements[line_.mesh->at(i + 1) - 1];
+    const line_part& first = left.parts.front();  // a load at its left end does not act there yet
     const auto end = right.parts.back().line.right_end();
-    const line_part& first = left.parts.front();
-    const auto shears = told_.elements.at(i, 0);
-    const auto moments = told_.elements.at(i, 1);
-    e.take(name_of(quantity::shear), shears[0], (first.line.shear[0] - first.load.force).hi,
-           std::sqrt(shear_square(left, false)) * forces_);
-    e.take(name_of(quantity::shear), shears[1], end.shear.hi,
-           std::sqrt(shear_square(right, false)) * forces_);
-    e.take(name_of(quantity::moment), moments[0], (first.line.moment[0] + first.load.moment).hi,
-           std::sqrt(moment_square(left, false)) * forces_);
-    e.take(name_of(quantity::moment), moments[1], end.moment.hi,
-           std::sqrt(moment_square(right, false)) * forces_);
+    const auto take = [&](quantity kind, std::size_t name, double at_left, double at_right, auto square) {
+      const auto printed = told_.elements.at(i, name);
+      e.take(name_of(kind), printed[0], at_left, std::sqrt(square(left, false)) * forces_);
+      e.take(name_of(kind), printed[1], at_right, std::sqrt(square(right, false)) * forces_);
+    };
+    take(quantity::shear, 0, (first.line.shear[0] - first.load.force).hi, end.shear.hi, shear_square);
+    take(quantity::moment, 1, (first.line.moment[0] + first.load.moment).hi, end.moment.hi, moment_square);
   }
 }
 
@@ -372,10 +370,7 @@ fine_mesh finely_divided(const problem& p) {
 mesh_error mesh_error_of(const problem& p, const std::shared_ptr<const fine_mesh>& mesh,
                          const solved_step& s) {
   mesh_error e;
-  const auto* const on = std::get_if<beam>(&p.geometry.kind);
-  if (on == nullptr || p.beds.empty())
-    e.not_proved = "only of beams with beds";
-  else if (!on->GA.empty())
+  if (!std::get<beam>(p.geometry.kind).GA.empty())
     e.not_proved = "with shear flexibility, nothing is proved about beds";
   else if (mesh->coarse)
     e.not_proved = "the elements are too long for the beds; use a finer mesh (element_size)";

@@ -39,11 +39,10 @@ struct mesh_error {
   [[nodiscard]] bool is_within(double share) const;
 };
 
-/// The fine mesh of a beam with beds.
+/// The mesh of the line: that of a beam with beds, halved until the beds bend each element little.
 [[nodiscard]] fine_mesh finely_divided(const problem& p);
 
-/// Proves the mesh's error of the final state `s` of `p`. `mesh`: its fine mesh, not null for beams with
-/// beds.
+/// Proves the mesh's error of the final state `s` of `p`, a beam with beds. `mesh`: see finely_divided.
 [[nodiscard]] mesh_error mesh_error_of(const problem& p, const std::shared_ptr<const fine_mesh>& mesh,
                                        const solved_step& s);
 
