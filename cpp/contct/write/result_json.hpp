@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "contct/results/envelope.hpp"
 #include "contct/results/run.hpp"
 #include "contct/results/step_results.hpp"
 #include "contct/text/output_file.hpp"
@@ -69,6 +70,14 @@ class json_document {
 
 /// The certificate of a step in result files; null if there is none.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const solved_step& s);
+
+/// A value with its place; the least and the largest value of a quantity.
+[[nodiscard]] nlohmann::ordered_json value_json(const model& m, const placed_value& at);
+[[nodiscard]] nlohmann::ordered_json range_json(const model& m, const value_range& r);
+
+/// An envelope, with its curves along a beam unless they are empty.
+[[nodiscard]] nlohmann::ordered_json envelope_json(const problem& p, const envelope& e,
+                                                   const envelope_curves& along);
 
 /// `mesh` of a step of a beam with beds.
 [[nodiscard]] nlohmann::ordered_json mesh_error_json(const mesh_error& e);

@@ -91,6 +91,17 @@ constexpr std::string_view end_reason(path_status status) {
 /// empty.
 [[nodiscard]] std::string concentration_warning(const problem& p, std::span<const solved_step> steps);
 
+/// Returns "node 3 below" for pair `pair`, which counts from 0.
+[[nodiscard]] std::string face_words(const problem& p, std::size_t pair);
+
+/// The range of the moment (mx, my or mxy of a plate) with the largest magnitude; null without moments.
+[[nodiscard]] const value_range* bending(const problem& p, const std::vector<value_range>& ranges);
+/// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
+/// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and the other extremes.
+[[nodiscard]] std::vector<std::string> largest_lines(const step_results& r, int width, bool all);
+/// The sums of loads, reactions and contact forces, and the results of each bed and hinge.
+[[nodiscard]] std::vector<std::string> sum_lines(const step_results& r);
+
 /// The warnings about the states of the run.
 [[nodiscard]] std::vector<std::string> state_warnings(const run_result& r);
 

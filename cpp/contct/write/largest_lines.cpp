@@ -1,0 +1,103 @@
+// The largest values of a state at the terminal.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contct/results/quantities.hpp"
+#include "contct/write/words.hpp"
+
+namespace contct {
+
+std::string face_words(const problem& p, std::size_t pair) {
+  const contact_pair& at = p.pairs[pair];
+  return fmt::format("{} {}", place_words(p.geometry, at.node), surface_name(at.surface));
+}
+
+const value_range* bending(const problem& p, const std::vector<value_range>& ranges) {
+  const value_range* most = nullptr;
+  for (const value_range& r : ranges) {
+    if (row_named(p, r.name).kind == quantity::moment &&
+        (most == nullptr || std::abs(r.largest().value) > (1 + 1e-9) * std::abs(most->largest().value)))
+      most = &r;
+  }
+  return most;
+}
+
+std::vector<std::string> largest_lines(const step_results& r, int width, bool all) {
+  const problem& p = r.what;
+  std::vector<std::string> lines;
+  const auto add = [&](std::string_view name, double value, const std::string& unit, const std::string& at) {
+    const std::string with_unit = fmt::format("{:.6g}{}", value + 0.0, unit);  // never -0
+    std::string line = fmt::format("{:<14}{:<18}{}", name, with_unit, at);
+    line.erase(line.find_last_not_of(' ') + 1);
+    if (static_cast<int>(line.size()) > width) line = fmt::format("{} {}, {}", name, with_unit, at);
+    lines.push_back(std::move(line));
+  };
+  const auto add_range = [&](std::string_view name, const value_range& v) {
+    const placed_value& first = v.largest();
+    const placed_value& other = &first == &v.least ? v.most : v.least;
+    const double size = std::abs(first.value);
+    add(name, first.value, unit_words(p, row_named(p, v.name).in, first.node),
+        size == 0.0 ? "" : place_words(p.geometry, first));
+    // If there is only rounding beside the largest value, there is no second extreme.
+    if (all && std::abs(other.value) > tie_of(0.0, size) &&
+        std::abs(other.value - first.value) > tie_of(size, size))
+      add("and", other.value, unit_words(p, row_named(p, v.name).in, other.node),
+          place_words(p.geometry, other));
+  };
+  const auto add_force = [&](std::string_view name, double force, int node, const std::string& at) {
+    add(name, force, unit_words(p, unit::force, node), force == 0.0 ? "" : at);
+  };
+  const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+  const std::vector<value_range>& ranges = r.ranges();
+  if (!ranges.empty()) add_range(of_matrix ? "u" : "w", ranges.front());
+  if (const value_range* const m = bending(p, ranges)) add_range(m->name, *m);
+  for (const value_range& v : ranges) {
+    const quantity_row& row = row_named(p, v.name);
+    const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);
+    if ((all && row.kind == quantity::shear) || (of_beam && row.in == unit::stress)) add_range(v.name, v);
+    if (!of_beam && row.in == unit::stress && &v == &ranges.back())
+      add("von Mises", v.most.value, unit_words(p, row.in), place_words(p.geometry, v.most));
+  }
+  if (const auto pair = r.hardest_pair())
+    add_force("contact force", r.pairs[*pair].force, p.pairs[*pair].node,
+              fmt::format("pair {}, {}", *pair + 1, face_words(p, *pair)));
+  std::string_view name = "reaction";
+  for (const std::size_t i : r.hardest_supports())
+    add_force(std::exchange(name, "and"), r.reactions[i], p.supports[i].node,
+              place_words(p.geometry, p.supports[i].node));
+  constexpr std::size_t most_faces = 4;
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < r.pairs.size() && all; ++i)
+    if (r.pairs[i].face != p.pairs[i].face && ++moved <= most_faces)
+      add("moved face", r.pairs[i].face, unit_words(p, unit::length, p.pairs[i].node),
+          fmt::format("pair {}, {}", i + 1, face_words(p, i)));
+  if (moved > most_faces) lines.push_back(fmt::format("{} more moved faces in --json", moved - most_faces));
+  return lines;
+}
+
+std::vector<std::string> sum_lines(const step_results& r) {
+  const problem& p = r.what;
+  std::vector<std::string> lines;
+  const auto number = [&p](double x, unit in) { return fmt::format("{:.6g}{}", x + 0.0, unit_words(p, in)); };
+  std::vector<std::string> sums;
+  for (const quantity_row* row : quantities_of(p, on::structure))
+    sums.push_back(fmt::format("{} {}", key_in_list(*row), number(row->values(r)[0], row->in)));
+  if (!sums.empty()) lines.push_back(fmt::format("{:<14}{}", "sums", joined(sums, ", ")));
+  for (int count = 0; const bed_reading& b : beds_in(r))
+    lines.push_back(fmt::format("{:<14}force {}, pressure {:.6g} to {}, largest at {}; {} in contact",
+                                fmt::format("bed {}", ++count), number(b.force, unit::force),
+                                b.pressure.least.value, number(b.pressure.most.value, unit::pressure),
+                                place_words(p.geometry, b.pressure.most), number(b.contact, unit::extent)));
+  for (std::size_t i = 0; i < list_of(on::hinges).count(p); ++i) {
+    std::vector<std::string> of_hinge;
+    for (const quantity_row* row : quantities_of(p, on::hinges))
+      of_hinge.push_back(fmt::format("{} {}", key_in_list(*row), number(row->values(r)[i], row->in)));
+    lines.push_back(fmt::format("{:<14}{} at {}", fmt::format("hinge {}", i + 1), joined(of_hinge, ", "),
+                                place_words(p.geometry, list_of(on::hinges).node(p, i))));
+  }
+  return lines;
+}
+
+}  // namespace contct
