@@ -96,7 +96,7 @@ def check_line(p, line):
     """Raises ValueError if the line of a mesh's error breaks the format. A stretch or pair of A that stood twice would count twice."""
     need(type(line) is dict and set(line) - {"L_low"} == LINE and line["kind"] == "proved" and p.continuum, "mesh: other keys")
     need(whole(line["halvings"], 1, 6), "halvings: not from 1 to 6")
-    kinds = {kind for kind, count in p.kinds.items() if count} | {"pressure"}
+    kinds = {kind for kind, count in p.kinds.items() if count} | {"pressure", "bed_force", "bed_contact"}
     need(all(type(line[key]) is dict and set(line[key]) == kinds and all(map(real, line[key].values())) for key in ("error", "of")), "mesh: other bounds")
     nodes = (len(p.lines[0]) - 1) * 2**line["halvings"] + 1
     check_held(line, 2 * nodes + sum(element.free > 0 for element, _, _ in p.elements), p.contacts)

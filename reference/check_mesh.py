@@ -40,11 +40,15 @@ def grown(p, start, h):
     return [start] + [h * c / (i + 1) for i, c in enumerate(p)]
 
 
+def bernstein(p):
+    n = len(p) - 1
+    return [sum(F(comb(j, i), comb(n, i)) * p[i] for i in range(j + 1)) for j in range(n + 1)]
+
+
 def most(p, reached=-inf):
     """Returns a bound on the values of p from 0 to 1, and the largest of `reached` and of the values that were seen, nearly."""
     n = len(p) - 1
-    exact = [sum(F(comb(j, i), comb(n, i)) * p[i] for i in range(j + 1)) for j in range(n + 1)]  # Bernstein's coefficients
-    first = [float(x) if F(float(x)) >= x else nextafter(float(x), inf) for x in exact]
+    first = [float(x) if F(float(x)) >= x else nextafter(float(x), inf) for x in bernstein(p)]
     size, bound, open = max(map(abs, first)), -inf, [(first, 0)]
     while open:
         b, halved = open.pop()
@@ -61,6 +65,16 @@ def most(p, reached=-inf):
 
 def top(p):
     return most(p)[0]
+
+
+def beyond(p, least, a=F(0), w=F(1)):
+    """Returns a bound from below on the length along which p, from a to a + w, exceeds `least`."""
+    b = bernstein(along(p, a, w))
+    if min(b) > least:
+        return w
+    if w < F(1, 2**24) or max(b) <= least:
+        return F(0)
+    return beyond(p, least, a, w / 2) + beyond(p, least, a + w / 2, w / 2)
 
 
 class Line:
@@ -218,8 +232,22 @@ class Line:
         return at
 
 
-def check_mesh(p, mesh, f, settled, own, told):
-    """Raises ValueError if the bounds of `mesh` do not hold for the numbers `told`, in the order of the proof file. Returns a message."""
+    def of_bed(self, number):
+        """Returns bounds on the force of a bed and on its length in contact."""
+        force, more, stiffness, least, most = (F(0) for _ in range(5))
+        for part, bed in ((part, bed) for part in self.parts for bed in part.beds if bed[0] == number):
+            d, k, moved, pressed = self.depth(part, bed), bed[1], self.Ce[part.e] * self.rho, number + 1 in part.pressed
+            down = [-c for c in d]
+            force += k * part.h * product(d, [F(1)]) if pressed else 0
+            more += up(k * part.h * max(F(0), top(down if pressed else d)))
+            stiffness += k * part.h
+            least, most = least + part.h * beyond(d, moved), most + part.h * (1 - beyond(down, moved))
+        off = root(stiffness) * self.rho
+        return (force - off, force + more + off), (least, most)
+
+
+def check_mesh(p, mesh, f, settled, own, told, state):
+    """Raises ValueError if the bounds of `mesh` do not hold for the numbers `told`, in the order of the proof file, and pairs with these statuses. Returns a message."""
     line = Line(p, mesh, f, settled, own)
     line.prove()
     error, of = ({kind: F(x) for kind, x in mesh[key].items()} for key in ("error", "of"))
@@ -234,8 +262,14 @@ def check_mesh(p, mesh, f, settled, own, told):
                 bound = max(bound, here)
             size = F(mesh["of"][kind]) / 10**6 + F(1, 2**1000)
             need(reached - size <= claimed <= bound + size, f"the {key} of {kind} without mesh error is another")
-    for bed, pairs in enumerate(p.bed_pairs):
+    for bed, (pairs, fixed) in enumerate(zip(p.bed_pairs, p.bed_held)):
         for i, share in pairs:
             deep, k = p.pairs[i][1] * (line.u[line.dof(p.pairs[i][0])] - p.pairs[i][2]), p.pairs[i][3] / share
             need(abs(F(told[p.n + i]) / share - k * max(deep, 0)) + k * line.C[line.dof(p.pairs[i][0])] * line.rho <= error["pressure"], "the mesh's bound on pressure does not hold")
+        deep = [(p.held[i][1] * (line.u[line.dof(p.held[i][0])] - p.held[i][2]), p.held[i][3], share) for i, share in fixed]
+        sums = (sum(F(told[p.n + i]) for i, _ in pairs) + sum(k * max(d, 0) for d, k, _ in deep),
+                sum(share for i, share in pairs if state[i] == "contact") + sum(share for d, _, share in deep if d >= 0))
+        for kind, x, bounds in zip(("bed_force", "bed_contact"), sums, line.of_bed(bed)):
+            size, off = abs(x), max(abs(x - y) for y in bounds)
+            need(off <= error[kind] + size / 2**48 and size <= of[kind] * (1 + F(1, 2**48)), f"the mesh's bound on {kind} does not hold for bed {bed + 1}")
     return f"; the mesh's error is proved: {len(told)} numbers"

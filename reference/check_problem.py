@@ -65,7 +65,7 @@ class Problem:
         for s in t.get("support", []):
             self.support(s, self.nodes(s, {"fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
-        self.continuum, self.bed_pairs = [], []  # of each bed its intervals, n and face; of each its pairs, with their tributary lengths
+        self.continuum, self.bed_pairs, self.bed_held = [], [], []  # of each bed its intervals, n and face; its pairs, and those at fixed nodes, with their tributary lengths
         self.pairs, self.others, self.held = [], [], []  # (dof, n, face, stiffness); the dof that carries the face, or None; pairs of beds at fixed nodes
         for c in t.get("contact", []):
             nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
@@ -73,10 +73,10 @@ class Problem:
         self.contacts = len(self.pairs)
         for c in t.get("bed", []):
             springs = self.bed(c, share)
-            first = len(self.pairs)
+            first = len(self.pairs), len(self.held)
             self.contact(c, [*springs], c.get("surface", "below"), [*springs.values()], self.fixed)
             if len(self.lines) == 1:
-                self.along(c, first)
+                self.along(c, *first)
         self.unmoved, self.unmoved_held = self.pairs, self.held
         self.kinds = {"w": self.n} | ({"slope": self.n, "moment": self.n} if self.elements else {}) | ({"shear": self.n} if len(self.lines) == 1 else {})
         self.kinds |= {"force": len(self.pairs), "gap": len(self.pairs)} if self.pairs else {}
@@ -112,7 +112,7 @@ class Problem:
         need(not pieces or place(pieces[-1]["to"]) == place(c.get("to")), "a bed with pieces that end elsewhere")
         return {node: k for node, k in sorted(springs.items()) if k}
 
-    def along(self, c, first):
+    def along(self, c, first, first_held):
         """Adds a bed along a beam to `continuum`: where it acts, with which modulus, and its face as a polynomial in x in each element."""
         x, place = self.lines[0], lambda at: self.lines[0][find(self.lines[0], at)] if find(self.lines[0], at) is not None else real(at)
         middle = [x[0]] + [(a + b) / 2 for a, b in zip(x, x[1:])] + [x[-1]]
@@ -126,7 +126,7 @@ class Problem:
             parts = [[middle[node], middle[node + 1], None] for node in nodes]
         parts = [(a, b, real(c["modulus"]) if k is None else k) for a, b, k in parts]
         powers = [real(a) for a in c["face"]["polynomial"]] if isinstance(c["face"], dict) else []
-        faces = {pair[0] // 2: F(0) if powers else pair[2] for pair in self.pairs[first:] + self.held}
+        faces = {pair[0] // 2: F(0) if powers else pair[2] for pair in self.pairs[first:] + self.held[first_held:]}
 
         def face(e, moved):
             at = [faces[node] + moved.get(2 * node, 0) if node in faces else None for node in (e, e + 1)]
@@ -135,8 +135,9 @@ class Problem:
             line = [a - rise * x[e] / (x[e + 1] - x[e]), rise / (x[e + 1] - x[e])]
             return [y + (line[i] if i < 2 else 0) for i, y in enumerate(powers + [F(0)] * (2 - len(powers)))]
         self.continuum.append(SimpleNamespace(parts=parts, n=self.pairs[first][1], face=face))
-        self.bed_pairs.append([(i, sum(max(F(0), min(b, middle[pair[0] // 2 + 1]) - max(a, middle[pair[0] // 2])) for a, b, _ in parts))
-                               for i, pair in enumerate(self.pairs) if i >= first])
+        share = lambda node: sum(max(F(0), min(b, middle[node + 1]) - max(a, middle[node])) for a, b, _ in parts)
+        for of, all, begin in ((self.bed_pairs, self.pairs, first), (self.bed_held, self.held, first_held)):
+            of.append([(i, share(all[i][0] // 2)) for i in range(begin, len(all))])
 
     def contact(self, c, nodes, surface, stiffness, without=()):
         """Adds a pair at each node; at those whose w is in `without` one that only adds to the reaction."""

@@ -159,7 +159,7 @@ def check(p, step, s, largest):
     words = f"{len(claims)} numbers are within their bounds; {'' if s['certified'] else 'not '}certified"
     words += f"; measured by a step without bounds: {large}" if unsized and s["certified"] else ""
     if "mesh" in s:
-        words += check_mesh(p, s["mesh"], f, settled, own, s["displacement"] + s["force"] + s["reactions"] + s["elements"])
+        words += check_mesh(p, s["mesh"], f, settled, own, s["displacement"] + s["force"] + s["reactions"] + s["elements"], s["state"])
     return words + (f"; not as they are said to be: pairs {wrong}" if wrong else ""), not wrong
 
 

@@ -112,8 +112,13 @@ inline std::map<std::string_view, double> differences(const step_results& coarse
     take(coarse.ranges()[i].name, coarse.ranges()[i].least.value, fine.ranges()[i].least.value);
     take(coarse.ranges()[i].name, coarse.ranges()[i].most.value, fine.ranges()[i].most.value);
   }
-  for (std::size_t bed = 0; bed < coarse.what.beds.size(); ++bed)
-    take("pressure", beds_in(coarse)[bed].pressure.most.value, beds_in(fine)[bed].pressure.most.value);
+  for (std::size_t bed = 0; bed < coarse.what.beds.size(); ++bed) {
+    const bed_reading a = beds_in(coarse)[bed];
+    const bed_reading b = beds_in(fine)[bed];
+    take("pressure", a.pressure.most.value, b.pressure.most.value);
+    take("bed_force", a.force, b.force);
+    take("bed_contact", a.contact, b.contact);
+  }
   return most;
 }
 

@@ -30,6 +30,8 @@ inline constexpr std::array<quantity_name, 7> quantity_names = {{{"w", "deflecti
                                                                  {"shear", "shear force"},
                                                                  {"gap", "gap"}}};
 inline constexpr quantity_name pressure_name = {"pressure", "pressure"};
+inline constexpr quantity_name bed_force_name = {"bed_force", "force of a bed"};
+inline constexpr quantity_name bed_contact_name = {"bed_contact", "length in contact"};
 [[nodiscard]] constexpr const quantity_name& name_of(quantity q) {
   return quantity_names[static_cast<std::size_t>(q)];
 }

@@ -18,9 +18,20 @@ double bound_on_most(const poly& p) {
   return bound_on_largest(p, close * sum_of_sizes(p));
 }
 
-double bound_on_least(poly p) {
+poly negative(poly p) {
   for (double& c : p) c = -c;
-  return -bound_on_most(p);
+  return p;
+}
+
+double bound_on_least(const poly& p) {
+  return -bound_on_most(negative(p));
+}
+
+/// The integral from 0 to 1.
+double mean_of(const poly& p) {
+  double sum = 0.0;
+  for (std::size_t i = p.size(); i > 0; --i) sum += p[i - 1] / static_cast<double>(i);
+  return sum;
 }
 
 /// A bound on the least value of p along a stretch.
@@ -42,11 +53,29 @@ stretch stretch_beyond(const poly& d, double least) {
   return {};
 }
 
+/// A bound from below on the share of a stretch along which d exceeds `least`; an end of contact is off by at
+/// most 2^-20 of the part.
+double share_beyond(const poly& d, double least, const stretch& s = {0.0, 1.0}) {
+  if (least_along(d, s) > least) return s.length();
+  const bool reaches = -least_along(negative(d), s) > least;
+  if (s.length() < 0x1p-19 || !reaches) return 0.0;
+  const double middle = s.from + s.length() / 2;
+  return share_beyond(d, least, {s.from, middle}) + share_beyond(d, least, {middle, s.to});
+}
+
 poly in_doubles(const line_polynomial<double_double>& p) {
   poly rounded;
   for (const double_double& c : p) rounded.push_back(c.hi);
   return rounded;
 }
+
+/// The pressure, the force and the length in contact of a bed under w1.
+struct bed_under_line {
+  double pressure = 0.0, pressure_bound = 0.0;
+  double_double force = {};
+  double force_bound = 0.0;
+  double_double least_contact = {}, most_contact = {};
+};
 
 class mesh_prover {
  public:
@@ -90,6 +119,8 @@ class mesh_prover {
   void compare_elements(mesh_error& e) const;
   void compare_supports(mesh_error& e) const;
   void compare_pairs(mesh_error& e) const;
+  [[nodiscard]] bed_under_line find_bed(std::size_t bed) const;
+  void compare_beds(mesh_error& e) const;
   void compare_extremes(mesh_error& e) const;
 
   const step_results& told_;
@@ -260,18 +291,43 @@ void mesh_prover::compare_pairs(mesh_error& e) const {
   for (std::size_t i = 0; i < contacts_of(p); ++i) compare_pair(i, 0.0);
   for (const bed& b : p.beds)
     for (std::size_t i = 0; i < b.share.size(); ++i) compare_pair(b.first_pair + i, b.share[i]);
+}
+
+bed_under_line mesh_prover::find_bed(std::size_t bed) const {
+  bed_under_line sum;
+  double_double stiffness;
+  for (const line_element& on : line_.elements)
+    for (const line_part& part : on.parts)
+      for (const bed_along& b : part.beds) {
+        if (b.bed != bed) continue;
+        const poly d = part.depth(b);
+        const double h = part.load.h.hi;
+        const double k = b.modulus.hi;
+        const double moved = reach_in(on) * rho_ + part.slack;
+        const double most = bound_on_most(d);
+        sum.pressure = std::max(sum.pressure, k * most);
+        sum.pressure_bound = std::max(sum.pressure_bound, k * moved);
+        const bool presses = b.pressed.length() > 0.0;
+        if (presses) sum.force += k * h * mean_of(d);
+        const double wrong = std::max(0.0, presses ? -bound_on_least(d) : most);
+        sum.force_bound += k * h * (wrong + part.slack + 0x1p-48 * sum_of_sizes(d));
+        stiffness += k * h;
+        sum.least_contact += h * share_beyond(d, moved);
+        sum.most_contact += h * (1.0 - share_beyond(negative(d), moved));
+      }
+  sum.force_bound += std::sqrt(stiffness.hi) * rho_;
+  return sum;
+}
+
+void mesh_prover::compare_beds(mesh_error& e) const {
   const std::vector<bed_reading> printed = beds_in(told_);
   for (std::size_t bed = 0; bed < printed.size(); ++bed) {
-    double largest = 0.0;
-    double moved = 0.0;
-    for (const line_element& on : line_.elements)
-      for (const line_part& part : on.parts)
-        for (const bed_along& b : part.beds) {
-          if (b.bed != bed) continue;
-          largest = std::max(largest, b.modulus.hi * bound_on_most(part.depth(b)));
-          moved = std::max(moved, b.modulus.hi * (reach_in(on) * rho_ + part.slack));
-        }
-    e.take(pressure_name, printed[bed].pressure.most.value, largest, moved + close * largest);
+    const bed_under_line now = find_bed(bed);
+    e.take(pressure_name, printed[bed].pressure.most.value, now.pressure,
+           now.pressure_bound + close * now.pressure);
+    e.take(bed_force_name, printed[bed].force, now.force.hi, now.force_bound);
+    const double half = (now.most_contact - now.least_contact).hi / 2;
+    e.take(bed_contact_name, printed[bed].contact, now.least_contact.hi + half, half);
   }
 }
 
@@ -310,6 +366,7 @@ void mesh_prover::compare(mesh_error& e) const {
   compare_elements(e);
   compare_supports(e);
   compare_pairs(e);
+  compare_beds(e);
 }
 
 }  // namespace

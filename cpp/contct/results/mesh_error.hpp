@@ -14,7 +14,7 @@
 namespace contct {
 
 /// A bound on the error of all printed numbers of one kind, and the largest of them. `key`: of
-/// quantity_names or pressure_name.
+/// quantity_names, pressure_name, bed_force_name or bed_contact_name.
 struct mesh_number {
   std::string_view key;
   double error = 0.0, of = 0.0;

@@ -100,12 +100,15 @@ std::vector<std::string> mesh_words(const problem& p, const mesh_error& e) {
   if (!e.not_proved.empty()) return {"the error of the mesh is not proved: " + e.not_proved};
   std::vector<std::string> shares;
   for (const mesh_number& n : e.numbers) {
-    const auto is = [&n](quantity q) { return n.key == name_of(q).key; };
-    const bool is_force = is(quantity::force);
-    const bool is_told = !is(quantity::slope) && !is(quantity::gap) && (!is_force || contacts_of(p) > 0);
-    if (is_told && n.of > 0.0)
-      shares.push_back(fmt::format("{} {}", is_force ? name_of(quantity::force).words : n.key,
-                                   percent_words(n.error / n.of)));
+    const auto is = [&n](const quantity_name& name) { return n.key == name.key; };
+    const bool is_force = is(name_of(quantity::force));
+    const bool is_told =
+        !is(name_of(quantity::slope)) && !is(name_of(quantity::gap)) && (!is_force || contacts_of(p) > 0);
+    if (!is_told || n.of == 0.0) continue;
+    std::string_view words = n.key;
+    for (const quantity_name& name : {name_of(quantity::force), bed_force_name, bed_contact_name})
+      if (is(name)) words = name.words;
+    shares.push_back(fmt::format("{} {}", words, percent_words(n.error / n.of)));
   }
   if (shares.empty()) return {};
   std::vector<std::string> items = {"mesh error, proved: " + joined(shares, ", ") + " of the largest"};
