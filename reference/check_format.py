@@ -95,7 +95,7 @@ LINE = {"kind", "error", "of", "extremes", "halvings", "ends", "u", "closed", "p
 def check_line(p, line):
     """Raises ValueError if the line of a mesh's error breaks the format. A stretch or pair of A that stood twice would count twice."""
     need(type(line) is dict and set(line) - {"L_low"} == LINE and line["kind"] == "proved" and p.continuum, "mesh: other keys")
-    need(whole(line["halvings"], 1, 6), "halvings: not from 1 to 6")
+    need(whole(line["halvings"], 0, 6), "halvings: not from 0 to 6")
     kinds = {kind for kind, count in p.kinds.items() if count} | {"pressure", "bed_force", "bed_contact"}
     need(all(type(line[key]) is dict and set(line[key]) == kinds and all(map(real, line[key].values())) for key in ("error", "of")), "mesh: other bounds")
     nodes = (len(p.lines[0]) - 1) * 2**line["halvings"] + 1

@@ -123,7 +123,8 @@ class Problem:
             parts = [[a, b, real(piece["value"])] for a, b, piece in zip(ends, ends[1:], c["modulus"])]
         elif not c.keys() & {"from", "to"}:
             nodes = sorted(self.nodes(c, {"surface", "face", "modulus", "state"}, "all"))
-            parts = [[middle[node], middle[node + 1], None] for node in nodes]
+            ends = sorted({middle[node] for node in nodes} ^ {middle[node + 1] for node in nodes})  # of nodes in a row
+            parts = [[a, b, None] for a, b in zip(ends[::2], ends[1::2])]
         parts = [(a, b, real(c["modulus"]) if k is None else k) for a, b, k in parts]
         powers = [real(a) for a in c["face"]["polynomial"]] if isinstance(c["face"], dict) else []
         faces = {pair[0] // 2: F(0) if powers else pair[2] for pair in self.pairs[first:] + self.held[first_held:]}

@@ -18,36 +18,37 @@ std::size_t dof_of(int node) {
 }
 
 /// a + share b.
-long_vector sum_of(const long_vector& a, const long_vector& b, const double_double& share = 1.0) {
-  long_vector sum = a;
+template <class Polynomial, class Number>
+Polynomial sum_of(const Polynomial& a, const Polynomial& b, const Number& share) {
+  Polynomial sum = a;
   sum.resize(std::max(a.size(), b.size()));
   for (std::size_t i = 0; i < b.size(); ++i) sum[i] += b[i] * share;
   return sum;
 }
 
+poly rounded(std::span<const double_double> p) {
+  poly r;
+  for (const double_double& c : p) r.push_back(c.hi);
+  return r;
+}
+
 /// w_I, the part of w that Hermite's functions and the displacements of the nodes make.
-long_vector between_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
-  long_vector w(4);
+poly between_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
+  poly w(4);
   for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k) w[k] += part.hermite->shapes[i][k] * u[e.dofs[i]];
+    for (std::size_t k = 0; k < 4; ++k) w[k] += part.hermite->shapes[i][k].hi * u[e.dofs[i]].hi;
   return w;
 }
 
 /// b, the rest of w.
-long_vector beyond_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
-  return sum_of({part.line.w.begin(), part.line.w.end()}, between_nodes(e, part, u), -1.0);
+poly beyond_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
+  return sum_of(part.line.w, between_nodes(e, part, u), -1.0);
 }
 
 const line_part& part_at(const line_element& e, const double_double& place) {
   auto part = e.parts.begin();
   while (part + 1 != e.parts.end() && (part + 1)->from < place) ++part;
   return *part;
-}
-
-double size_of(const long_vector& p) {
-  double sum = 0.0;
-  for (const double_double& x : p) sum += std::abs(x.hi);
-  return sum;
 }
 
 }  // namespace
@@ -69,6 +70,12 @@ hermite_part::hermite_part(const double_double& h, const double_double& from, co
   for (std::size_t i = 0; i < 4; ++i) stiffness[i] = products(shapes[i]);
 }
 
+double hermite_part::product(std::size_t function, const poly& p) const {
+  double sum = 0.0;
+  for (std::size_t m = 0; m < p.size(); ++m) sum += p[m] * moments[function][m].hi;
+  return sum;
+}
+
 std::array<double_double, 4> hermite_part::products(const long_vector& p) const {
   std::array<double_double, 4> all;
   for (std::size_t i = 0; i < 4; ++i)
@@ -77,11 +84,8 @@ std::array<double_double, 4> hermite_part::products(const long_vector& p) const 
 }
 
 poly line_part::depth(const bed_along& b) const {
-  poly d;
-  for (std::size_t i = 0; i < std::max(line.w.size(), b.face.size()); ++i) {
-    const double_double w = i < line.w.size() ? line.w[i] : 0.0;
-    d.push_back(((w - (i < b.face.size() ? b.face[i] : 0.0)) * b.surface).hi);
-  }
+  poly d = sum_of(line.w, rounded(b.face), -1.0);
+  for (double& c : d) c *= b.surface;
   return d;
 }
 
@@ -154,8 +158,10 @@ void bed_line::add_beds(line_part& part, int e) const {
       long_vector polynomial;
       for (const double c : beds[i].face) polynomial.push_back(number_of<double_double>(c));
       const double_double& h = elements[e].h;
-      face = sum_of(face, formulas::in_element<double_double>(polynomial, points_.at(e) + part.from * h,
-                                                              part.share * h));
+      face = sum_of(
+          face,
+          formulas::in_element<double_double>(polynomial, points_.at(e) + part.from * h, part.share * h),
+          1.0);
       part.beds.push_back({i, mesh->fine.pairs[beds[i].first_pair].surface,
                            number_of<double_double>(b.modulus), std::move(face),
                            first.presses || last.presses ? whole : stretch()});
@@ -165,6 +171,10 @@ void bed_line::add_beds(line_part& part, int e) const {
 /// Divides the elements at the places where a load or a bed begins or ends, or has another modulus, and at
 /// the ends of contact. False if such places are too close for their order to be certain.
 bool bed_line::divide() {
+  if (!elements.front().parts.empty() && ends == divided_at_) {
+    for (line_element& on : elements) carry_over(on, on);
+    return true;
+  }
   load cut = acting_;
   const auto add_cut = [&cut](const line_place& from, const line_place& to) {
     cut.placed.push_back({from == to ? load_kind::point : load_kind::force, from, to, {0.0}});
@@ -195,6 +205,7 @@ bool bed_line::divide() {
     if (!elements[e].parts.empty()) carry_over(elements[e], now);
     elements[e] = std::move(now);
   }
+  divided_at_ = ends;
   return true;
 }
 
@@ -204,12 +215,12 @@ void bed_line::carry_over(const line_element& old, line_element& now) const {
     const double_double middle = part.from + part.share * 0.5;
     const line_part& at = part_at(old, middle);
     const auto in_old = [&at](const double_double& t) { return (t - at.from) / at.share; };
-    part.before = formulas::in_element<double_double>(beyond_nodes(old, at, u), in_old(part.from),
-                                                      part.share / at.share);
-    part.before.resize(std::min(part.before.size(), powers_));
-    const double size = 0x1p-60 * size_of(part.before);  // any polynomial will do
-    while (part.before.size() > 4 && std::abs(part.before.back().hi) <= size) part.before.pop_back();
-    for (double_double& c : part.before) c.lo = 0.0;
+    const poly beyond = beyond_nodes(old, at, u);
+    const double size = 0x1p-54 * sum_of_sizes(at.line.w);  // any polynomial will do
+    const auto here = formulas::in_element<double>(std::span<const double>(beyond.data(), beyond.size()),
+                                                   in_old(part.from).hi, (part.share / at.share).hi);
+    part.before.assign(here.begin(), here.begin() + std::min(here.size(), powers_));
+    while (part.before.size() > 4 && std::abs(part.before.back()) <= size) part.before.pop_back();
     for (bed_along& b : part.beds) {
       const auto was = std::ranges::find(at.beds, b.bed, &bed_along::bed);
       b.pressed = {};
@@ -266,9 +277,10 @@ long_loads bed_line::loads() const {
     for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], on.work[i]);
     for (const line_part& part : on.parts) {
       long_vector from_faces;  // P at w_I = 0
+      const long_vector before(part.before.begin(), part.before.end());
       for (const bed_along& b : part.beds)
         if (b.pressed.length() > 0.0)
-          from_faces = sum_of(from_faces, sum_of(b.face, part.before, -1.0), b.modulus);
+          from_faces = sum_of(from_faces, sum_of(b.face, before, -1.0), b.modulus);
       const auto work = part.hermite->products(from_faces);
       for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], part.load.h * work[i]);
     }
@@ -278,16 +290,16 @@ long_loads bed_line::loads() const {
 
 /// Solves for u with the pressed stretches and pairs as springs in both directions.
 bool bed_line::solve() {
-  const long_system system = system_with(&bed_along::pressed);
+  with_pressed = std::make_unique<long_system>(system_with(&bed_along::pressed));
   const long_loads l = loads();
-  scaled_stiffness stiffness = scaled(system);
+  scaled_stiffness stiffness = scaled(*with_pressed);
   if (!stiffness.factor(pressed)) return false;
   for (std::size_t dof = 0; dof < u.size(); ++dof)
-    if (system.fixed[dof] != 0) u[dof] = l.settlement[dof];
+    if (with_pressed->fixed[dof] != 0) u[dof] = l.settlement[dof];
   constexpr int most = 8;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most; ++i) {
-    const long_vector force = system.linear_residual(system.residual(u, l), u, pressed);
+    const long_vector force = with_pressed->linear_residual(with_pressed->residual(u, l), u, pressed);
     std::vector<double> correction;
     for (const double_double& f : force) correction.push_back(f.hi);
     stiffness.solve(correction);
@@ -296,7 +308,8 @@ bool bed_line::solve() {
       work += correction[dof] * force[dof].hi;
       u[dof] += correction[dof];
     }
-    if (!(work < before / 4)) break;
+    energy_ = std::max(energy_, work);
+    if (!(work < before / 4) || work < 0x1p-112 * energy_) break;
     before = work;
   }
   return true;
@@ -305,17 +318,19 @@ bool bed_line::solve() {
 /// Sets the pressure of the beds on a part of `on`. Returns the sum of the sizes of the polynomials that it
 /// is made of.
 double bed_line::press(line_part& part, const line_element& on) const {
-  const long_vector w = sum_of(between_nodes(on, part, u), part.before);
-  double sizes = size_of(part.before);
+  const poly w = sum_of(between_nodes(on, part, u), part.before, 1.0);
+  double sizes = sum_of_sizes(part.before);
   part.pressure = {0.0};
   for (const bed_along& b : part.beds) {
-    sizes += size_of(b.face);
-    if (b.pressed.length() > 0.0) part.pressure = sum_of(part.pressure, sum_of(w, b.face, -1.0), -b.modulus);
+    const poly face = rounded(b.face);
+    sizes += sum_of_sizes(face);
+    if (b.pressed.length() > 0.0) part.pressure = sum_of(part.pressure, sum_of(w, face, -1.0), -b.modulus.hi);
   }
   return sizes;
 }
 
-/// Sets pressure and line of all parts from u. Each number has fewer than 2^12 roundings, of 2^-100 each.
+/// Sets pressure and line of all parts from u. Shear and moment at the left ends of elements are differences,
+/// in 32 digits; in a part each number has fewer than 2^5 roundings, of 2^-53 each.
 void bed_line::evaluate() {
   for (line_element& on : elements) {
     std::array<double_double, 4> own;
@@ -323,27 +338,33 @@ void bed_line::evaluate() {
     const double h = on.h.hi;
     double sizes =
         std::abs(own[0].hi) + std::abs(own[2].hi) + h * (std::abs(own[1].hi) + std::abs(own[3].hi));
-    std::array<double_double, 4> work = on.work;
+    std::array<double, 2> work = {on.work[0].hi, on.work[1].hi};
+    double bent = h * std::abs(work[0]) + std::abs(work[1]);
     for (line_part& part : on.parts) {
       sizes += press(part, on);
-      const auto of_part = part.hermite->products(part.pressure);
-      for (std::size_t i = 0; i < 4; ++i) work[i] += part.load.h * of_part[i];
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double more = part.load.h.hi * part.hermite->product(i, part.pressure);
+        work[i] += more;
+        bent += (i == 0 ? h : 1.0) * std::abs(more);
+      }
     }
     const auto forces = formulas::beam_end_forces<double_double>(on.EI, on.h, 0.0, own);
-    line_start<double_double> at{own[0], own[1], forces[2] + work[1], forces[0] - work[0]};
-    double bent =
-        std::abs(at.moment.hi) + h * std::abs(at.shear.hi) + std::abs(work[1].hi) + h * std::abs(work[0].hi);
+    line_start<double> at{own[0].hi, own[1].hi, (forces[2] + work[1]).hi, (forces[0] - work[0]).hi};
+    bent += std::abs(at.moment) + h * std::abs(at.shear);
     for (line_part& part : on.parts) {
       const element_piece& load = part.load;
-      at.shear += load.force;
-      at.moment -= load.moment;
+      at.shear += load.force.hi;
+      at.moment -= load.moment.hi;
       part.line = {};
-      const long_vector q = sum_of(load.q, part.pressure);
-      put_along(part.line, at, q, load.h, on.EI, load.curvature, double_double());
-      bent += h * h * (size_of(q) + load.size) + on.EI.hi * std::abs(load.curvature.hi);
+      const poly q = sum_of(rounded(load.q), part.pressure, 1.0);
+      put_along(part.line, at, q, load.h.hi, on.EI.hi, load.curvature.hi, 0.0);
+      bent += h * h * (sum_of_sizes(q) + load.size) + on.EI.hi * std::abs(load.curvature.hi) +
+              h * std::abs(load.force.hi) + std::abs(load.moment.hi);
       at = part.line.right_end();
     }
-    for (line_part& part : on.parts) part.slack = 0x1p-88 * (sizes + h * h / on.EI.hi * bent);
+    const double rounding = 0x1p-47 * static_cast<double>(on.parts.size());
+    on.slack = rounding * bent;
+    for (line_part& part : on.parts) part.slack = rounding * (sizes + h * h / on.EI.hi * bent);
   }
 }
 
@@ -357,6 +378,8 @@ std::vector<double> bed_line::ends_found() const {
         const double left = part.load.left;
         const double right = part.load.right;
         const poly d = part.depth(b);
+        const double varies = sum_of_sizes(d) - std::abs(d[0]);
+        if (std::abs(d[0]) > varies * 2 * on.h.hi / part.load.h.hi) continue;  // far away
         const double rise = std::abs(polynomial_at(derivative(d), 0.5)) * on.h.hi / part.load.h.hi;
         const auto ends_at = [&](double x, double depth) {
           const bool again = std::ranges::binary_search(ends, x);
@@ -399,7 +422,7 @@ std::string bed_line::settle() {
 /// Is the pressure that P lacks negligible, and the distance of the ends of contact from `next`?
 bool bed_line::is_settled(const std::vector<double>& next) const {
   constexpr double of_pressure = 1e-8;
-  constexpr double of_length = 1e-5;
+  constexpr double of_length = 1e-6;
   double off = 0.0;
   double all = 0.0;
   double shortest = on_.x.back() - on_.x.front();
@@ -407,7 +430,7 @@ bool bed_line::is_settled(const std::vector<double>& next) const {
     for (const line_part& part : on.parts) {
       const double lacks = sum_of_sizes(late(on, part));
       for (const bed_along& b : part.beds) off = std::max(off, b.modulus.hi * b.pressed.length() * lacks);
-      all = std::max(all, size_of(part.pressure));
+      all = std::max(all, sum_of_sizes(part.pressure));
       shortest = std::min(shortest, on.h.hi);
     }
   const auto is_near = [&](double a, double b) { return std::abs(a - b) <= of_length * shortest; };
@@ -415,9 +438,7 @@ bool bed_line::is_settled(const std::vector<double>& next) const {
 }
 
 poly bed_line::late(const line_element& on, const line_part& part) const {
-  poly late;
-  for (const double_double& c : sum_of(beyond_nodes(on, part, u), part.before, -1.0)) late.push_back(c.hi);
-  return late;
+  return sum_of(beyond_nodes(on, part, u), part.before, -1.0);
 }
 
 }  // namespace contct

@@ -22,7 +22,7 @@ struct fine_mesh {
   [[nodiscard]] int at(int n) const { return n << halvings; }
 
   problem fine;
-  int halvings = 1;
+  int halvings = 0;
   bool coarse = false;  ///< the elements are too long for P to converge
 };
 
@@ -51,6 +51,8 @@ struct hermite_part {
 
   /// The integral of each function times the polynomial p.
   [[nodiscard]] std::array<double_double, 4> products(const long_vector& p) const;
+  /// The same of one function, rounded.
+  [[nodiscard]] double product(std::size_t function, const line_polynomial<double>& p) const;
 
   double_double of_h, at, along;
   std::array<long_vector, 4> shapes, moments;  ///< moments[i][m]: the integral of function i times s^m
@@ -64,11 +66,11 @@ struct line_part {
   double_double from, share;  ///< its left end and its length, as shares of the element's length
   std::shared_ptr<const hermite_part> hermite;
   std::vector<bed_along> beds = {};
-  long_vector before = {};    ///< b of the pass before, from which P is made
-  long_vector pressure = {};  ///< P, upward
-  line_of<double_double> line = {};
-  double slack = 0.0;  ///< a bound on the rounding of `line.w`, of w_I and of faces
-  double off = 0.0;    ///< a bound on |r|
+  line_polynomial<double> before = {};    ///< b of the pass before, from which P is made
+  line_polynomial<double> pressure = {};  ///< P, upward, rounded
+  line_of<double> line = {};              ///< w1, rounded
+  double slack = 0.0;                     ///< a bound on the rounding of `line.w`, of w_I and of faces
+  double off = 0.0;                       ///< a bound on |r|
 
   /// n (w1 - c) of a bed.
   [[nodiscard]] line_polynomial<double> depth(const bed_along& b) const;
@@ -81,6 +83,7 @@ struct line_element {
   double_double h, EI;
   std::array<double_double, 4> work;  ///< of the loads on Hermite's functions
   std::vector<line_part> parts = {};
+  double slack = 0.0;  ///< a bound on the rounding of moments and, divided by h, of shears
 
   /// The largest sum of moduli of a part.
   [[nodiscard]] double modulus() const;
@@ -109,12 +112,13 @@ class bed_line {
 
   const std::shared_ptr<const fine_mesh> mesh;
   std::vector<line_element> elements;
-  long_vector u;                        ///< [dofs] of the nodes, then the rotations left of hinges
-  bool settled = false;                 ///< further passes would hardly change the line
-  std::vector<int> pressed;             ///< the pairs of [[contact]] in contact, from 0
-  std::vector<double> ends;             ///< of contact, ascending
-  std::vector<int> closed;              ///< the pairs of A
-  std::optional<stiffness_proof> held;  ///< the proof of mu
+  long_vector u;             ///< [dofs] of the nodes, then the rotations left of hinges
+  bool settled = false;      ///< further passes would hardly change the line
+  std::vector<int> pressed;  ///< the pairs of [[contact]] in contact, from 0
+  std::vector<double> ends;  ///< of contact, ascending
+  std::vector<int> closed;   ///< the pairs of A
+  std::unique_ptr<const long_system> with_pressed;  ///< system_with(&bed_along::pressed)
+  std::optional<stiffness_proof> held;              ///< the proof of mu
 
  private:
   [[nodiscard]] bool divide();
@@ -131,7 +135,9 @@ class bed_line {
   line<double_double> points_;
   std::size_t powers_ = 12;  // of the polynomials of P
   std::vector<int> rows_;
-  std::vector<long_pair> pairs_;  // those of [[contact]], with their moves
+  double energy_ = 0.0;             // twice the beam's, nearly
+  std::vector<double> divided_at_;  // the ends of contact at which elements are divided
+  std::vector<long_pair> pairs_;    // those of [[contact]], with their moves
   struct bed_node {
     double_double face = {};  // its move, with the face unless that is a polynomial
     bool presses = false;     // in the state that the line begins with

@@ -23,8 +23,15 @@ poly negative(poly p) {
   return p;
 }
 
-double bound_on_least(const poly& p) {
-  return -bound_on_most(negative(p));
+/// A bound that is far away from most polynomials' values.
+double rough_bound_on_most(const poly& p) {
+  const double sizes = sum_of_sizes(p);
+  return p.front() - std::abs(p.front()) + sizes + 0x1p-48 * sizes;
+}
+
+/// The larger of `most` and bound_on_most(p).
+double most_of(double most, const poly& p) {
+  return rough_bound_on_most(p) <= most ? most : std::max(most, bound_on_most(p));
 }
 
 /// The integral from 0 to 1.
@@ -34,11 +41,12 @@ double mean_of(const poly& p) {
   return sum;
 }
 
-/// A bound on the least value of p along a stretch.
-double least_along(const poly& p, const stretch& s) {
+/// Does p exceed `least` along a stretch, and certainly?
+bool exceeds(const poly& p, double least, const stretch& s) {
+  if (-rough_bound_on_most(negative(p)) > least) return true;
   const auto part =
       formulas::in_element<double>(std::span<const double>(p.data(), p.size()), s.from, s.length());
-  return bound_on_least(poly(part.begin(), part.end())) - 0x1p-45 * sum_of_sizes(p);
+  return -bound_on_most(negative(poly(part.begin(), part.end()))) - 0x1p-45 * sum_of_sizes(p) > least;
 }
 
 /// A stretch of a part along which the depth d certainly exceeds `least`; empty if none is found. Begins with
@@ -48,7 +56,7 @@ stretch stretch_beyond(const poly& d, double least) {
   for (int halvings = 8; halvings > 1; --halvings) {
     const double share = std::ldexp(1.0, -halvings);
     const stretch s{cut[0] ? share : 0.0, cut[1] ? 1.0 - share : 1.0};
-    if (least_along(d, s) > least) return s;
+    if (exceeds(d, least, s)) return s;
   }
   return {};
 }
@@ -56,17 +64,11 @@ stretch stretch_beyond(const poly& d, double least) {
 /// A bound from below on the share of a stretch along which d exceeds `least`; an end of contact is off by at
 /// most 2^-20 of the part.
 double share_beyond(const poly& d, double least, const stretch& s = {0.0, 1.0}) {
-  if (least_along(d, s) > least) return s.length();
-  const bool reaches = -least_along(negative(d), s) > least;
-  if (s.length() < 0x1p-19 || !reaches) return 0.0;
+  if (exceeds(d, least, s)) return s.length();
+  const bool stays_below = sum_of_sizes(d) <= least || exceeds(negative(d), -least, s);
+  if (s.length() < 0x1p-19 || stays_below) return 0.0;
   const double middle = s.from + s.length() / 2;
   return share_beyond(d, least, {s.from, middle}) + share_beyond(d, least, {middle, s.to});
-}
-
-poly in_doubles(const line_polynomial<double_double>& p) {
-  poly rounded;
-  for (const double_double& c : p) rounded.push_back(c.hi);
-  return rounded;
 }
 
 /// The pressure, the force and the length in contact of a bed under w1.
@@ -84,7 +86,7 @@ class mesh_prover {
       : told_(told),
         allowed_(allowed),
         line_(line),
-        system_(line.system_with(&bed_along::pressed)),
+        system_(*line.with_pressed),
         left_(system_.residual(line.u, line.loads())) {}
 
   /// Proves A, rho and Xh. Returns why this failed, or "".
@@ -126,7 +128,7 @@ class mesh_prover {
   const step_results& told_;
   const by_quantity& allowed_;  // certificate::allowed
   bed_line& line_;
-  long_system system_;
+  const long_system& system_;
   long_residual left_;
   std::vector<double> scale_;        // S of K_A
   double root_ = 0.0;                // sqrt((1 + eta) / mu)
@@ -138,7 +140,7 @@ void mesh_prover::measure() {
   double deepest = 0.0;
   for (line_element& on : line_.elements)
     for (line_part& part : on.parts)
-      for (const bed_along& b : part.beds) deepest = std::max(deepest, bound_on_most(part.depth(b)));
+      for (const bed_along& b : part.beds) deepest = most_of(deepest, part.depth(b));
   for (line_element& on : line_.elements)
     for (line_part& part : on.parts) {
       const poly late = line_.late(on, part);
@@ -146,7 +148,7 @@ void mesh_prover::measure() {
       for (bed_along& b : part.beds) {
         const poly d = part.depth(b);
         const bool presses = b.pressed.length() > 0.0;
-        const double wrong = std::max(0.0, presses ? -bound_on_least(d) : bound_on_most(d));
+        const double wrong = most_of(0.0, presses ? negative(d) : d);
         part.off += b.modulus.hi * ((presses ? most : 0.0) + wrong + part.slack);
         b.certain = stretch_beyond(d, 0x1p-20 * deepest + part.slack);
       }
@@ -204,7 +206,7 @@ bool mesh_prover::shrink() {
       for (bed_along& b : part.beds) {
         if (b.certain.length() == 0.0) continue;
         const poly d = part.depth(b);
-        if (least_along(d, b.certain) > least + part.slack) continue;
+        if (exceeds(d, least + part.slack, b.certain)) continue;
         b.certain = stretch_beyond(d, 2 * least + part.slack);
         any = true;
       }
@@ -246,11 +248,14 @@ void mesh_prover::compare_elements(mesh_error& e) const {
     const auto end = right.parts.back().line.right_end();
     const auto take = [&](quantity kind, std::size_t name, double at_left, double at_right, auto square) {
       const auto printed = told_.elements.at(i, name);
-      e.take(name_of(kind), printed[0], at_left, std::sqrt(square(left, false)) * forces_);
-      e.take(name_of(kind), printed[1], at_right, std::sqrt(square(right, false)) * forces_);
+      const double over = kind == quantity::shear ? left.h.hi : 1.0;
+      e.take(name_of(kind), printed[0], at_left,
+             std::sqrt(square(left, false)) * forces_ + left.slack / over);
+      e.take(name_of(kind), printed[1], at_right,
+             std::sqrt(square(right, false)) * forces_ + right.slack / over);
     };
-    take(quantity::shear, 0, (first.line.shear[0] - first.load.force).hi, end.shear.hi, shear_square);
-    take(quantity::moment, 1, (first.line.moment[0] + first.load.moment).hi, end.moment.hi, moment_square);
+    take(quantity::shear, 0, first.line.shear[0] - first.load.force.hi, end.shear, shear_square);
+    take(quantity::moment, 1, first.line.moment[0] + first.load.moment.hi, end.moment, moment_square);
   }
 }
 
@@ -304,12 +309,11 @@ bed_under_line mesh_prover::find_bed(std::size_t bed) const {
         const double h = part.load.h.hi;
         const double k = b.modulus.hi;
         const double moved = reach_in(on) * rho_ + part.slack;
-        const double most = bound_on_most(d);
-        sum.pressure = std::max(sum.pressure, k * most);
+        sum.pressure = k * most_of(sum.pressure / k, d);
         sum.pressure_bound = std::max(sum.pressure_bound, k * moved);
         const bool presses = b.pressed.length() > 0.0;
         if (presses) sum.force += k * h * mean_of(d);
-        const double wrong = std::max(0.0, presses ? -bound_on_least(d) : most);
+        const double wrong = most_of(0.0, presses ? negative(d) : d);
         sum.force_bound += k * h * (wrong + part.slack + 0x1p-48 * sum_of_sizes(d));
         stiffness += k * h;
         sum.least_contact += h * share_beyond(d, moved);
@@ -332,7 +336,7 @@ void mesh_prover::compare_beds(mesh_error& e) const {
 }
 
 void mesh_prover::compare_extremes(mesh_error& e) const {
-  using line = line_of<double_double>;
+  using line = line_of<double>;
   const std::array all = {&line::w, &line::moment, &line::shear};
   constexpr std::array kinds = {quantity::w, quantity::moment, quantity::shear};
   bool is_close = true;  // w1 is
@@ -345,11 +349,12 @@ void mesh_prover::compare_extremes(mesh_error& e) const {
     double size = 0.0;
     for (const line_element& on : line_.elements) {
       const double square = i == 1 ? moment_square(on, true) : shear_square(on, true);
-      bound = std::max(bound, i == 0 ? reach_in(on) * rho_ : std::sqrt(square) * forces_);
+      const double slack = i == 0 ? on.parts.front().slack : on.slack / (i == 1 ? 1.0 : on.h.hi);
+      bound = std::max(bound, (i == 0 ? reach_in(on) * rho_ : std::sqrt(square) * forces_) + slack);
       for (const line_part& part : on.parts) {
-        const poly p = in_doubles(part.line.*all[i]);
-        now.least = std::min(now.least, bound_on_least(p));
-        now.most = std::max(now.most, bound_on_most(p));
+        const poly& p = part.line.*all[i];
+        now.least = -most_of(-now.least, negative(p));
+        now.most = most_of(now.most, p);
         size = std::max(size, sum_of_sizes(p));
       }
     }
@@ -409,18 +414,29 @@ mesh_error largest_of(std::span<const mesh_error> all) {
 }
 
 fine_mesh finely_divided(const problem& p) {
-  constexpr double little = 10;  // then each pass of the line makes what P lacks 50 times smaller
-  fine_mesh mesh{refined(p), 1};
-  const auto is_coarse = [&mesh] {
+  fine_mesh mesh{p};
+  const auto bends = [&mesh](double most) {  // k h^4 / EI of an element
     const auto& b = std::get<beam>(mesh.fine.geometry.kind);
     double modulus = 0.0;
     for (const bed& on : mesh.fine.beds) modulus += on.modulus;
     for (int e = 0; e < b.elements(); ++e)
-      if (modulus * std::pow(b.length_of(e), 4) > little * b.EI[e]) return true;
+      if (modulus * std::pow(b.length_of(e), 4) > most * b.EI[e]) return true;
     return false;
   };
-  for (; mesh.halvings < 6 && is_coarse(); ++mesh.halvings) mesh.fine = refined(mesh.fine);
-  mesh.coarse = is_coarse();
+  const std::vector<double>& x = std::get<beam>(p.geometry.kind).x;
+  std::array<line_place, 2> ends = {x.front(), x.back()};
+  ends[0].point = 0;
+  ends[1].point = elements(p.geometry);
+  for (bed& b : mesh.fine.beds)
+    if (b.parts.empty() && b.nodes.size() == x.size()) {
+      b.parts = {{{ends[0]}, {ends[1]}, b.modulus}};
+      b.nodes.clear();
+    }
+  const auto ends_between_nodes = [](const bed& b) { return b.parts.empty(); };
+  for (; mesh.halvings < 6 && (bends(1.0) || std::ranges::any_of(mesh.fine.beds, ends_between_nodes));
+       ++mesh.halvings)
+    mesh.fine = refined(mesh.fine);
+  mesh.coarse = bends(10.0);  // P lacks 50 times less after each pass
   return mesh;
 }
 

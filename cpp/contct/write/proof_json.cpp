@@ -63,7 +63,7 @@ json mesh_proof_json(const mesh_error& e) {
   for (const line_element& on : line.elements)
     for (const line_part& part : on.parts) {
       json& out = mesh["parts"].emplace_back(
-          json{{"before", list_of(part.before, [](const double_double& x) { return x.hi; })},
+          json{{"before", part.before},
                {"pressed", json::array()},
                {"certain", json::array()}});
       for (const bed_along& b : part.beds) {
