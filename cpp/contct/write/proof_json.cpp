@@ -63,9 +63,7 @@ json mesh_proof_json(const mesh_error& e) {
   for (const line_element& on : line.elements)
     for (const line_part& part : on.parts) {
       json& out = mesh["parts"].emplace_back(
-          json{{"before", part.before},
-               {"pressed", json::array()},
-               {"certain", json::array()}});
+          json{{"before", part.before}, {"pressed", json::array()}, {"certain", json::array()}});
       for (const bed_along& b : part.beds) {
         if (b.pressed.length() > 0.0) out["pressed"].push_back(b.bed + 1);
         if (b.certain.length() > 0.0) out["certain"].push_back({b.bed + 1, b.certain.from, b.certain.to});
