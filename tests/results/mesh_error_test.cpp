@@ -91,6 +91,32 @@ TEST_CASE("Without mesh error, a beam in full contact and one that lifts off hav
     }
 }
 
+TEST_CASE("Without mesh error, the cookbook's footing has the same extremes at every mesh") {
+  const auto footing = [](int elements) {
+    return parsed(
+        fmt::format("[beam]\nlength = 3\nelements = {}\nEI = 1.4e6\n[[bed]]\nmodulus = 5e4\nface = 0\n"
+                    "[[step]]\npoint = [ {{ x = 1.5, w = -300 }} ]\n"
+                    "[[step]]\npoint = [ {{ x = 1.5, w = -300, theta = -240 }} ]\n",
+                    elements));
+  };
+  const proved_run finest(footing(240));
+  int compared = 0;
+  for (const int elements : {6, 12, 30, 60}) {
+    const proved_run run(footing(elements));
+    for (std::size_t i = 0; i < run.ends.result.mesh.size(); ++i)
+      for (const true_extremes& x : run.ends.result.mesh[i].extremes) {
+        const auto& exact = finest.ends.result.mesh[i].extremes;
+        const auto same = std::ranges::find(exact, x.key, &true_extremes::key);
+        REQUIRE(same != exact.end());
+        const double size = std::max(-same->least, same->most);
+        CHECK(std::abs(x.least - same->least) <= 2e-6 * size);
+        CHECK(std::abs(x.most - same->most) <= 2e-6 * size);
+        ++compared;
+      }
+  }
+  CHECK(compared == 4 * 2 * 3);
+}
+
 TEST_CASE("Faces by list and their moves are linear between the nodes of a mesh, in its finer meshes too") {
   const problem p = parsed(
       "[beam]\nlength = 3\nelements = 6\nEI = 2\n[[bed]]\nmodulus = 30\nface = [-0.02, 0, -0.01, 0.005, "

@@ -422,7 +422,7 @@ std::string bed_line::settle() {
 /// Is the pressure that P lacks negligible, and the distance of the ends of contact from `next`?
 bool bed_line::is_settled(const std::vector<double>& next) const {
   constexpr double of_pressure = 1e-8;
-  constexpr double of_length = 1e-6;
+  constexpr double of_length = 1e-8;
   double off = 0.0;
   double all = 0.0;
   double shortest = on_.x.back() - on_.x.front();
