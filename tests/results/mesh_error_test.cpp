@@ -117,6 +117,38 @@ TEST_CASE("Without mesh error, the cookbook's footing has the same extremes at e
   CHECK(compared == 4 * 2 * 3);
 }
 
+TEST_CASE(
+    "The bound on pressures covers sums of beds at a node, and the least pressure beside a softer piece") {
+  const auto beam = [](const std::string& of_beam, const std::string& rest) {
+    return proved_run(parsed("[beam]\nlength = 4\n" + of_beam + rest));
+  };
+  const std::string two =
+      "EI = 100\n[[bed]]\nmodulus = 50\nface = 0\n[[bed]]\nmodulus = 50\nface = 0\n[[step]]\nuniform = "
+      "-1\npoint = [ { x = 2, w = -10 } ]\n";
+  const proved_run overlapping = beam("elements = 8\n", two);
+  const proved_run finer = beam("elements = 512\n", two);
+  const double off = std::abs(bed_pressure(overlapping.results())[4] - bed_pressure(finer.results())[256]);
+  CHECK(off <= overlapping.bound("pressure") + finer.bound("pressure"));
+  CHECK(off >= 0.7 * overlapping.bound("pressure"));
+
+  const std::string soft =
+      "EI = 1e5\n[[bed]]\nmodulus = [ { to = 1, value = 100 }, { to = 2, value = 10 }, { to = 4, value = 100 "
+      "} "
+      "]\nface = 0\n[[step]]\npoint = [ { x = 2.654, w = -97.5 } ]\n";
+  const auto least = [](const proved_run& run) { return beds_in(run.results())[0].pressure.least.value; };
+  const proved_run coarse = beam("elements = 16\n", soft);
+  const proved_run fine = beam("elements = 512\n", soft);
+  CHECK(std::abs(least(coarse) - least(fine)) > 0.2);
+  CHECK(std::abs(least(coarse) - least(fine)) <= coarse.bound("pressure") + fine.bound("pressure"));
+}
+
+TEST_CASE("One long element without a bed does not divide all elements") {
+  const problem p = parsed(
+      "[beam]\nx = [0, 100, 100.1, 100.2, 100.3, 100.4]\nEI = 10\n[[bed]]\nfrom = 100\nto = 100.4\nmodulus = "
+      "1\nface = 0\n[[step]]\nuniform = -1\n");
+  CHECK(finely_divided(p).halvings == 0);
+}
+
 TEST_CASE("Faces by list and their moves are linear between the nodes of a mesh, in its finer meshes too") {
   const problem p = parsed(
       "[beam]\nlength = 3\nelements = 6\nEI = 2\n[[bed]]\nmodulus = 30\nface = [-0.02, 0, -0.01, 0.005, "

@@ -40,11 +40,6 @@ poly between_nodes(const line_element& e, const line_part& part, std::span<const
   return w;
 }
 
-/// b, the rest of w.
-poly beyond_nodes(const line_element& e, const line_part& part, std::span<const double_double> u) {
-  return sum_of(part.line.w, between_nodes(e, part, u), -1.0);
-}
-
 const line_part& part_at(const line_element& e, const double_double& place) {
   auto part = e.parts.begin();
   while (part + 1 != e.parts.end() && (part + 1)->from < place) ++part;
@@ -84,9 +79,13 @@ std::array<double_double, 4> hermite_part::products(const long_vector& p) const 
 }
 
 poly line_part::depth(const bed_along& b) const {
-  poly d = sum_of(line.w, rounded(b.face), -1.0);
+  poly d = sum_of(w, rounded(b.face), -1.0);
   for (double& c : d) c *= b.surface;
   return d;
+}
+
+poly line_part::late() const {
+  return sum_of(beyond, before, -1.0);
 }
 
 double line_part::modulus() const {
@@ -215,11 +214,11 @@ void bed_line::carry_over(const line_element& old, line_element& now) const {
     const double_double middle = part.from + part.share * 0.5;
     const line_part& at = part_at(old, middle);
     const auto in_old = [&at](const double_double& t) { return (t - at.from) / at.share; };
-    const poly beyond = beyond_nodes(old, at, u);
-    const double size = 0x1p-54 * sum_of_sizes(at.line.w);  // any polynomial will do
-    const auto here = formulas::in_element<double>(std::span<const double>(beyond.data(), beyond.size()),
-                                                   in_old(part.from).hi, (part.share / at.share).hi);
+    const auto here =
+        formulas::in_element<double>(std::span<const double>(at.beyond.data(), at.beyond.size()),
+                                     in_old(part.from).hi, (part.share / at.share).hi);
     part.before.assign(here.begin(), here.begin() + std::min(here.size(), powers_));
+    const double size = 0x1p-52 * sum_of_sizes(at.beyond);  // any polynomial will do
     while (part.before.size() > 4 && std::abs(part.before.back()) <= size) part.before.pop_back();
     for (bed_along& b : part.beds) {
       const auto was = std::ranges::find(at.beds, b.bed, &bed_along::bed);
@@ -329,42 +328,53 @@ double bed_line::press(line_part& part, const line_element& on) const {
   return sizes;
 }
 
-/// Sets pressure and line of all parts from u. Shear and moment at the left ends of elements are differences,
-/// in 32 digits; in a part each number has fewer than 2^5 roundings, of 2^-53 each.
+/// Sets pressure, b and line of all parts from u. The end forces of w_I are differences, in 32 digits; in a
+/// part each number has fewer than 2^5 roundings, of 2^-53 each.
 void bed_line::evaluate() {
   for (line_element& on : elements) {
     std::array<double_double, 4> own;
     for (std::size_t i = 0; i < 4; ++i) own[i] = u[on.dofs[i]];
     const double h = on.h.hi;
+    const double bends = h * h / on.EI.hi;
     double sizes =
         std::abs(own[0].hi) + std::abs(own[2].hi) + h * (std::abs(own[1].hi) + std::abs(own[3].hi));
     std::array<double, 2> work = {on.work[0].hi, on.work[1].hi};
-    double bent = h * std::abs(work[0]) + std::abs(work[1]);
+    double clamped = h * std::abs(work[0]) + std::abs(work[1]);  // moments of b
     for (line_part& part : on.parts) {
       sizes += press(part, on);
       for (std::size_t i = 0; i < 2; ++i) {
         const double more = part.load.h.hi * part.hermite->product(i, part.pressure);
         work[i] += more;
-        bent += (i == 0 ? h : 1.0) * std::abs(more);
+        clamped += (i == 0 ? h : 1.0) * std::abs(more);
       }
     }
     const auto forces = formulas::beam_end_forces<double_double>(on.EI, on.h, 0.0, own);
-    line_start<double> at{own[0].hi, own[1].hi, (forces[2] + work[1]).hi, (forces[0] - work[0]).hi};
-    bent += std::abs(at.moment) + h * std::abs(at.shear);
+    line_start<double> at{0.0, 0.0, work[1], -work[0]};
     for (line_part& part : on.parts) {
       const element_piece& load = part.load;
       at.shear += load.force.hi;
       at.moment -= load.moment.hi;
-      part.line = {};
+      line_of<double> b;
       const poly q = sum_of(rounded(load.q), part.pressure, 1.0);
-      put_along(part.line, at, q, load.h.hi, on.EI.hi, load.curvature.hi, 0.0);
-      bent += h * h * (sum_of_sizes(q) + load.size) + on.EI.hi * std::abs(load.curvature.hi) +
-              h * std::abs(load.force.hi) + std::abs(load.moment.hi);
-      at = part.line.right_end();
+      put_along(b, at, q, load.h.hi, on.EI.hi, load.curvature.hi, 0.0);
+      clamped += h * h * (sum_of_sizes(q) + load.size) + on.EI.hi * std::abs(load.curvature.hi) +
+                 h * std::abs(load.force.hi) + std::abs(load.moment.hi);
+      at = b.right_end();
+      part.beyond = std::move(b.w);
+      part.w = sum_of(between_nodes(on, part, u), part.beyond, 1.0);
+      part.shear = std::move(b.shear);
+      part.shear[0] += forces[0].hi;
+      part.moment = std::move(b.moment);
+      part.moment[0] += (forces[2] + forces[0] * on.h * part.from).hi;
+      part.moment[1] += (forces[0] * load.h).hi;
     }
     const double rounding = 0x1p-47 * static_cast<double>(on.parts.size());
-    on.slack = rounding * bent;
-    for (line_part& part : on.parts) part.slack = rounding * (sizes + h * h / on.EI.hi * bent);
+    const double of_P = h * h * on.modulus() * sizes;
+    on.slack = rounding * (std::abs(forces[2].hi) + h * std::abs(forces[0].hi) + clamped + of_P);
+    for (line_part& part : on.parts) {
+      part.slack = rounding * (sizes + bends * clamped);
+      part.slack_of_b = rounding * bends * (clamped + of_P / 64) + 0x1p-88 * sizes;
+    }
   }
 }
 
@@ -428,17 +438,13 @@ bool bed_line::is_settled(const std::vector<double>& next) const {
   double shortest = on_.x.back() - on_.x.front();
   for (const line_element& on : elements)
     for (const line_part& part : on.parts) {
-      const double lacks = sum_of_sizes(late(on, part));
+      const double lacks = sum_of_sizes(part.late());
       for (const bed_along& b : part.beds) off = std::max(off, b.modulus.hi * b.pressed.length() * lacks);
       all = std::max(all, sum_of_sizes(part.pressure));
       shortest = std::min(shortest, on.h.hi);
     }
   const auto is_near = [&](double a, double b) { return std::abs(a - b) <= of_length * shortest; };
   return off <= of_pressure * all && std::ranges::equal(next, ends, is_near);
-}
-
-poly bed_line::late(const line_element& on, const line_part& part) const {
-  return sum_of(beyond_nodes(on, part, u), part.before, -1.0);
 }
 
 }  // namespace contct

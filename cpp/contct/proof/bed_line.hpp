@@ -66,14 +66,18 @@ struct line_part {
   double_double from, share;  ///< its left end and its length, as shares of the element's length
   std::shared_ptr<const hermite_part> hermite;
   std::vector<bed_along> beds = {};
-  line_polynomial<double> before = {};    ///< b of the pass before, from which P is made
-  line_polynomial<double> pressure = {};  ///< P, upward, rounded
-  line_of<double> line = {};              ///< w1, rounded
-  double slack = 0.0;                     ///< a bound on the rounding of `line.w`, of w_I and of faces
-  double off = 0.0;                       ///< a bound on |r|
+  line_polynomial<double> before = {};                      ///< b of the pass before, from which P is made
+  line_polynomial<double> pressure = {};                    ///< P, upward, rounded
+  line_polynomial<double> beyond = {};                      ///< b, rounded
+  line_polynomial<double> w = {}, moment = {}, shear = {};  ///< of w1, rounded
+  double slack = 0.0;       ///< a bound on the rounding of w, of w_I and of faces
+  double slack_of_b = 0.0;  ///< the same of b, and of faces in 32 digits
+  double off = 0.0;         ///< a bound on |r|
 
   /// n (w1 - c) of a bed.
   [[nodiscard]] line_polynomial<double> depth(const bed_along& b) const;
+  /// b - `before`.
+  [[nodiscard]] line_polynomial<double> late() const;
   /// The sum of the moduli of all beds.
   [[nodiscard]] double modulus() const;
 };
@@ -107,8 +111,6 @@ class bed_line {
   [[nodiscard]] scaled_stiffness scaled(const long_system& s) const {
     return {s, rows_, on_.hinges.empty() ? 3 : 4, false, true};
   }
-  /// b - `before` on a part of `on`.
-  [[nodiscard]] line_polynomial<double> late(const line_element& on, const line_part& part) const;
 
   const std::shared_ptr<const fine_mesh> mesh;
   std::vector<line_element> elements;

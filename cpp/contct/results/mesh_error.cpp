@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "contct/proof/error_bounds.hpp"
@@ -32,6 +33,11 @@ double rough_bound_on_most(const poly& p) {
 /// The larger of `most` and bound_on_most(p).
 double most_of(double most, const poly& p) {
   return rough_bound_on_most(p) <= most ? most : std::max(most, bound_on_most(p));
+}
+
+/// A bound on the depth d of a bed where P and d have different signs.
+double wrong_in(const line_part& part, const bed_along& b, const poly& d) {
+  return most_of(-part.slack, b.pressed.length() > 0.0 ? negative(d) : d) + part.slack;
 }
 
 /// The integral from 0 to 1.
@@ -74,6 +80,7 @@ double share_beyond(const poly& d, double least, const stretch& s = {0.0, 1.0}) 
 /// The pressure, the force and the length in contact of a bed under w1.
 struct bed_under_line {
   double pressure = 0.0, pressure_bound = 0.0;
+  double least_pressure = std::numeric_limits<double>::infinity();
   double_double force = {};
   double force_bound = 0.0;
   double_double least_contact = {}, most_contact = {};
@@ -143,13 +150,11 @@ void mesh_prover::measure() {
       for (const bed_along& b : part.beds) deepest = most_of(deepest, part.depth(b));
   for (line_element& on : line_.elements)
     for (line_part& part : on.parts) {
-      const poly late = line_.late(on, part);
-      const double most = sum_of_sizes(late);
+      const double late = sum_of_sizes(part.late()) + part.slack_of_b;
       for (bed_along& b : part.beds) {
         const poly d = part.depth(b);
         const bool presses = b.pressed.length() > 0.0;
-        const double wrong = most_of(0.0, presses ? negative(d) : d);
-        part.off += b.modulus.hi * ((presses ? most : 0.0) + wrong + part.slack);
+        part.off += b.modulus.hi * ((presses ? late : 0.0) + wrong_in(part, b, d));
         b.certain = stretch_beyond(d, 0x1p-20 * deepest + part.slack);
       }
     }
@@ -191,7 +196,7 @@ void mesh_prover::sum_up() {
       const double share = of_A->certain.length();
       inside += share * h * part.off * part.off / of_A->modulus.hi;
       all += h * part.off * part.off / part.modulus();
-      outside += reach_in(on) * ((1 - share) * part.off + part.modulus() * part.slack) * h;
+      outside += reach_in(on) * ((1 - share) * part.off + part.modulus() * part.slack_of_b) * h;
     }
   rho_ = (std::sqrt(nodal) + std::sqrt(inside) + outside) * (1 + summation_slack);
   forces_ = (rho_ + std::sqrt(all)) * (1 + summation_slack);
@@ -245,7 +250,7 @@ void mesh_prover::compare_elements(mesh_error& e) const {
     const line_element& left = line_.elements[line_.mesh->at(i)];
     const line_element& right = line_.elements[line_.mesh->at(i + 1) - 1];
     const line_part& first = left.parts.front();  // a load at its left end does not act there yet
-    const auto end = right.parts.back().line.right_end();
+    const line_part& last = right.parts.back();
     const auto take = [&](quantity kind, std::size_t name, double at_left, double at_right, auto square) {
       const auto printed = told_.elements.at(i, name);
       const double over = kind == quantity::shear ? left.h.hi : 1.0;
@@ -254,8 +259,10 @@ void mesh_prover::compare_elements(mesh_error& e) const {
       e.take(name_of(kind), printed[1], at_right,
              std::sqrt(square(right, false)) * forces_ + right.slack / over);
     };
-    take(quantity::shear, 0, first.line.shear[0] - first.load.force.hi, end.shear, shear_square);
-    take(quantity::moment, 1, first.line.moment[0] + first.load.moment.hi, end.moment, moment_square);
+    take(quantity::shear, 0, first.shear[0] - first.load.force.hi, polynomial_at(last.shear, 1.0),
+         shear_square);
+    take(quantity::moment, 1, first.moment[0] + first.load.moment.hi, polynomial_at(last.moment, 1.0),
+         moment_square);
   }
 }
 
@@ -279,6 +286,7 @@ void mesh_prover::compare_supports(mesh_error& e) const {
 
 void mesh_prover::compare_pairs(mesh_error& e) const {
   const problem& p = told_.what;
+  std::map<int, std::array<double, 3>> pressures;  // of all beds at a node: printed, of w1, bound
   const auto compare_pair = [&](std::size_t i, double share) {
     const pair_reading& at = told_.pairs[i];
     const double k = p.pairs[i].stiffness;
@@ -291,11 +299,15 @@ void mesh_prover::compare_pairs(mesh_error& e) const {
     e.take(name_of(quantity::gap), at.gap, std::max(-deep, 0.0), moved);
     e.take(name_of(quantity::force), at.force, force,
            share > 0.0 ? k * moved : std::min(k * moved, std::sqrt(k) * rho_ + k * rounding));
-    if (share > 0.0) e.take(pressure_name, at.force / share, force / share, k / share * moved);
+    if (share == 0.0) return;
+    e.take(pressure_name, at.force / share, force / share, k / share * moved);
+    std::array<double, 3>& sum = pressures[p.pairs[i].node];
+    sum = {sum[0] + at.force / share, sum[1] + force / share, sum[2] + k / share * moved};
   };
   for (std::size_t i = 0; i < contacts_of(p); ++i) compare_pair(i, 0.0);
   for (const bed& b : p.beds)
     for (std::size_t i = 0; i < b.share.size(); ++i) compare_pair(b.first_pair + i, b.share[i]);
+  for (const auto& [node, sum] : pressures) e.take(pressure_name, sum[0], sum[1], sum[2]);
 }
 
 bed_under_line mesh_prover::find_bed(std::size_t bed) const {
@@ -310,11 +322,10 @@ bed_under_line mesh_prover::find_bed(std::size_t bed) const {
         const double k = b.modulus.hi;
         const double moved = reach_in(on) * rho_ + part.slack;
         sum.pressure = k * most_of(sum.pressure / k, d);
+        sum.least_pressure = std::min(sum.least_pressure, k * -most_of(-sum.least_pressure / k, negative(d)));
         sum.pressure_bound = std::max(sum.pressure_bound, k * moved);
-        const bool presses = b.pressed.length() > 0.0;
-        if (presses) sum.force += k * h * mean_of(d);
-        const double wrong = most_of(0.0, presses ? negative(d) : d);
-        sum.force_bound += k * h * (wrong + part.slack + 0x1p-48 * sum_of_sizes(d));
+        if (b.pressed.length() > 0.0) sum.force += k * h * mean_of(d);
+        sum.force_bound += k * h * (wrong_in(part, b, d) + part.slack + 0x1p-48 * sum_of_sizes(d));
         stiffness += k * h;
         sum.least_contact += h * share_beyond(d, moved);
         sum.most_contact += h * (1.0 - share_beyond(negative(d), moved));
@@ -329,6 +340,8 @@ void mesh_prover::compare_beds(mesh_error& e) const {
     const bed_under_line now = find_bed(bed);
     e.take(pressure_name, printed[bed].pressure.most.value, now.pressure,
            now.pressure_bound + close * now.pressure);
+    e.take(pressure_name, printed[bed].pressure.least.value, std::max(0.0, now.least_pressure),
+           now.pressure_bound + close * now.pressure);
     e.take(bed_force_name, printed[bed].force, now.force.hi, now.force_bound);
     const double half = (now.most_contact - now.least_contact).hi / 2;
     e.take(bed_contact_name, printed[bed].contact, now.least_contact.hi + half, half);
@@ -336,8 +349,7 @@ void mesh_prover::compare_beds(mesh_error& e) const {
 }
 
 void mesh_prover::compare_extremes(mesh_error& e) const {
-  using line = line_of<double>;
-  const std::array all = {&line::w, &line::moment, &line::shear};
+  const std::array all = {&line_part::w, &line_part::moment, &line_part::shear};
   constexpr std::array kinds = {quantity::w, quantity::moment, quantity::shear};
   bool is_close = true;  // w1 is
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -352,7 +364,7 @@ void mesh_prover::compare_extremes(mesh_error& e) const {
       const double slack = i == 0 ? on.parts.front().slack : on.slack / (i == 1 ? 1.0 : on.h.hi);
       bound = std::max(bound, (i == 0 ? reach_in(on) * rho_ : std::sqrt(square) * forces_) + slack);
       for (const line_part& part : on.parts) {
-        const poly& p = part.line.*all[i];
+        const poly& p = part.*all[i];
         now.least = -most_of(-now.least, negative(p));
         now.most = most_of(now.most, p);
         size = std::max(size, sum_of_sizes(p));
@@ -417,10 +429,15 @@ fine_mesh finely_divided(const problem& p) {
   fine_mesh mesh{p};
   const auto bends = [&mesh](double most) {  // k h^4 / EI of an element
     const auto& b = std::get<beam>(mesh.fine.geometry.kind);
-    double modulus = 0.0;
-    for (const bed& on : mesh.fine.beds) modulus += on.modulus;
+    const auto modulus_on = [&](int e) {
+      double sum = 0.0;
+      for (const bed& on : mesh.fine.beds)
+        for (const bed_part& part : on.parts)
+          if (part.from[0].x < b.x[e + 1] && b.x[e] < part.to[0].x) sum += part.modulus;
+      return sum;
+    };
     for (int e = 0; e < b.elements(); ++e)
-      if (modulus * std::pow(b.length_of(e), 4) > most * b.EI[e]) return true;
+      if (modulus_on(e) * std::pow(b.length_of(e), 4) > most * b.EI[e]) return true;
     return false;
   };
   const std::vector<double>& x = std::get<beam>(p.geometry.kind).x;
@@ -432,11 +449,12 @@ fine_mesh finely_divided(const problem& p) {
       b.parts = {{{ends[0]}, {ends[1]}, b.modulus}};
       b.nodes.clear();
     }
-  const auto ends_between_nodes = [](const bed& b) { return b.parts.empty(); };
-  for (; mesh.halvings < 6 && (bends(1.0) || std::ranges::any_of(mesh.fine.beds, ends_between_nodes));
-       ++mesh.halvings)
-    mesh.fine = refined(mesh.fine);
-  mesh.coarse = bends(10.0);  // P lacks 50 times less after each pass
+  if (std::ranges::any_of(mesh.fine.beds, [](const bed& b) { return b.parts.empty(); }))
+    mesh = {refined(p), 1};  // ends of beds are then nodes
+  constexpr int most_elements = 1 << 16;
+  while (mesh.halvings < 6 && elements(mesh.fine.geometry) < most_elements && bends(1.0))
+    mesh = {refined(mesh.fine), mesh.halvings + 1};
+  mesh.coarse = bends(10.0);  // so that P lacks 50 times less after each pass
   return mesh;
 }
 

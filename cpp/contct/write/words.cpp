@@ -115,7 +115,7 @@ std::vector<std::string> mesh_words(const problem& p, const mesh_error& e) {
   std::vector<std::string> without;
   constexpr double noticeable = 0.01;
   for (const true_extremes& x : e.extremes) {
-    const bool is_most = x.most >= -x.least;
+    const bool is_most = x.most > -x.least * (1 + 1e-9);
     const double told = std::max(x.told_most, -x.told_least) * (is_most ? 1 : -1);
     const double found = is_most ? x.most : x.least;
     const double exact = std::abs(found) > 1e-9 * std::abs(told) ? found : 0.0;  // rounding
