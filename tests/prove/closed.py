@@ -1,5 +1,5 @@
-"""closed.py BUILD ROOT: tests that kernels with code unknown to the prover stay undecided, and that an empty kernel
-differs."""
+"""closed.py BUILD ROOT: tests that kernels with code unknown to the prover stay undecided, as do files of which something
+else decides what runs, and that an empty kernel differs."""
 
 import os
 import sys
@@ -26,6 +26,30 @@ CASES = {  # a kernel's body, and the reason that the prover must give
     "call abort@plt": "abort is called, whose effect is not known",
     "mov %rdi, (%rsp)\nret": "the target of the jump is not known",
     "mov %rax, -4096(%rsp)": "a write below the red zone",
+    "mov %rax, -70000(%rsp)": "more than 65536 bytes of the stack are used",
+    "mov pointer(%rip), %rax\n.data\npointer: .quad pointer\n.text": "static data is read that may have changed",
+    "pushw $1": "push with prefix 0x66 is not supported",
+    ".byte 0x66, 0xe9, 0, 0": "jmp with prefix 0x66 is not supported",
+    ".byte 0x63, 0xc0": "movsxd without REX.W is not supported",
+    ".byte 0xf2, 0x0f, 0x54, 0xc1": "andps is not supported",
+    ".byte 0x66, 0xf2, 0x0f, 0x10, 0x07": "the prefixes of",
+    "movsl": "this encoding of movsd is not supported",
+    "movaps %xmm0, -32(%rsp)": "not known to be a multiple of 16",
+    "andpd (%rdi), %xmm0": "not known to be a multiple of 16",
+    "push %rax\npush %rax\nadd $256, %rsp\nmov -256(%rsp), %rax\njmp *%rax": "not known to be in one region",
+}  # fmt: skip
+KERNEL_ALONE = KERNEL.removeprefix(ABI).format("nop")
+SETS_ROUNDING = "ldmxcsr 4(%rsp)\nmov $1, %eax\nret\n"
+FILES = {  # a library, and the reason
+    KERNEL_ALONE: "found no symbol contct_kernel_abi",
+    ABI.replace("$1", "$2") + KERNEL_ALONE: "contct_kernel_abi returns another number than 1",
+    ABI.replace("mov $1", "movl $1, changed(%rip)\nmov $1") + KERNEL_ALONE + ".data\nchanged: .long 0\n": "IMAGE is written",
+    ABI.replace("mov $1, %eax\nret\n", SETS_ROUNDING) + KERNEL_ALONE: "this mnemonic is not known",
+    KERNEL.format("nop") + '.section .init_array,"aw"\n.quad begin\n.text\nbegin:\n' + SETS_ROUNDING: "an initialiser may change how the kernel answers",
+    KERNEL.format("nop") + '.section .both,"awx",@progbits\nnop\n': "writable and executable",
+    KERNEL.format("call helper@plt") + ".text\n.globl helper\nhelper: ret\n": "helper, which another object may define, is called",
+    KERNEL.format("call helper@plt") + ".text\n.hidden helper\n.globl helper\n.type helper,@gnu_indirect_function\nhelper: lea local(%rip), %rax\nret\nlocal: ret\n":
+        "the place of relocation 37 is called",
 }  # fmt: skip
 PROVE, ENVIRONMENT = ("-m", "contct_prove"), os.environ | {"PYTHONPATH": str(build)}
 
@@ -46,10 +70,18 @@ with tempfile.TemporaryDirectory() as folder:
         if body == "cpuid":
             found = contct.prove(library)["contct_kernel"]
             assert found.startswith("undecided: ") and expected in found, f"by the Python module: {found}"
+    for source, expected in FILES.items():
+        Path(f"{folder}/mine.s").write_text(source)
+        run("cc", "-shared", "-o", library, f"{folder}/mine.s", status=0)
+        check(expected, "/usr/bin/python3", *PROVE, library)
+    whole = Path(library).read_bytes()
+    for size in (70, 700, len(whole) // 2):
+        Path(f"{folder}/cut.so").write_bytes(whole[:size])
+        check(f"{folder}/cut.so: found", "/usr/bin/python3", *PROVE, f"{folder}/cut.so")
     check("found no symbol other", "/usr/bin/python3", *PROVE, library, "--symbol", "other")
 check("found no ELF file of x86-64", "/usr/bin/python3", *PROVE, str(root / "README.md"))
 check("No such file", "/usr/bin/python3", *PROVE, "/no/such.so")
 check("found no kernel", "/usr/bin/python3", *PROVE, "/bin/true")
 check("apt-get install python3-capstone python3-z3", "/usr/bin/python3", "-S", *PROVE, "/bin/true")
 check("found no ELF file of x86-64", str(build / "contct"), "prove", str(root / "README.md"))
-print(f"{len(CASES) + 6} cases are undecided")
+print(f"{len(CASES) + len(FILES) + 8} cases are undecided")

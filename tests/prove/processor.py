@@ -73,6 +73,9 @@ class Concrete:
         at, size = self.at(address), value.size() // 8
         self.data[at : at + size] = constant(value).as_long().to_bytes(size, "little")
 
+    def check_alignment(self, s: State, address: z3.BitVecRef) -> None:
+        assert self.at(address) % 16 == 0, "the processor would fault"
+
     def in_image(self, address: int) -> z3.BitVecRef:
         return z3.BitVecVal(address, 64)
 

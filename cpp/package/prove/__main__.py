@@ -5,6 +5,7 @@ import functools
 import hashlib
 import multiprocessing
 import os
+import subprocess
 import sys
 import time
 from typing import Any, Callable, NamedTuple
@@ -21,13 +22,15 @@ except ImportError as missing:
           "On Debian: apt-get install python3-capstone python3-z3", file=sys.stderr)  # fmt: skip
     sys.exit(2)
 
-from . import interfaces, replay
+from . import interfaces, startup
 from .elf import Image
 from .induction import Differs, Proof
 from .machine import Machine
 from .specification import PRECONDITIONS, Specification
 
 PROVED, DIFFERS, UNDECIDED = 0, 1, 2  # the exit status
+PLUGIN = "contct_kernel"
+NOT_FOUND = "no call with a difference was found"
 CLAIM = f"""
 For every call within the preconditions, each kernel that is proved leaves the bits of the specification in SS, SMIN and
 ISEP and makes its events, by machine-checked induction.
@@ -53,7 +56,7 @@ KERNELS = [
     Kernel("contc4_", 32, interfaces.fortran, "contct.f, 4-byte REAL"),
     Kernel(_CPP.format("d"), 64, interfaces.cpp, "contct<double>"),
     Kernel(_CPP.format("f"), 32, interfaces.cpp, "contct<float>"),
-    Kernel("contct_kernel", 64, interfaces.plugin, "contct_kernel"),
+    Kernel(PLUGIN, 64, interfaces.plugin, PLUGIN),
 ]
 
 
@@ -76,10 +79,18 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
     start, image = time.process_time(), Image(path)
     machine = Machine(image, Specification(kernel.width))
     try:
+        startup.check(image)
+        if kernel.symbol == PLUGIN:
+            startup.check_abi(image)
         proof = Proof(machine, kernel.interface(machine), image.symbol(kernel.symbol).address)
         proof.prove()
     except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # LookupError: unknown code
         return _refuted(path, kernel, machine, str(why))
+    if kernel.symbol == PLUGIN:
+        machine.constants = set()  # no calls for the constants of this code
+        status, words = _refuted(path, kernel, machine, "proved")
+        if NOT_FOUND not in words:  # a contradiction, or it does not run
+            return status, words
     code = image.code_of(kernel.symbol)
     return PROVED, (f"proved: {len(code)} bytes of SHA-256 {hashlib.sha256(code).hexdigest()}; {len(proof.heads)} loops, "
                     f"{machine.paths} paths, {machine.questions} questions, {time.process_time() - start:.1f} s of "
@@ -89,13 +100,16 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
 def _refuted(path: str, kernel: Kernel, machine: Machine, why: str) -> tuple[int, str]:
     """The verdict without a proof. Only a call that the kernel and FORTRAN answer differently when run is a
     difference."""
-    if kernel.symbol != "contct_kernel":
+    if kernel.symbol != PLUGIN:
         return UNDECIDED, f"undecided: {why}"
-    try:
-        found = replay.search(os.path.abspath(path), machine.constants)
-    except Exception as failure:  # a missing library or a crash: no call was compared
+    # In a process of its own: it is small, so that children start quickly, and may crash.
+    command = [sys.executable, "-m", f"{__package__}.replay", os.path.abspath(path), *map(str, sorted(machine.constants))]
+    said = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+    if said.returncode:  # a missing library or a crash: no call was compared
+        failure = (said.stderr.splitlines() or [f"exit status {said.returncode}"])[-1]
         return UNDECIDED, f"undecided: {why}; run with contct.py: {failure}"
-    return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; no call with a difference was found")
+    found = said.stdout
+    return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; {NOT_FOUND}")
 
 
 def main() -> int:

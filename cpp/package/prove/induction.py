@@ -180,7 +180,11 @@ class Proof:
 
     def _judge_all(self, arrivals: list[Arrival]) -> None:
         for a in arrivals:
-            self._judge(a)
+            try:
+                self._judge(a)
+            except Differs as why:
+                to = f"to {a.s.pc:#x}" if a.s.pc else "to the end"
+                raise Differs(f"from {a.origin or self.address:#x} {to}: {why}") from why
             if a.s.pc in self.heads and a.origin and not a.s.pairs and self.heads[a.s.pc].loop == a.at.loop:
                 raise Undecided(f"the loop at {a.s.pc:#x} may never end")
 

@@ -67,7 +67,8 @@ def plugin(machine: Machine) -> Interface:
     return Interface([*POINTERS, *arguments], {}, lambda s: [], lambda toggles, no_event: [])
 
 
-def _on_entry(name: str, width: int) -> z3.BitVecRef:
+def on_entry(name: str, width: int = 64) -> z3.BitVecRef:
+    """The unknown value of a register or an argument on entry."""
     return z3.BitVec("entry " + name, width)
 
 
@@ -76,24 +77,24 @@ def entry(machine: Machine, interface: Interface, address: int) -> State:
     machine.output = interface.smin
     s, real = State(address), machine.spec.width
     for name in GENERAL:
-        s.set_register(name, _on_entry(name, 64))
+        s.set_register(name, on_entry(name, 64))
     for k in range(16):
-        s.write(f"xmm{k}", 0, _on_entry(f"xmm{k}", real))
-        s.write(f"xmm{k}", real // 8, _on_entry(f"upper xmm{k}", 128 - real))
+        s.write(f"xmm{k}", 0, on_entry(f"xmm{k}", real))
+        s.write(f"xmm{k}", real // 8, on_entry(f"upper xmm{k}", 128 - real))
     s.set_register("rsp", BASE["STACK"])
     s.write("STACK", 0, RETURN)
     for register, value in zip(REGISTERS, interface.arguments):
         s.set_register(register, value)
     for k, value in enumerate(interface.arguments[len(REGISTERS) :]):
         s.write("STACK", 8 * (k + 1), value)
-    for (region, at), value in (interface.cells | {interface.smin: _on_entry("SMIN", real)}).items():
+    for (region, at), value in (interface.cells | {interface.smin: on_entry("SMIN", real)}).items():
         s.write(region, at, value)
     return s
 
 
 def fault_of_return(machine: Machine, interface: Interface, s: State, smin: z3.BitVecRef, toggled: z3.BitVecRef) -> str:
     """The registers and results that are wrong when the function returns; empty if all are right."""
-    expected = {name: _on_entry(name, 64) for name in KEPT} | {"rsp": BASE["STACK"] + 8}
+    expected = {name: on_entry(name, 64) for name in KEPT} | {"rsp": BASE["STACK"] + 8}
     expected |= {"eax": toggled} if interface.returns_count else {}
     wrong = [name for name, value in expected.items() if not machine.same(s, s.register(name), value)]
     wrong += [] if machine.same(s, s.read(*interface.smin, smin.size() // 8), smin) else ["SMIN"]

@@ -7,7 +7,7 @@ import capstone
 import z3
 from capstone import x86 as names
 
-from . import Undecided, runtime, x86
+from . import Undecided, encoding, runtime, x86
 from .elf import Image
 from .reals import EFFORT, follows
 from .specification import Position, Specification
@@ -15,6 +15,7 @@ from .state import State
 
 LONGEST_PATH = 4000  # instructions from one loop head to the next
 RED_ZONE = 128  # bytes below the stack pointer that no signal handler overwrites
+FRAME = 64 * 1024  # bytes of the stack that a call may use
 ARRAYS = ["DD", "DTEST", "CC", "SS", "ID", "ISEP", "ISURF", "EVENTS"]
 CELLS = ["STACK", "IMAGE", "CALL", "SMIN", "NC"]  # regions in which offsets are constants
 BASE = {name: z3.BitVec(name, 64) for name in [*ARRAYS, *CELLS]}
@@ -29,6 +30,7 @@ class Machine:
         self.image, self.spec = image, spec
         self.output: tuple[str, int] = ("", 0)  # place of SMIN, the only written argument that is not an array
         self.constants: set[int] = set()  # constants in the function's code
+        self.starting = False  # True for initialisers, which may write static data
         self.questions = self.paths = self._names = 0
         self.at, self.facts = None, None
         self._decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
@@ -86,6 +88,8 @@ class Machine:
             if name in ARRAYS:
                 return name, offset
             if name in CELLS and z3.is_bv_value(offset):
+                if name == "STACK" and offset.as_signed_long() < -FRAME:
+                    raise self.undecided(s, f"more than {FRAME} bytes of the stack are used")
                 return name, offset.as_signed_long()
         raise self.undecided(s, f"an address that is not known to be in one region: {address}")
 
@@ -147,14 +151,24 @@ class Machine:
             return s.read(region, offset, width // 8)
         if region != "IMAGE":
             raise self.undecided(s, f"{region} is read at {offset}, which is no argument")
-        target = self.image.relocations.get(offset)
-        if width == 64 and target is not None:
-            return self.in_image(target) if isinstance(target, int) else z3.BitVec("extern " + target, 64)
-        held, writable = self.image.bytes_at(offset, width // 8)
-        if writable or 8 * len(held) < width:
+        target, size = self.image.relocations.get(offset), width // 8
+        if width == 64 and isinstance(target, str):
+            return z3.BitVec("extern " + target, 64)
+        if width == 64 and target is not None and self.image.is_constant(offset):
+            return self.in_image(target)
+        held = self.image.constant(offset, size)
+        if held is None and self.starting:
+            return self.fresh(width)
+        if held is None:
             raise self.undecided(s, "static data is read that may have changed")
         self.constants.add(int.from_bytes(held, "little"))
         return z3.BitVecVal(int.from_bytes(held, "little"), width)
+
+    def check_alignment(self, s: State, address: z3.BitVecRef) -> None:
+        """Raise Undecided unless the address is a multiple of 16. On entry, 8 bytes above the stack pointer are."""
+        region, offset = self.locate(s, address)
+        if region not in ("STACK", "IMAGE") or (offset + 8 * (region == "STACK")) % 16:
+            raise self.undecided(s, "the address is not known to be a multiple of 16")
 
     def store(self, s: State, address: z3.BitVecRef, value: z3.BitVecRef) -> None:
         region, offset = self.locate(s, address)
@@ -170,7 +184,7 @@ class Machine:
             if offset < self.stack_offset(s, "rsp") - RED_ZONE:
                 raise self.undecided(s, "a write below the red zone")
             s.write(region, offset, value)
-        else:
+        elif not (self.starting and region == "IMAGE" and not self.image.is_constant(offset)):
             raise self.undecided(s, f"{region} is written, which the function may not change")
 
     def push(self, s: State, value: z3.BitVecRef) -> None:
@@ -186,9 +200,9 @@ class Machine:
 
     def instruction(self, address: int) -> capstone.CsInsn:
         if address not in self._decoded:
-            found = next(self._decoder.disasm(self.image.bytes_at(address, 15)[0], address, 1), None)
+            found = next(self._decoder.disasm(self.image.code_at(address), address, 1), None)
             if found is None:
-                raise Undecided(f"{self.image.path}, at {address:#x}: capstone does not know this instruction")
+                raise Undecided(f"{self.image.path}, at {address:#x}: no code, or an instruction that capstone does not know")
             self._decoded[address] = found
         return self._decoded[address]
 
@@ -226,23 +240,38 @@ class Machine:
             s.steps += 1
             if s.steps > LONGEST_PATH:
                 raise self.undecided(s, f"no end of the path after {LONGEST_PATH} instructions")
-            waiting += self._step(s)
+            top = s.cells.get(("rsp", 0))
+            after = self._step(s)
+            for end in after:
+                if end.cells.get(("rsp", 0)) is not top:
+                    self._forget(end)
+            waiting += after
+
+    def _forget(self, s: State) -> None:
+        """Forget what is below the red zone, where a signal handler may write."""
+        least = self.stack_offset(s, "rsp") - RED_ZONE
+        for region, at in [place for place in s.cells if place[0] == "STACK" and place[1] < least]:
+            del s.cells[region, at]
 
     def _step(self, s: State) -> list[State]:
         ins = self.instruction(s.pc)
         self.constants |= {op.imm % (1 << 8 * max(op.size, 1)) for op in ins.operands if op.type == names.X86_OP_IMM}
         o = x86.Operands(self, s, ins)
         after = ins.address + ins.size
-        if ins.mnemonic == "call":
-            self.push(s, self.in_image(after))
+        fault = encoding.fault_of(ins)
+        if fault:
+            raise self.undecided(s, fault)
         if ins.mnemonic in ("call", "jmp"):
             direct = o.list[0].type == names.X86_OP_IMM
-            return self._go(s, self.in_image(o.list[0].imm) if direct else o.get(0, 64))
+            target = self.in_image(o.list[0].imm) if direct else o.get(0, 64)
+            if ins.mnemonic == "call":
+                self.push(s, self.in_image(after))
+            return self._go(s, target)
         if ins.mnemonic.startswith("j"):
             return self._branch(s, o.condition(ins.mnemonic[1:]), o.list[0].imm, after)
         if ins.mnemonic == "ret" and not o.list:
             return self._go(s, self.pop(s))
-        if ins.mnemonic not in x86.ACTIONS or ins.prefix[0]:
+        if ins.mnemonic not in x86.ACTIONS:
             raise self.undecided(s, "this mnemonic is not known")
         x86.ACTIONS[ins.mnemonic](o)
         s.pc = after

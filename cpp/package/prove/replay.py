@@ -2,6 +2,7 @@
 
 import random
 import struct
+import sys
 from typing import Iterator
 
 from .reals import INFINITY
@@ -53,7 +54,7 @@ def _calls(constants: set[int]) -> Iterator[dict]:
     for value in [*small, 2, -2, 0, 3]:
         for isep, isurf in ((value, 1), (1, value)):
             yield from (_call([0], [ONE], [cc], [1], [isep], [isurf]) for cc in (0, HALF))
-    for _ in range(3000):
+    for _ in range(2000):
         nc, ndofpn = draw.randint(0, 5), draw.randint(1, 3)
         reals = [[draw.choice(pool) if draw.random() < 0.4 else draw.randint(HALF, ONE) | draw.choice((0, sign))
                   for _ in range(n)] for n in (3 * ndofpn, 3 * ndofpn, nc)]  # fmt: skip
@@ -63,3 +64,7 @@ def _calls(constants: set[int]) -> Iterator[dict]:
     for nc in sorted(n + 3 for n in numbers if 5 < n <= MOST_PAIRS):
         cc = [HALF + (k % 7 << 40) for k in range(nc)]
         yield _call([0], [ONE], cc, [1] * nc, [1 - k % 2 * 2 for k in range(nc)], [1] * nc)
+
+
+if __name__ == "__main__":  # the file of the kernel, and the constants in its code
+    print(search(sys.argv[1], set(map(int, sys.argv[2:]))), end="")

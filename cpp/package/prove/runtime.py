@@ -14,12 +14,18 @@ HAS_FORMAT = 0x1000
 BEGIN, INTEGER, REAL, DONE = (
     "_gfortran_" + name for name in ("st_write", "transfer_integer_write", "transfer_real_write", "st_write_done")
 )
+OF_START = ("__gmon_start__", "_ITM_registerTMCloneTable")  # called by the crt files of gcc and clang if they exist
 END = z3.BitVecVal(-1, 32)
 CHANGED = {region for region, _, _ in REGISTERS.values()} - {*KEPT, "rsp"}
 
 
 def call(machine, s: State, name: str) -> None:
     """Apply the effect of a call of `name` to `s`. The return address is on the stack."""
+    if machine.starting and name in OF_START:
+        for region, at in [place for place in s.cells if place[0] in CHANGED]:
+            s.cells[region, at] = machine.fresh(s.cells[region, at].size())
+        s.flags = dict
+        return
     if name not in (BEGIN, INTEGER, REAL, DONE) or not (s.events or name == BEGIN):
         raise machine.undecided(s, f"{name} is called, whose effect is not known")
     block, top = machine.stack_offset(s, "rdi"), machine.stack_offset(s, "rsp")
@@ -44,8 +50,8 @@ def _label(machine, s: State, block: int) -> int:
         raise machine.undecided(s, "a WRITE whose parameters are not constants")
     flags, unit, length = (n.as_long() for n in numbers)
     region, offset = machine.locate(s, s.read("STACK", block + FORMAT, 8))
-    text, writable = machine.image.bytes_at(offset, length) if region == "IMAGE" else (b"", True)
-    if (flags, unit, writable) != (HAS_FORMAT, 26, False):
+    text = machine.image.constant(offset, length) if region == "IMAGE" else None
+    if (flags, unit) != (HAS_FORMAT, 26) or text is None:
         raise machine.undecided(s, f"a WRITE to unit {unit} with flags {flags:#x}, not WRITE(26, label)")
     pieces = re.split(r"('[^']*')", text.decode("latin-1"))  # blanks matter only inside quotes
     format_ = "".join(piece if piece.startswith("'") else piece.replace(" ", "") for piece in pieces)

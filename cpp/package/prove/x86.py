@@ -44,8 +44,13 @@ class Operands:
         if op.type == names.X86_OP_IMM:
             return z3.BitVecVal(op.imm, width)
         if op.type == names.X86_OP_MEM:
+            self.check_alignment(k, width)
             return self.machine.load(self.s, self.address(k), width)
         return bits(self.s.register(self.ins.reg_name(op.reg)), 0, width)
+
+    def check_alignment(self, k: int, width: int) -> None:
+        if width == 128 and self.ins.mnemonic not in ("movups", "movupd", "movdqu"):
+            self.machine.check_alignment(self.s, self.address(k))
 
     def both(self) -> tuple[z3.BitVecRef, z3.BitVecRef]:
         """Both operands, with the width of the first."""
@@ -55,6 +60,7 @@ class Operands:
         """Write operand `k`. In a vector register, bits above the width of `value` do not change."""
         name, real = "" if self.is_memory(k) else self.ins.reg_name(self.list[k].reg), self.machine.spec.width
         if not name:
+            self.check_alignment(k, value.size())
             self.machine.store(self.s, self.address(k), z3.simplify(value))
         elif name.startswith("xmm") and value.size() == 128:  # a real and the bits above it
             self.s.write(name, 0, bits(value, 0, real))
@@ -126,6 +132,13 @@ def _leave(o: Operands) -> None:
     o.s.set_register("rbp", o.machine.pop(o.s))
 
 
+def _pop(o: Operands) -> None:
+    value = o.machine.pop(o.s)
+    if o.is_memory(0):
+        raise o.machine.undecided(o.s, "pop to memory is not supported")
+    o.set(0, value)
+
+
 ACTIONS: dict[str, Callable[[Operands], None]] = {
     "add": lambda o: o.set(0, _sum(o, o.get(0) + o.get(1, o.width(0)))),
     "inc": lambda o: o.set(0, _sum(o, o.get(0) + 1)),
@@ -150,7 +163,7 @@ ACTIONS: dict[str, Callable[[Operands], None]] = {
     "cdqe": lambda o: o.s.set_register("rax", z3.SignExt(32, o.s.register("eax"))),
     "lea": lambda o: o.set(0, bits(o.address(1), 0, o.width(0))),
     "push": lambda o: o.machine.push(o.s, o.get(0, 64)),
-    "pop": lambda o: o.set(0, o.machine.pop(o.s)),
+    "pop": _pop,
     "leave": _leave,
     "nop": lambda o: None,
     "endbr64": lambda o: None,
