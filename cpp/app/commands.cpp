@@ -146,8 +146,9 @@ exit_status run_command(const prove_options& options) {
   const std::string library = options.library.empty() ? program.string() : options.library;
   flush_standard_output();
   (void)setenv("PYTHONPATH", fs::path(*package).parent_path().c_str(), 1);
-  execl(python, python, "-P", "-m", "contct_prove", ("--symbol=" + options.symbol).c_str(), "--",
-        library.c_str(), static_cast<char*>(nullptr));
+  execl(python, python, "-P", "-m", "contct_prove", ("--symbol=" + options.symbol).c_str(),
+        ("--json=" + options.json).c_str(), ("--trace=" + options.trace).c_str(), "--", library.c_str(),
+        static_cast<char*>(nullptr));
   throw std::system_error(errno, std::generic_category(), std::string("cannot run ") + python);
 }
 

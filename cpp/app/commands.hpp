@@ -99,6 +99,8 @@ struct replay_options : kernel_report_options {
 struct prove_options {
   std::string library;  ///< a file with a kernel; empty: this program
   std::string symbol;   ///< the kernel's name in the file
+  std::string json;     ///< output file for the verdicts
+  std::string trace;    ///< output file for a call that is answered differently
 };
 
 struct kernels_options {};

@@ -320,6 +320,9 @@ void declare_prove(option_parser& p, CLI::App* c) {
   auto& o = p.options_for<prove_options>(c);
   add_file(c, "LIBRARY", o.library, "A file with a kernel, such as mine.so; by default this program");
   c->add_option("--symbol", o.symbol, "The kernel's name, if it is not contct_kernel");
+  add_file(c, "--json", o.json, "Write the verdicts to this file (- is standard output)");
+  add_file(c, "--trace", o.trace,
+           "If the kernel and the 1989 code answer a call differently, write this call to this file");
 }
 
 /// Adds examples: all of a command to its --help, and the first of each command to the program's --help.

@@ -1,6 +1,7 @@
 """closed.py BUILD ROOT: tests that kernels with code unknown to the prover stay undecided, as do files of which something
 else decides what runs, and that an empty kernel differs."""
 
+import json
 import os
 import sys
 import tempfile
@@ -70,6 +71,11 @@ with tempfile.TemporaryDirectory() as folder:
         if body == "cpuid":
             found = contct.prove(library)["contct_kernel"]
             assert found.startswith("undecided: ") and expected in found, f"by the Python module: {found}"
+    trace, verdicts = f"{folder}/call.trace", f"{folder}/verdicts.json"  # of the last case, which differs
+    check("differs: SMIN is ", "/usr/bin/python3", *PROVE, library, f"--trace={trace}", f"--json={verdicts}", status=1)
+    assert [k["verdict"] for k in json.loads(Path(verdicts).read_text())["kernels"]] == ["differs"]
+    run(str(build / "contct"), "replay", trace, status=0)
+    run(str(build / "contct"), "replay", trace, "--kernel", "plugin:" + library, status=1)
     for source, expected in FILES.items():
         Path(f"{folder}/mine.s").write_text(source)
         run("cc", "-shared", "-o", library, f"{folder}/mine.s", status=0)
@@ -84,4 +90,4 @@ check("No such file", "/usr/bin/python3", *PROVE, "/no/such.so")
 check("found no kernel", "/usr/bin/python3", *PROVE, "/bin/true")
 check("apt-get install python3-capstone python3-z3", "/usr/bin/python3", "-S", *PROVE, "/bin/true")
 check("found no ELF file of x86-64", str(build / "contct"), "prove", str(root / "README.md"))
-print(f"{len(CASES) + len(FILES) + 8} cases are undecided")
+print(f"{len(CASES) + len(FILES) + 9} cases are undecided")

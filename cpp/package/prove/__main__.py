@@ -3,6 +3,7 @@
 import argparse
 import functools
 import hashlib
+import json
 import multiprocessing
 import os
 import subprocess
@@ -22,13 +23,14 @@ except ImportError as missing:
           "On Debian: apt-get install python3-capstone python3-z3", file=sys.stderr)  # fmt: skip
     sys.exit(2)
 
-from . import interfaces, startup
+from . import interfaces, replay, startup
 from .elf import Image
 from .induction import Differs, Proof
 from .machine import Machine
 from .specification import PRECONDITIONS, Specification
 
 PROVED, DIFFERS, UNDECIDED = 0, 1, 2  # the exit status
+VERDICTS = ("proved", "differs", "undecided")
 PLUGIN = "contct_kernel"
 NOT_FOUND = "no call with a difference was found"
 CLAIM = f"""
@@ -74,8 +76,8 @@ def kernels_of(image: Image, symbol: str) -> list[Kernel]:
     return ours
 
 
-def judge(path: str, kernel: Kernel) -> tuple[int, str]:
-    """The verdict on one kernel of a file: exit status and words."""
+def judge(path: str, kernel: Kernel, trace: str = "") -> tuple[int, str]:
+    """The verdict on one kernel of a file: exit status and words. `trace`: a file for a call with a difference."""
     start, image = time.process_time(), Image(path)
     machine = Machine(image, Specification(kernel.width))
     try:
@@ -85,10 +87,10 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
         proof = Proof(machine, kernel.interface(machine), image.symbol(kernel.symbol).address)
         proof.prove()
     except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # LookupError: unknown code
-        return _refuted(path, kernel, machine, str(why))
+        return _refuted(path, kernel, machine, str(why), trace)
     if kernel.symbol == PLUGIN:
         machine.constants = set()  # no calls for the constants of this code
-        status, words = _refuted(path, kernel, machine, "proved")
+        status, words = _refuted(path, kernel, machine, "proved", trace)
         if NOT_FOUND not in words:  # a contradiction, or it does not run
             return status, words
     code = image.code_of(kernel.symbol)
@@ -97,13 +99,13 @@ def judge(path: str, kernel: Kernel) -> tuple[int, str]:
                     "processor time")  # fmt: skip
 
 
-def _refuted(path: str, kernel: Kernel, machine: Machine, why: str) -> tuple[int, str]:
+def _refuted(path: str, kernel: Kernel, machine: Machine, why: str, trace: str) -> tuple[int, str]:
     """The verdict without a proof. Only a call that the kernel and FORTRAN answer differently when run is a
     difference."""
     if kernel.symbol != PLUGIN:
         return UNDECIDED, f"undecided: {why}"
     # In a process of its own: it is small, so that children start quickly, and may crash.
-    command = [sys.executable, "-m", f"{__package__}.replay", os.path.abspath(path), *map(str, sorted(machine.constants))]
+    command = [sys.executable, "-m", f"{__package__}.replay", os.path.abspath(path), trace, *map(str, sorted(machine.constants))]
     said = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
     if said.returncode:  # a missing library or a crash: no call was compared
         failure = (said.stderr.splitlines() or [f"exit status {said.returncode}"])[-1]
@@ -117,23 +119,33 @@ def main() -> int:
     p = argparse.ArgumentParser("contct prove", description=__doc__)
     p.add_argument("library", metavar="LIBRARY", help="an ELF file of x86-64 with a kernel, such as mine.so")
     p.add_argument("--symbol", default="", help="the kernel's name, if it is not contct_kernel")
+    p.add_argument("--json", default="", metavar="FILE", help="write the verdicts to this file (- is standard output)")
+    p.add_argument("--trace", default="", metavar="FILE", help="write a call that is answered differently to this file, for contct replay")
     o = p.parse_args()
+    say = functools.partial(print, file=sys.stderr if o.json == "-" else sys.stdout, flush=True)
     try:
         image = Image(o.library)
         kernels = kernels_of(image, o.symbol)
     except (OSError, Undecided) as error:
         print(f"contct prove: {error}", file=sys.stderr)
         return UNDECIDED
-    print(f"{o.library}\nSHA-256 {hashlib.sha256(image.data).hexdigest()}\n", flush=True)
+    digest, rows = hashlib.sha256(image.data).hexdigest(), []
+    say(f"{o.library}\nSHA-256 {digest}\n")
     found = set()
     with multiprocessing.Pool(2) as pool:
-        for kernel, (status, words) in zip(kernels, pool.imap(functools.partial(judge, o.library), kernels)):
+        for kernel, (status, words) in zip(kernels, pool.imap(functools.partial(judge, o.library, trace=o.trace), kernels)):
             found.add(status)
-            print(f"{kernel.words} ({kernel.symbol}): {words}", flush=True)
+            rows.append({"symbol": kernel.symbol, "kernel": kernel.words, "verdict": VERDICTS[status], "words": words})
+            say(f"{kernel.words} ({kernel.symbol}): {words}")
     if DIFFERS in found:
-        print("ISEP and ISURF may be any numbers here; `contct fuzz` draws ISEP from -2 to 2 and ISURF 1 or -1.")
+        say("ISEP and ISURF may be any numbers here; `contct fuzz` draws ISEP from -2 to 2 and ISURF 1 or -1.")
     if PROVED in found:
-        print(CLAIM)
+        say(CLAIM)
+    text = json.dumps({"library": o.library, "sha256": digest, "kernels": rows}, indent=2) + "\n"
+    if o.json == "-":
+        print(text, end="")
+    elif o.json:
+        replay.write_whole(o.json, text)
     return next(status for status in (DIFFERS, UNDECIDED, PROVED) if status in found)
 
 

@@ -1,5 +1,6 @@
 """Searches for a call that a plug-in kernel and the 1989 code answer differently. contct.py runs both kernels."""
 
+import os
 import random
 import struct
 import sys
@@ -13,11 +14,14 @@ WIDTH = 64  # bits of REAL in plugin.h
 ONE, HALF = 1023 << 52, 1022 << 52  # the bits of 1 and 0.5
 
 
-def search(path: str, constants: set[int]) -> str:
-    """Describe the first call that the kernel in a file and FORTRAN answer differently; empty if none is found."""
+def search(path: str, constants: set[int], trace: str = "") -> str:
+    """Describe the first call that the kernel in a file and FORTRAN answer differently; empty if none is found. `trace`: a
+    file for this call and the answer of FORTRAN."""
     for call in _calls(constants):
         for (name, ours), (_, listing) in zip(_answers("plugin:" + path, call), _answers("fortran", call)):
             if ours != listing:
+                if trace:
+                    write_whole(trace, _trace(path, call))
                 arguments = [f"  {name.upper()}: {value[:8]}" for name, value in call.items() if isinstance(value, list)]
                 numbers = f"  NC {len(call['cc'])}, INDOF {call['indof']}, NDOFPN {call['ndofpn']}"
                 return "\n".join([f"{name} is {ours}, but {listing} by the 1989 code, in the call", *arguments, numbers])
@@ -32,6 +36,29 @@ def _answers(kernel: str, call: dict) -> list[tuple[str, str]]:
     words = [("SMIN", float(answer.smin).hex())]
     words += [(f"SS({k})", float(s).hex()) for k, s in enumerate(answer.ss, 1)]
     return words + [(f"ISEP({k})", str(i)) for k, i in enumerate(answer.isep, 1)]
+
+
+def _trace(path: str, call: dict) -> str:
+    """The call, with the answer of FORTRAN, by trace-format.md."""
+    import contct
+
+    answer = contct.call("fortran", *call.values())
+    dofs = sorted({(node - 1) * call["ndofpn"] + call["indof"] for node in call["id"]})
+    pairs = zip(call["id"], call["isep"], call["isurf"], call["cc"])
+    lines = ["contct-trace-1 2026-11-21", f"about {os.path.basename(path)} and the 1989 code answer this call differently",
+             "kernel fortran", "real 8", "", "call 1", f"indof {call['indof']} ndofpn {call['ndofpn']} dofs {len(call['dd'])} nc {len(call['cc'])}"]  # fmt: skip
+    lines += [f"dof {n} dd {call['dd'][n - 1].hex()} dtest {call['dtest'][n - 1].hex()}" for n in dofs]
+    lines += [f"pair {k} id {node} isep {isep} isurf {isurf} cc {cc.hex()}" for k, (node, isep, isurf, cc) in enumerate(pairs, 1)]
+    lines += ["ask", f"smin {float(answer.smin).hex()}"]
+    lines += [f"pair {k} ss {float(s).hex()} isep {isep}" for k, (s, isep) in enumerate(zip(answer.ss, answer.isep), 1)]
+    return "\n".join([*lines, *("|" + line for line in answer.text.splitlines()), "end", ""])
+
+
+def write_whole(path: str, text: str) -> None:
+    """Write a file that appears whole or not at all."""
+    with open(path + ".new", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".new", path)
 
 
 def _call(dd: list[int], dtest: list[int], cc: list[int], id: list[int], isep: list[int], isurf: list[int],
@@ -66,5 +93,5 @@ def _calls(constants: set[int]) -> Iterator[dict]:
         yield _call([0], [ONE], cc, [1] * nc, [1 - k % 2 * 2 for k in range(nc)], [1] * nc)
 
 
-if __name__ == "__main__":  # the file of the kernel, and the constants in its code
-    print(search(sys.argv[1], set(map(int, sys.argv[2:]))), end="")
+if __name__ == "__main__":  # the file of the kernel, the file for a trace or "", and the constants in the kernel's code
+    print(search(sys.argv[1], set(map(int, sys.argv[3:])), sys.argv[2]), end="")
