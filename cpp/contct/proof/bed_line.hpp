@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contct/path/structure_state.hpp"
+#include "contct/proof/polynomial_bounds.hpp"
 #include "contct/proof/scaled_stiffness.hpp"
 #include "contct/structure/extremes.hpp"
 #include "contct/structure/problem.hpp"
@@ -24,13 +25,6 @@ struct fine_mesh {
   problem fine;
   int halvings = 0;
   bool coarse = false;  ///< the elements are too long for P to converge
-};
-
-/// A stretch of a part of an element, as shares of the part's length; empty if both are equal.
-struct stretch {
-  double from = 0.0, to = 0.0;
-
-  [[nodiscard]] double length() const { return to - from; }
 };
 
 /// A bed along a part of an element.

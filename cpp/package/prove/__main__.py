@@ -90,7 +90,7 @@ def judge(path: str, kernel: Kernel, trace: str = "") -> tuple[int, str]:
         return _refuted(path, kernel, machine, str(why), trace)
     if kernel.symbol == PLUGIN:
         machine.constants = set()  # no calls for the constants of this code
-        status, words = _refuted(path, kernel, machine, "proved", trace)
+        status, words = _refuted(path, kernel, machine, "its code is proved", trace)
         if NOT_FOUND not in words:  # a contradiction, or it does not run
             return status, words
     code = image.code_of(kernel.symbol)
@@ -124,6 +124,11 @@ def main() -> int:
     o = p.parse_args()
     say = functools.partial(print, file=sys.stderr if o.json == "-" else sys.stdout, flush=True)
     try:
+        if o.trace == "-":
+            raise Undecided("--trace: found -; allowed: the name of a file")
+        for name in filter(None, (o.json, o.trace)):
+            if os.path.realpath(name) == os.path.realpath(o.library):
+                raise Undecided(f"{name}: found the library; allowed: another file for the output")
         image = Image(o.library)
         kernels = kernels_of(image, o.symbol)
     except (OSError, Undecided) as error:
@@ -145,7 +150,11 @@ def main() -> int:
     if o.json == "-":
         print(text, end="")
     elif o.json:
-        replay.write_whole(o.json, text)
+        try:
+            replay.write_whole(o.json, text)
+        except OSError as error:
+            print(f"contct prove: {error}", file=sys.stderr)
+            return UNDECIDED
     return next(status for status in (DIFFERS, UNDECIDED, PROVED) if status in found)
 
 

@@ -12,20 +12,23 @@ _EXECUTABLE, _WRITABLE = 1, 2
 _PAGE = 4096
 _R_64, _R_COPY, _R_GLOB_DAT, _R_JUMP_SLOT, _R_RELATIVE = 1, 5, 6, 7, 8
 _DATA_OR_FUNCTION = (0, 1, 2)  # types of symbols: no type, datum, function; not TLS, not IFUNC
+_UNIQUE = 10  # a binding: one definition in the whole process
+_ABSOLUTE = 0xFF00  # from here on, a section number means something else
 _TAGS = {"PLTRELSZ": 2, "STRTAB": 5, "SYMTAB": 6, "RELA": 7, "RELASZ": 8, "INIT": 12, "SYMBOLIC": 16, "REL": 17,
          "TEXTREL": 22, "JMPREL": 23, "INIT_ARRAY": 25, "INIT_ARRAYSZ": 27, "FLAGS": 30, "PREINIT_ARRAYSZ": 33,
          "RELR": 36, "GNU_HASH": 0x6FFFFEF5, "FLAGS_1": 0x6FFFFFFB}  # fmt: skip
 _REFUSED = ("REL", "RELR", "TEXTREL", "PREINIT_ARRAYSZ")
 _PIE = 0x08000000  # in FLAGS_1
-COMMON = "dof_"  # COMMON /DOF/ is an argument, wherever the loader puts it
 
 
 class Symbol(NamedTuple):
-    """A symbol of the dynamic table. `is_here`: the loader takes this definition, so no other object can replace it."""
+    """A symbol of the dynamic table. `address` is 0 if another file defines it. `is_plain`: a datum or function at this
+    address. `is_here`: and the loader takes this definition, so no other object can replace it."""
 
     name: str
     address: int
     size: int
+    is_plain: bool
     is_here: bool
 
 
@@ -55,6 +58,7 @@ class Image:
                           for kind, _, _, start, _, _, in_memory, _ in headers if kind == _RELRO]  # fmt: skip
         self._touched: list[tuple[int, int]] = []  # first byte and end of each relocation
         self.relocations: dict[int, str | int] = {}  # a symbol that may be of another object, or an address
+        self._replaceable: list[tuple[Symbol, int, int]] = []
         self.symbols: dict[str, Symbol] = {}
         dynamic = [h for h in headers if h[0] == _DYNAMIC]
         if len(dynamic) != 1:
@@ -99,8 +103,9 @@ class Image:
         while b"\0" not in text:
             text += self._some(begin + len(text), 64)
         is_bound = self.is_program or info >> 4 == 0 or other & 3 or "SYMBOLIC" in self._tags or self._tags.get("FLAGS", 0) & 2
-        is_here = bool(section and is_bound and info & 15 in _DATA_OR_FUNCTION)
-        return Symbol(text[: text.index(b"\0")].decode(), value if section else 0, size, is_here)
+        is_plain = 0 < section < _ABSOLUTE and info & 15 in _DATA_OR_FUNCTION
+        is_here = is_plain and bool(is_bound) and info >> 4 != _UNIQUE
+        return Symbol(text[: text.index(b"\0")].decode(), value if section else 0, size, is_plain, is_here)
 
     def _exported(self) -> Iterator[Symbol]:
         """The defined symbols that the loader finds by the GNU hash table. A name that stands twice has versions."""
@@ -128,9 +133,11 @@ class Image:
                 index += 1
 
     def symbol(self, name: str) -> Symbol:
-        """The symbol `name`."""
+        """The function or datum `name`."""
         if name not in self.symbols:
             raise Undecided(f"{self.path}: found no symbol {name}; a file has only exported symbols")
+        if not self.symbols[name].is_plain:
+            raise Undecided(f"{self.path}: found {name} with a type of symbol that is not supported, such as IFUNC")
         return self.symbols[name]
 
     # Relocations.
@@ -145,18 +152,26 @@ class Image:
             is_address = kind == _R_64 or (kind in (_R_GLOB_DAT, _R_JUMP_SLOT) and addend == 0)
             if kind == _R_RELATIVE:
                 self._touch(where, addend)
-            elif is_address and s.address and (s.is_here or s.name == COMMON):
+            elif is_address and s.is_here:
                 self._touch(where, s.address + addend)
             elif is_address and not s.address and addend == 0:
                 self._touch(where, s.name)
             elif is_address and s.address:
                 self._touch(where, f"{s.name}, which another object may define,")
+                self._replaceable.append((s, where, s.address + addend))
             else:
                 self._touch(where, f"the place of relocation {kind}", s.size if kind == _R_COPY else 8)
         self._touched.sort()
         for (a, end), (b, _) in zip(self._touched, self._touched[1:]):
             if b < end:
                 self.relocations[a] = self.relocations[b] = "a place with two relocations"
+
+    def take(self, name: str) -> int:
+        """The address of the datum `name`, which is an argument, so that it does not matter where the loader puts it."""
+        for s, where, address in self._replaceable:
+            if s.name == name and s.is_plain:
+                self.relocations[where] = address
+        return self.symbol(name).address
 
     def _touch(self, where: int, value: str | int, size: int = 8) -> None:
         self._touched.append((where, where + size))
@@ -196,6 +211,10 @@ class Image:
         found = self._some(address, size)
         ends = (address, address + size - 1)
         return found if len(found) == size and all(map(self.is_constant, ends)) and not self.is_relocated(address, size) else None
+
+    def is_free(self, address: int, size: int) -> bool:
+        """Whether these bytes can be written without a change of a constant or of a place that the loader fills."""
+        return not any(map(self.is_constant, (address, address + size - 1))) and not self.is_relocated(address, size)
 
     def code_at(self, address: int) -> bytes:
         """Up to 15 bytes of code that nothing changes."""

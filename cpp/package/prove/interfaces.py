@@ -26,7 +26,7 @@ class Interface(NamedTuple):
 
 def fortran(machine: Machine) -> Interface:
     """contct_, the listing: pointers to all arguments, COMMON /DOF/, and WRITEs as events."""
-    spec, common = machine.spec, machine.image.symbol("dof_").address
+    spec, common = machine.spec, machine.image.take("dof_")
 
     def expected(toggles: list[Toggle], no_event: bool) -> list[z3.BitVecRef]:
         label = lambda number: z3.BitVecVal(number, 32)

@@ -184,7 +184,7 @@ class Machine:
             if offset < self.stack_offset(s, "rsp") - RED_ZONE:
                 raise self.undecided(s, "a write below the red zone")
             s.write(region, offset, value)
-        elif not (self.starting and region == "IMAGE" and not self.image.is_constant(offset)):
+        elif not (self.starting and region == "IMAGE" and self.image.is_free(offset, size)):
             raise self.undecided(s, f"{region} is written, which the function may not change")
 
     def push(self, s: State, value: z3.BitVecRef) -> None:
