@@ -48,6 +48,14 @@ const line_part& part_at(const line_element& e, const double_double& place) {
 
 }  // namespace
 
+template <class Polynomial>
+std::array<double_double, 4> hermite_part::products(const Polynomial& p) const {
+  std::array<double_double, 4> all;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t m = 0; m < p.size(); ++m) all[i] += p[m] * moments[i][m];
+  return all;
+}
+
 hermite_part::hermite_part(const double_double& h, const double_double& from, const double_double& share,
                            std::size_t powers)
     : of_h(h), at(from), along(share) {
@@ -69,13 +77,6 @@ double hermite_part::product(std::size_t function, const poly& p) const {
   double sum = 0.0;
   for (std::size_t m = 0; m < p.size(); ++m) sum += p[m] * moments[function][m].hi;
   return sum;
-}
-
-std::array<double_double, 4> hermite_part::products(const long_vector& p) const {
-  std::array<double_double, 4> all;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t m = 0; m < p.size(); ++m) all[i] += p[m] * moments[i][m];
-  return all;
 }
 
 poly line_part::depth(const bed_along& b) const {
@@ -161,19 +162,21 @@ void bed_line::add_beds(line_part& part, int e) const {
           face,
           formulas::in_element<double_double>(polynomial, points_.at(e) + part.from * h, part.share * h),
           1.0);
+      const auto of_face = part.hermite->products(face);
       part.beds.push_back({i, mesh->fine.pairs[beds[i].first_pair].surface,
-                           number_of<double_double>(b.modulus), std::move(face),
+                           number_of<double_double>(b.modulus), std::move(face), of_face,
                            first.presses || last.presses ? whole : stretch()});
     }
+}
+
+bool bed_line::has_end_in(const std::vector<double>& places, int e) const {
+  const auto first = std::ranges::lower_bound(places, on_.x[e]);
+  return first != places.end() && *first <= on_.x[e + 1];
 }
 
 /// Divides the elements at the places where a load or a bed begins or ends, or has another modulus, and at
 /// the ends of contact. False if such places are too close for their order to be certain.
 bool bed_line::divide() {
-  if (!elements.front().parts.empty() && ends == divided_at_) {
-    for (line_element& on : elements) carry_over(on, on);
-    return true;
-  }
   load cut = acting_;
   const auto add_cut = [&cut](const line_place& from, const line_place& to) {
     cut.placed.push_back({from == to ? load_kind::point : load_kind::force, from, to, {0.0}});
@@ -185,6 +188,10 @@ bool bed_line::divide() {
   const double near = 0x1p-40 * std::max(std::abs(on_.x.front()), std::abs(on_.x.back()));
   std::shared_ptr<const hermite_part> last;
   for (int e = 0; e < on_.elements(); ++e) {
+    if (!elements[e].parts.empty() && !has_end_in(ends, e) && !has_end_in(divided_at_, e)) {
+      carry_over(elements[e], elements[e]);
+      continue;
+    }
     line_element now = elements[e];
     now.parts.clear();
     const auto* const on = pieces_at(all, e);
@@ -213,17 +220,22 @@ void bed_line::carry_over(const line_element& old, line_element& now) const {
   for (line_part& part : now.parts) {
     const double_double middle = part.from + part.share * 0.5;
     const line_part& at = part_at(old, middle);
-    const auto in_old = [&at](const double_double& t) { return (t - at.from) / at.share; };
-    const auto here =
-        formulas::in_element<double>(std::span<const double>(at.beyond.data(), at.beyond.size()),
-                                     in_old(part.from).hi, (part.share / at.share).hi);
-    part.before.assign(here.begin(), here.begin() + std::min(here.size(), powers_));
-    const double size = 0x1p-52 * sum_of_sizes(at.beyond);  // any polynomial will do
+    const auto in_old = [&at](const double_double& t) { return (t.hi - at.from.hi) / at.share.hi; };
+    if (part.from == at.from && part.share == at.share) {
+      part.before = at.beyond;
+    } else {
+      const auto here =
+          formulas::in_element<double>(std::span<const double>(at.beyond.data(), at.beyond.size()),
+                                       in_old(part.from), part.share.hi / at.share.hi);
+      part.before.assign(here.begin(), here.end());
+    }
+    if (part.before.size() > powers_) part.before.resize(powers_);  // any polynomial will do
+    const double size = 0x1p-52 * sum_of_sizes(at.beyond);
     while (part.before.size() > 4 && std::abs(part.before.back()) <= size) part.before.pop_back();
     for (bed_along& b : part.beds) {
       const auto was = std::ranges::find(at.beds, b.bed, &bed_along::bed);
       b.pressed = {};
-      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle).hi) > 0.0) b.pressed = whole;
+      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle)) > 0.0) b.pressed = whole;
     }
   }
 }
@@ -232,8 +244,14 @@ long_system bed_line::system_with(stretch bed_along::*where) const {
   equations<double_double> e;
   e.fixed.assign(rows_.size(), 0);
   e.stiffness.resize(rows_.size());
+  for (auto& row : e.stiffness) row.reserve(7);  // the dofs of two elements, and of a hinge
+  const line_element* alike = nullptr;
+  std::array<std::array<double_double, 4>, 4> bending;
   for (const line_element& on : elements) {
-    auto own = formulas::beam_stiffness<double_double>(on.EI, on.h, 0.0);
+    if (alike == nullptr || !(alike->EI == on.EI && alike->h == on.h))
+      bending = formulas::beam_stiffness<double_double>(on.EI, on.h, 0.0);
+    alike = &on;
+    auto own = bending;
     for (const line_part& part : on.parts)
       for (const bed_along& b : part.beds) {
         const stretch& at = b.*where;
@@ -242,7 +260,7 @@ long_system bed_line::system_with(stretch bed_along::*where) const {
         if (at.length() < 1.0)
           shapes = std::make_shared<hermite_part>(on.h, part.from + part.share * at.from,
                                                   part.share * at.length(), 4);
-        const double_double k = b.modulus * part.load.h * at.length();
+        const double_double k = b.modulus * (part.load.h * at.length());
         for (std::size_t i = 0; i < 4; ++i)
           for (std::size_t j = 0; j < 4; ++j) own[i][j] += k * shapes->stiffness[i][j];
       }
@@ -268,20 +286,21 @@ long_loads bed_line::loads() const {
   l.settlement = sums_at_dofs<double_double>(acting_.settlements, rows_.size(), 2);
   l.size.resize(rows_.size());
   for (std::size_t dof = 0; dof < rows_.size(); ++dof) l.size[dof] = std::abs(l.force[dof].hi);
-  const auto add = [&l](int dof, const double_double& work) {
+  const auto add = [&l](int dof, const double_double& work, double size) {
     l.force[dof] += work;
-    l.size[dof] += std::abs(work.hi);
+    l.size[dof] += size;
   };
   for (const line_element& on : elements) {
-    for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], on.work[i]);
+    for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], on.work[i], std::abs(on.work[i].hi));
     for (const line_part& part : on.parts) {
-      long_vector from_faces;  // P at w_I = 0
-      const long_vector before(part.before.begin(), part.before.end());
-      for (const bed_along& b : part.beds)
-        if (b.pressed.length() > 0.0)
-          from_faces = sum_of(from_faces, sum_of(b.face, before, -1.0), b.modulus);
-      const auto work = part.hermite->products(from_faces);
-      for (std::size_t i = 0; i < 4; ++i) add(on.dofs[i], part.load.h * work[i]);
+      const auto of_before = part.hermite->products(part.before);
+      for (const bed_along& b : part.beds) {  // P at w_I = 0
+        if (b.pressed.length() == 0.0) continue;
+        const double_double k = b.modulus * part.load.h;
+        for (std::size_t i = 0; i < 4; ++i)
+          add(on.dofs[i], k * (b.of_face[i] - of_before[i]),
+              k.hi * (std::abs(b.of_face[i].hi) + std::abs(of_before[i].hi)));
+      }
     }
   }
   return l;
@@ -308,7 +327,7 @@ bool bed_line::solve() {
       u[dof] += correction[dof];
     }
     energy_ = std::max(energy_, work);
-    if (!(work < before / 4) || work < 0x1p-112 * energy_) break;
+    if (!(work < before / 4) || work < 0x1p-76 * energy_) break;
     before = work;
   }
   return true;

@@ -32,9 +32,10 @@ struct bed_along {
   std::size_t bed;  ///< from 0
   int surface;
   double_double modulus;
-  long_vector face;      ///< a polynomial
-  stretch pressed = {};  ///< the whole part if P has the pressure of the bed, otherwise empty
-  stretch certain = {};  ///< in the set A: where the bed certainly presses
+  long_vector face;                      ///< a polynomial
+  std::array<double_double, 4> of_face;  ///< hermite_part::products of the face
+  stretch pressed = {};                  ///< the whole part if P has the pressure of the bed, otherwise empty
+  stretch certain = {};                  ///< in the set A: where the bed certainly presses
 };
 
 /// Hermite's functions of an element of length h, as polynomials in s, from 0 to 1 along a part of the
@@ -44,7 +45,8 @@ struct hermite_part {
                std::size_t powers);
 
   /// The integral of each function times the polynomial p.
-  [[nodiscard]] std::array<double_double, 4> products(const long_vector& p) const;
+  template <class Polynomial>
+  [[nodiscard]] std::array<double_double, 4> products(const Polynomial& p) const;
   /// The same of one function, rounded.
   [[nodiscard]] double product(std::size_t function, const line_polynomial<double>& p) const;
 
@@ -118,6 +120,7 @@ class bed_line {
 
  private:
   [[nodiscard]] bool divide();
+  [[nodiscard]] bool has_end_in(const std::vector<double>& places, int e) const;
   void add_beds(line_part& part, int e) const;
   void carry_over(const line_element& old, line_element& now) const;
   [[nodiscard]] bool solve();
