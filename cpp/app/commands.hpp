@@ -94,6 +94,7 @@ struct fuzz_options : kernel_report_options {
 struct replay_options : kernel_report_options {
   std::vector<std::string> traces;
   std::vector<std::string> kernels;
+  std::string json;
 };
 
 struct prove_options {

@@ -36,14 +36,33 @@ std::string identity(const std::string& kernel) {
       quoted(f.language), quoted(f.compiler), quoted(f.flags), file_sha256(kernel));
 }
 
+std::string quoted_lines(const std::vector<std::string>& lines) {
+  std::vector<std::string> all;
+  for (const std::string& line : lines) all.push_back(quoted(line));
+  return "[" + joined(all, ", ") + "]";
+}
+
+/// The line at fault as JSON; null if there is none.
+std::string at_fault_json(const std::optional<faulty_line>& f) {
+  if (!f || f->at.number == 0) return "null";
+  return fmt::format(R"({{ "line": {}, "statement": {}, "explained": {}, "differ": {} }})", f->at.number,
+                     quoted(f->at.statement), f->explained, f->differ);
+}
+
+/// The key `first` with the place and the values of the first difference; empty if there is none.
+std::string first_json(const std::optional<mismatch_report>& m) {
+  if (!m) return "";
+  return fmt::format(R"(, "first": {{ "call": {}, "field": {}, "index": {}, "expected": {}, "found": {} }})",
+                     m->call, quoted(m->where.field), m->where.index, quoted(m->where.leader),
+                     quoted(m->where.follower));
+}
+
 std::string report_json(const kernel_report& r) {
   std::vector<std::string> traces;
-  std::vector<std::string> first_mismatch;
   for (const replayed_trace& t : r.traces)
     traces.push_back(
         fmt::format("\n  {{ \"name\": {}, \"sha256\": \"{}\", \"calls\": {}, \"mismatches\": {} }}",
                     quoted(t.name), t.sha256, t.calls, t.mismatches));
-  for (const std::string& line : r.first_mismatch) first_mismatch.push_back(quoted(line));
   std::string text = "{\n \"format\": \"contct-report-1\",\n";
   text += fmt::format(" \"program\": \"contct {}\",\n \"listing_sha256\": \"{}\",\n \"vectors\": \"{}\",\n",
                       CONTCT_VERSION, CONTCT_LISTING_SHA256, CONTCT_VECTORS_VERSION);
@@ -52,15 +71,9 @@ std::string report_json(const kernel_report& r) {
   text +=
       fmt::format(" \"calls\": {},\n \"values_compared\": {},\n \"mismatches\": {},\n \"rung\": \"{}\",\n",
                   r.calls, r.compared.values, r.compared.mismatches, r.rung);
-  const std::string at_fault =
-      !r.at_fault || r.at_fault->at.number == 0
-          ? "null"
-          : fmt::format(R"({{ "line": {}, "statement": {}, "explained": {}, "differ": {} }})",
-                        r.at_fault->at.number, quoted(r.at_fault->at.statement), r.at_fault->explained,
-                        r.at_fault->differ);
-  return json_escaped(text +
-                      fmt::format(" \"traces\": [{}],\n \"first_mismatch\": [{}],\n \"at_fault\": {}\n}}\n",
-                                  joined(traces, ","), joined(first_mismatch, ", "), at_fault));
+  return json_escaped(
+      text + fmt::format(" \"traces\": [{}],\n \"first_mismatch\": {},\n \"at_fault\": {}\n}}\n",
+                         joined(traces, ","), quoted_lines(r.first_mismatch), at_fault_json(r.at_fault)));
 }
 
 std::string badge_svg(const kernel_report& r) {
@@ -90,6 +103,31 @@ std::vector<std::string> known_faults(const fault_finder& answers) {
     if (!sentence.empty()) found.push_back("known fault: " + std::string(sentence));
   }
   return found;
+}
+
+std::string replay_json(const std::vector<compared_trace>& traces,
+                        const std::vector<checked_kernel>& kernels) {
+  tally all;
+  std::int64_t calls = 0;
+  std::vector<std::string> compared;
+  for (const compared_trace& t : traces) {
+    all += t.compared;
+    calls += t.calls;
+    compared.push_back(fmt::format(
+        "\n  {{ \"trace\": {}, \"kernel\": {}, \"verdict\": \"{}\", \"calls\": {}, \"values_compared\": "
+        "{}, \"mismatches\": {}{}, {}: {} }}",
+        quoted(t.file), quoted(t.kernel), t.verdict, t.calls, t.compared.values, t.compared.mismatches,
+        first_json(t.first), quoted("findings"),
+        quoted_lines(t.first ? words_of(*t.first) : std::vector<std::string>{})));
+  }
+  std::vector<std::string> checked;
+  for (const checked_kernel& k : kernels)
+    checked.push_back(fmt::format("\n  {{ \"kernel\": {}, \"at_fault\": {}, {}: {} }}", quoted(k.name),
+                                  at_fault_json(k.at_fault), quoted("findings"), quoted_lines(k.findings)));
+  return json_escaped(
+      fmt::format("{{\n \"format\": \"contct-replay-1\",\n \"calls\": {},\n \"values_compared\": {},\n "
+                  "\"mismatches\": {},\n \"traces\": [{}],\n \"kernels\": [{}]\n}}\n",
+                  calls, all.values, all.mismatches, joined(compared, ","), joined(checked, ",")));
 }
 
 void refuse_many_reported(std::size_t kernels, const std::string& outputs) {

@@ -1,5 +1,6 @@
 // Writes the report of `contct fuzz` and `contct replay` on one kernel (--report): its calls and mismatches.
-// The file can be submitted; reference/vectors/verify_report.py checks the file.
+// The file can be submitted; reference/vectors/verify_report.py checks the file. Also writes the result of
+// `contct replay` (--json). contct-replay is built without a JSON library, so this code writes the text.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,26 @@ struct kernel_report {
   std::vector<std::string> first_mismatch;  ///< the first mismatch, in lines
   std::optional<faulty_line> at_fault = {};
 };
+
+/// The comparison of a kernel with a trace.
+struct compared_trace {
+  std::string file, kernel;
+  std::string verdict;  ///< "equal", "mismatch", "environment" or "skipped"
+  std::int64_t calls = 0;
+  tally compared = {};
+  std::optional<mismatch_report> first = {};
+};
+
+/// What all traces together show about a kernel: the line at fault, and lines of text.
+struct checked_kernel {
+  std::string name;
+  std::optional<faulty_line> at_fault;
+  std::vector<std::string> findings;
+};
+
+/// The result of `contct replay` as JSON, format "contct-replay-1".
+[[nodiscard]] std::string replay_json(const std::vector<compared_trace>& traces,
+                                      const std::vector<checked_kernel>& kernels);
 
 /// Throws std::invalid_argument if `outputs`, the file names of --report and --badge, are not empty although
 /// the number of checked kernels is not 1.

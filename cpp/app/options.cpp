@@ -173,6 +173,7 @@ void declare_replay(option_parser& p, CLI::App* c) {
   add_kernels(c, "--kernel", o.kernels,
               "The kernels to check; by default the 1989 code in the trace's precision")
       ->allow_extra_args(false);  // the next argument is a trace
+  add_file(c, "--json", o.json, "Write the result to this file (- is standard output)");
   add_kernel_report(c, o);
 }
 

@@ -17,6 +17,11 @@ namespace {
 /// The verdict of a replay. Without strict floating point, a mismatch is attributed to the environment.
 std::string verdict_of(const tally& compared, const floating_point& fp) {
   if (compared.mismatches != 0) return fp.strict() ? "mismatch" : "environment";
+  return "equal";
+}
+
+std::string verdict_words(const std::string& verdict, const floating_point& fp) {
+  if (verdict != "equal") return verdict;
   const std::string but = fmt::format(", but the environment is not strict ({})", describe(fp));
   return "equal to the bit" + (fp.strict() ? "" : but);
 }
@@ -24,6 +29,7 @@ std::string verdict_of(const tally& compared, const floating_point& fp) {
 /// The results of all traces, for the report about a kernel.
 struct replayed {
   kernel_report report = {"replay", "", "", 0, {}, {}, {}};
+  std::vector<compared_trace> traces;
   nearness near;
   std::map<std::string, fault_finder> faults;  // one for each kernel name
 
@@ -48,6 +54,7 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   const kernel_facts facts = facts_of_kernel(kernel);
   if (!comparable(h, facts)) {
     result.what = outcome::skipped;
+    all.traces.push_back({file, kernel, "skipped"});
     result.summary =
         fmt::format("skipped: recorded with {}-byte REAL and {}; {} has {}-byte REAL and {}", h.real_bytes,
                     rule_words(h.rule), kernel, facts.real_bytes, rule_words(facts.rule));
@@ -64,9 +71,10 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   if (done == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
   const floating_point fp = probe_floating_point();
   result.what = passed_if(f.compared.mismatches == 0);
-  result.summary =
-      fmt::format("{}; {}, {} compared, {}", verdict_of(f.compared, fp), counted(done, "call"),
-                  counted(f.compared.values, "value"), counted(f.compared.mismatches, "mismatch"));
+  all.traces.push_back({file, kernel, verdict_of(f.compared, fp), done, f.compared, f.first()});
+  result.summary = fmt::format("{}; {}, {} compared, {}", verdict_words(all.traces.back().verdict, fp),
+                               counted(done, "call"), counted(f.compared.values, "value"),
+                               counted(f.compared.mismatches, "mismatch"));
   all.add(file, text, done, f);
   if (!f.first()) return result;
   result.details = joined(words_of(*f.first()), "\n") + "\n";
@@ -78,8 +86,9 @@ check_result replay_one(const std::string& file, const std::string& text, const 
 
 exit_status run_command(const replay_options& options) {
   const auto started = std::chrono::steady_clock::now();
-  const std::vector<output_option> outputs =
-      with_reports({{"--report", options.kernel_report}, {"--badge", options.badge}}, options.report);
+  const std::vector<output_option> outputs = with_reports(
+      {{"--json", options.json}, {"--report", options.kernel_report}, {"--badge", options.badge}},
+      options.report);
   refuse_many_reported(options.kernels.size(), options.kernel_report + options.badge);
   std::vector<output_option> inputs;
   for (const std::string& file : options.traces) inputs.push_back({"a trace", file});
@@ -107,10 +116,13 @@ exit_status run_command(const replay_options& options) {
     }
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  std::vector<checked_kernel> checked;
   for (const auto& [kernel, faults] : all.faults) {
     all.report.at_fault = faults.found();
-    if (all.report.at_fault) complain("{}: at fault: {}", kernel, words_of(*all.report.at_fault));
-    for (const std::string& advice : known_faults(faults)) complain("{}: {}", kernel, advice);
+    std::vector<std::string> findings = known_faults(faults);
+    if (all.report.at_fault) findings.insert(findings.begin(), "at fault: " + words_of(*all.report.at_fault));
+    for (const std::string& finding : findings) complain("{}: {}", kernel, finding);
+    checked.push_back({kernel, all.report.at_fault, std::move(findings)});
   }
   if (report.count(outcome::skipped) == static_cast<std::int64_t>(report.results.size()))
     throw std::invalid_argument(
@@ -121,6 +133,7 @@ exit_status run_command(const replay_options& options) {
   flush_standard_output();
   all.report.kernel = kernels[0];
   all.report.rung = name_of(level_of(all.near, all.report.compared));
+  files.write("--json", replay_json(all.traces, checked));
   write_report(files, all.report);
   files.write(report);
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;

@@ -29,9 +29,10 @@ int main(void) {
     }
     if (scanf(" %d ndofpn %d dofs %d nc %d", &indof, &ndofpn, &dofs, &nc) != 4) return 1;
     double *dd = numbers((size_t)dofs, sizeof *dd), *dtest = numbers((size_t)dofs, sizeof *dtest);
-    double *cc = numbers((size_t)nc, sizeof *cc), *ss = numbers((size_t)nc, sizeof *ss), smin = 0;
+    double *cc = numbers((size_t)nc, sizeof *cc), *ss = numbers((size_t)nc, sizeof *ss), smin = -7;
     int *id = numbers((size_t)nc, sizeof *id), *isep = numbers((size_t)nc, sizeof *isep),
         *isurf = numbers((size_t)nc, sizeof *isurf);
+    for (i = 0; i < nc; ++i) ss[i] = -7; /* contct takes -7 as a number that the kernel has not set */
     for (i = 0; i < dofs; ++i) dd[i] = dtest[i] = NAN;
     while (scanf(" dof %d dd", &dof) == 1)
       if (scanf(" %lf dtest %lf", &dd[dof - 1], &dtest[dof - 1]) != 2) return 1;

@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-COMPARED = "format", "listing_sha256", "vectors", "calls", "values_compared", "mismatches", "rung", "traces"
+COMPARED = "mismatches", "rung", "calls", "values_compared", "vectors", "format", "listing_sha256"
 FUZZ = re.compile(r"contct fuzz --kernels ([\w-]+),.* (--calls \d+ --problems \d+ --seed \d+ --shard \d+/\d+)")
 
 
@@ -41,11 +41,19 @@ def repeated(report, kernel, traces, program):
 
 
 def differences(report, again):
+    """Yields each difference in a few words. The values are cut, because a report can contain any text."""
+    two = lambda a, b: f"found {str(a)[:16]}, repeated: {str(b)[:16]}"
     for key in COMPARED:
         if report[key] != again[key]:
-            yield f"{key}: found {report[key]}, repeated: {again[key]}"
+            yield f"{key}: {two(report[key], again[key])}"
     if report["kernel"]["sha256"] != again["kernel"]["sha256"]:
-        yield f"kernel: found SHA-256 {report['kernel']['sha256']}, repeated with {again['kernel']['sha256']}"
+        yield f"SHA-256 of the kernel: {two(report['kernel']['sha256'], again['kernel']['sha256'])}"
+    traces = [(a, b) for a, b in zip(report["traces"], again["traces"]) if a != b]
+    for a, b in traces[:1]:
+        key = next(key for key in sorted(a.keys() | b.keys()) if a.get(key) != b.get(key))
+        yield f"{len(traces)} of {len(again['traces'])} traces, first {b['name']}: {key[:16]}: {two(a.get(key), b.get(key))}"
+    if len(report["traces"]) != len(again["traces"]):
+        yield f"number of traces: {two(len(report['traces']), len(again['traces']))}"
 
 
 def main():
@@ -61,8 +69,8 @@ def main():
     except (OSError, ValueError, KeyError, TypeError) as fault:
         print(f"{o.report}: {fault}", file=sys.stderr)
         return 2
-    for line in wrong:
-        print(f"{o.report}: {line}", file=sys.stderr)
+    if wrong:
+        print(f"{o.report}: not verified: {'; '.join(wrong)}", file=sys.stderr)
     if not wrong:
         print(f"{o.report}: verified: {report['calls']} calls, {report['mismatches']} mismatches, rung {report['rung']}")
     return 1 if wrong else 0

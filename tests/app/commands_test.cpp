@@ -232,12 +232,15 @@ TEST_CASE("contct replay reports a changed answer as a mismatch with its branch 
   here.check("run @problems/pb01-cantilever-tip-stop.toml --trace t.trace --quiet", 0);
   std::string trace = here.read("t.trace");
   here.write("d.trace", trace.replace(trace.find("MAKING"), 1, "N"));
-  here.check("replay d.trace --junit r.xml --markdown r.md", 1,
+  here.check("replay d.trace --junit r.xml --markdown r.md --json d.json", 1,
              {"mismatch; 6 calls, 24 values compared, 1 mismatch"},
              {"differs in text, line 1", "branch margin: "});
   const std::string both = shell(CONTCT_PROGRAM " replay " + here.at("d.trace")).out;
   CHECK(both.find("mismatch; 6 calls") < both.find("differs in text"));  // the result, then the messages
   check_words(here.read("r.xml"), {"failures=\"1\""});
+  check_like(here.json("d.json")["traces"],
+             R"([{"trace": "d.trace", "kernel": "fortran", "verdict": "mismatch",
+    "calls": 6, "values_compared": 24, "mismatches": 1, "first": {"call": "> 0", "field": "text", "index": 1}}])");
   check_words(here.read("r.md"), {"## contct replay: failed"});
 }
 
@@ -246,7 +249,7 @@ TEST_CASE("contct replay of all reference traces names the line at fault in a ke
   for (const auto& entry : fs::directory_iterator(root / "reference/traces"))
     traces.push_back(entry.path().string());
   std::sort(traces.begin(), traces.end());
-  std::string line = "replay --quiet --kernel plugin:$less_equal.so --report r.json";
+  std::string line = "replay --quiet --kernel plugin:$less_equal.so --report r.json --json f.json";
   for (const std::string& trace : traces) line += " " + trace;
   const workplace here;
   here.check(line, 1, {},
@@ -254,6 +257,11 @@ TEST_CASE("contct replay of all reference traces names the line at fault in a ke
               "known fault: A DIFF of exactly EPSMUL is not toggled: DIFF < EPSMUL, not <=."});
   check_words(here.read("r.json"),
               {R"("at_fault": { "line": 52, "statement": "IF (DIFF.LT.EPSMUL) THEN", "explained": )"});
+  const auto result = here.json("f.json");
+  check_like(result, R"({"format": "contct-replay-1", "calls": 223, "mismatches": "> 0",
+    "traces": {"0": {"verdict": "skipped", "calls": 0}, "1": {"verdict": "equal", "findings": []}},
+    "kernels": [{"at_fault": {"line": 52}}]})");
+  for (const auto& t : result["traces"]) CHECK((t["verdict"] == "mismatch") == t.contains("first"));
 }
 
 TEST_CASE("contct explain describes an increment pair by pair, with lines and equations") {

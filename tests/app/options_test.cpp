@@ -89,11 +89,11 @@ TEST_CASE("contct refuses an unknown command or option, and suggests a similar n
 }
 
 TEST_CASE("contct-replay has the same options as contct replay") {
-  const std::string line = "--kernel fortran,cpp a.trace b.trace --junit j";
+  const std::string line = "--kernel fortran,cpp a.trace b.trace --junit j --json f";
   for (const replay_options& o : {parsed<replay_options>("replay " + line),
                                   std::get<replay_options>(parsed_by(parse_contct_replay, line))}) {
-    CHECK(std::tuple(o.kernels, o.traces, o.report.junit) ==
-          std::tuple(texts{"fortran", "cpp"}, texts{"a.trace", "b.trace"}, "j"));
+    CHECK(std::tuple(o.kernels, o.traces, o.report.junit, o.json) ==
+          std::tuple(texts{"fortran", "cpp"}, texts{"a.trace", "b.trace"}, "j", "f"));
   }
   CHECK_THROWS_WITH(parsed_by(parse_contct_replay, "a.trace --junti j"),
                     Contains("(did you mean \"--junit\"?)") && !Contains("the commands are"));

@@ -69,6 +69,9 @@ std::vector<faulty_kernel_row> faulty_kernels() {
   const small_call<double> unset({{0, 1, not_an_answer}});
   const small_call<double> many(std::vector<pair_at<double>>(200, {0, 1, 0.5})), tiny({{0, 1e303, 0}});
   const alteration first_is_unset = [](call_outputs& o) { o.ss[0] = not_an_answer; };
+  const alteration end_is_unset = [](call_outputs& o) { o.ss[2] = o.ss[3] = not_an_answer; };
+  const small_call<double> slow({{0, 1, 3}, {0, 1, 3}, {0, 1e-13, 3}, {0, 1, 3}});
+  const alteration responds_not = [](call_outputs& o) { o.ss[2] = 1.0; };
   const alteration nothing_is_toggled = [](call_outputs& o) {
     REQUIRE(o.smin == 0x2p-1074);
     o.isep[0] = separated;  // 2^-1073 / 256 is zero
@@ -106,6 +109,16 @@ std::vector<faulty_kernel_row> faulty_kernels() {
        both({{unset, first_is_unset}},
             four_pairs({3}, answering(1.0, 0, not_an_answer, std::vector(4, separated)))),
        "line 27, DO 10 I = 1, NC: explains the 1 value that differs, in 1 call"},
+      {"an SS of pair 3 and of later pairs that is not set",
+       both({{unset, equal}}, four_pairs({0.6, 0.7}, end_is_unset)),
+       "line 27, DO 10 I = 1, NC: explains all 4 values that differ, in 2 calls"},
+      {"an SS of 1 if the quotient is negative, or over 1",
+       both(four_pairs({-3, 5, -7}, [](call_outputs& o) { o.ss[2] = 1.0; }), four_pairs({0.3, 0.7}, equal)),
+       "line 38,"},
+      {"an SS of 1 if the response is small",
+       {{slow, responds_not}, {slow, responds_not}},
+       "line 31, IF (DTEST(NDOF).EQ.0.) THEN: explains all 2 values that differ, in 2 calls; in these "
+       "DTEST(NDOF) was 1e-13 to 1e-13"},
       {"a wrong threshold of DIFF",
        {with_diffs(0x1.8p-8, 0x1.8p-7, 1), with_diffs(0x1.4p-8, 0x1p-6, 1)},
        "line 52,"},

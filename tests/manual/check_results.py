@@ -1,7 +1,7 @@
-"""check_results.py PROGRAM ROOT PLUGIN BENCH: tests that the pages document every key that contct fuzz, verify, exact,
-explain and contct_bench (BENCH) write with --json. PLUGIN: a kernel that differs from FORTRAN in the last bit.
+"""check_results.py PROGRAM ROOT PLUGIN MINE BENCH: tests that the pages document every key that contct fuzz, verify, exact,
+explain and contct_bench (BENCH) write with --json. PLUGIN: a kernel that differs from FORTRAN in the last bit; MINE: a kernel with <= EPSMUL.
 
-- fuzz, verify: reference/check-results.md documents reference/check-results.schema.json, and results follow the schema.
+- fuzz, replay, verify: reference/check-results.md documents reference/check-results.schema.json, and results follow the schema.
   Every key of the schema is in a result. The examples of the page are output of the program.
 - exact, explain, contct_bench: reference/exact.md, explain-format.md and speed.md document exactly the keys of the
   results.
@@ -26,7 +26,7 @@ COMBINED = BEAM.replace("[[step]]", '[[case]]\nname = "G"') + '[[combination]]\n
 OF_PEERS = {"method", "steps", "digits", "wrong_statuses", "values"}
 
 
-def with_schema(program, root, plugin, folder):
+def with_schema(program, root, plugin, mine, folder):
     """Tests the results that have a schema. Returns a summary; raises ValueError for an error."""
     page, wrong = documented(root, "check-results.md", "check-results", "result"), folder / "wrong"
     wrong.mkdir()  # a reference folder in which one exact number is wrong
@@ -34,15 +34,18 @@ def with_schema(program, root, plugin, folder):
     table = (root / "reference/verification.toml").read_text()
     (wrong / "verification.toml").write_text(table.replace('exact     = "-1/375"', 'exact     = "-1/374"', 1))
     written = []
+    (folder / "mine.so").symlink_to(mine)
+    (folder / "ties.trace").symlink_to(root / "reference/traces/ties.trace")
     for name, status, *options in (("fuzz", 0, "--calls", 1000, "--problems", 0),
                                    ("fuzz", 1, "--calls", 2000, "--shard", "2/3", "--kernels", f"fortran,cpp,plugin:{plugin}"),
-                                   ("verify", 0, "--reference", root / "reference"), ("verify", 1, "--reference", wrong)):
+                                   ("verify", 0, "--reference", root / "reference"), ("verify", 1, "--reference", wrong),
+                                   ("replay", 1, "--kernel", "plugin:mine.so", "ties.trace")):
         written.append(result_of(program, name, *options, "--quiet", status=status, cwd=folder))
         page.add(options, written[-1], page.schema["$defs"][name])
     page.need_every_key()
     examples = [json.loads(b.text) for b in blocks(page.text) if b.language == "json"]
     fuzzed = {**written[0], "seconds": examples[0]["seconds"]}
-    if not same(examples[0], fuzzed) or not any(same(examples[1], check) for check in written[2]["cases"][0]["checks"]):
+    if not same(examples[0], fuzzed) or not any(same(examples[2], check) for check in written[2]["cases"][0]["checks"]) or not same(examples[1], written[4]):
         raise ValueError("an example of check-results.md is not what the program writes")
     if len(page.keys) < LEAST_KEYS:
         raise ValueError(f"found {len(page.keys)} keys; allowed: {LEAST_KEYS} or more")
@@ -95,7 +98,7 @@ def plainly(program, root, plugin, bench, folder):
     return f"{count} keys of exact, explain and contct_bench"
 
 
-program, root, plugin, bench = (Path(a).resolve() for a in sys.argv[1:])
+program, root, plugin, mine, bench = (Path(a).resolve() for a in sys.argv[1:])
 with tempfile.TemporaryDirectory() as scratch:
-    print(with_schema(program, root, plugin, Path(scratch)))
+    print(with_schema(program, root, plugin, mine, Path(scratch)))
     print(plainly(program, root, plugin, bench, Path(scratch)))

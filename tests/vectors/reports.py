@@ -18,7 +18,10 @@ reports = {file.stem: file for file in sorted((root / "reference/vectors/reports
 
 
 def is_verified(file, kernel):
-    return run(sys.executable, root / "reference/vectors/verify_report.py", file, "--kernel", kernel, "--contct", program).returncode
+    done = run(sys.executable, root / "reference/vectors/verify_report.py", file, "--kernel", kernel, "--contct", program)
+    said = done.stdout + done.stderr
+    check(said.count("\n") == 1 and len(said) < 700, f"{file}, {kernel}: found a message of {len(said)} bytes; allowed: one line of less than 700")
+    return done.returncode
 
 
 for name, file in reports.items():
@@ -37,4 +40,4 @@ with tempfile.TemporaryDirectory() as folder:
                    {"traces": traces[1:]}, {"traces": [{**traces[0], "sha256": "0" * 64}, *traces[1:]]}, {"command": "replay; true"}):
         file.write_text(json.dumps({**good, **change}))
         check(is_verified(file, "cpp") in (1, 2), f"a report with {change} is refused")
-check.end(8 + 4 + 8 + 8)
+check.end(8 + 4 + 8 + 8 + 12)

@@ -22,6 +22,7 @@ constexpr std::int64_t most_calls = 1000;
 constexpr std::int64_t most_pairs = 200'000;  // of all judged calls, to bound the time
 constexpr double number_bits = 64.0;          // cost of a number that follows no rule
 constexpr double always_bits = 30.0;          // cost of each execution where a permanent fault has no effect
+constexpr double end_bits = 6.0;              // cost of the end of a loop in a call
 constexpr double unexplained_bits = 200.0;    // cost of each differing value that the line does not explain
 
 /// log2 of the number of ways to choose `k` of `n` executions, to a few bits.
@@ -32,12 +33,12 @@ double choice_bits(std::int64_t n, std::int64_t k) {
   return some * std::log2(all / some) + (all - some) * std::log2(all / (all - some));
 }
 
-/// The cost of describing the wrong number `got`: few bits if it is not finite, if it is 1 (where
+/// The cost of describing the wrong number `got`: few bits if it is not finite, if it is 0 or 1 (1 only where
 /// `is_1_a_rule`), or if its ratio to `right` is that of the last wrong number; otherwise number_bits.
 template <class Real>
 double value_bits(suspect& s, Real got, Real right, bool is_1_a_rule = true) {
   const double ratio = static_cast<double>(got) / static_cast<double>(right);
-  if (!std::isfinite(got) || (is_1_a_rule && got == Real(1))) return 2.0;
+  if (!std::isfinite(got) || got == Real(0) || (is_1_a_rule && got == Real(1))) return 2.0;
   if (std::abs(ratio / s.last_ratio - 1.0) < 1e-6) return 1.0;
   s.last_ratio = ratio;
   return number_bits;
@@ -127,7 +128,7 @@ void suspect::explain(double more_bits, std::int64_t values) {
 }
 
 suspect& fault_finder::at(const listing_line& line, fault kind, std::size_t way) {
-  suspect& s = suspects_[10 * static_cast<std::size_t>(line.number) + kind + way];
+  suspect& s = suspects_[16 * static_cast<std::size_t>(line.number) + kind + way];
   s.line = &line;
   return s;
 }
@@ -178,8 +179,11 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   // Judges a line that gives `other` if the line is wrong. `left` is the number that the line compares.
   const auto could_give = [&](suspect& s, Real other, Real left, double bits_if_right = 0.0) {
     if (same_bits(other, c.ss[i])) return;
-    s.count(wrong && same_bits(got, other), 0.0, bits_if_right);
-    if (wrong && same_bits(got, other)) s.compared.add(static_cast<double>(left));
+    const bool gives = wrong && same_bits(got, other);
+    s.count(gives, 0.0, bits_if_right);
+    if (!gives && (p.d_star == Real(0) || p.is_stationary)) return;
+    (gives ? s.compared : s.spared).add(static_cast<double>(left));
+    (gives ? s.compared_sizes : s.spared_sizes).add(std::abs(static_cast<double>(left)));
   };
   // Judges a line that can give any number if the line is wrong.
   const auto assigns = [&](suspect& s, bool is_1_a_rule = true) {
@@ -198,17 +202,23 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   call<Real> swapped = c;
   std::swap(swapped.dd, swapped.dtest);
   could_give(at(l::arguments), pair_numbers<Real>(swapped, status, i, dof).s, got, always_bits);
-  could_give(at(l::node), at_dof(static_cast<std::int64_t>(i) * c.dof.ndofpn + c.dof.indof - 1).s, got);
+  const std::int64_t by_pair = static_cast<std::int64_t>(i) * c.dof.ndofpn + c.dof.indof - 1;
+  if (by_pair < std::ssize(c.dd)) could_give(at(l::node), at_dof(by_pair).s, got);
+  if (by_pair >= std::ssize(c.dd)) assigns(at(l::node));
   could_give(at(l::if_no_response), p.d_star != Real(0) ? Real(1) : p.without_first, p.d_star);
+  if (p.d_star == Real(0)) could_give(at(l::if_no_response, other_way), p.without_first, p.d_star);
   takes_dof(at(l::ndof), [](const auto& q) { return q.s; });
   if (p.d_star == Real(0)) return assigns(at(l::no_response));
-  could_give(at(l::if_stationary), p.is_stationary ? p.moving : p.at_face, std::abs(p.gap));
+  could_give(at(l::if_stationary), p.is_stationary ? p.moving : p.at_face, p.gap);
   if (!p.is_stationary) {
-    could_give(at(l::gap, wrong_sign), -p.moving, p.gap, always_bits);
-    could_give(at(l::moving, other_way, 0), std::min(p.moving, Real(1)),
-               p.gap);  // cut off at 1, at 0, at both
-    could_give(at(l::moving, other_way, 1), std::max(p.moving, Real(0)), p.gap);
-    could_give(at(l::moving, other_way, 2), std::clamp(p.moving, Real(0), Real(1)), p.gap);
+    const auto side = static_cast<Real>(c.isurf[i]);
+    const Real of_gaps[] = {-p.moving, std::abs(p.gap) / p.d_star, side * p.gap / p.d_star};
+    const Real cut[] = {std::min(p.moving, Real(1)), std::max(p.moving, Real(0)),
+                        std::clamp(p.moving, Real(0), Real(1))};
+    for (std::size_t way = 0; way < std::size(cut); ++way) {
+      could_give(at(l::gap, other_way, way), of_gaps[way], p.gap, always_bits);
+      could_give(at(l::moving, other_way, way), cut[way], p.gap);
+    }
     takes_dof(at(l::gap), [d_star = p.d_star](const auto& q) { return q.gap / d_star; });
     return assigns(at(l::moving));
   }
@@ -220,19 +230,29 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   assigns(at(l::if_check_positive, wrong_product), false);
 }
 
-/// Finds where the kernel left the DO 10 loop too early, so that later SS keep their initial value. Suspects
-/// are the bounds of the loop, and lines 32 and 40, where a wrong port leaves the loop.
+/// Finds which SS the kernel did not set, so that they keep their initial value. Suspects are the bounds and
+/// the step of the DO 10 loop, and lines 32 and 40, where a wrong port leaves the loop.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
   const std::size_t pairs = ss.size();
-  const auto left_out = [&](std::size_t i) {  // an SS can be equal to not_an_answer
-    return ss[i] == not_an_answer && c.ss[i] != static_cast<Real>(not_an_answer);
-  };
-  at(l::do_10).count(left_out(0), 0.0, always_bits);
-  at(l::do_10, last_pair).count(left_out(pairs - 1), 0.0, always_bits);
-  std::size_t done = pairs;
+  const double initial_numbers[] = {not_an_answer, 1.0, 0.0};  // of an SS that the kernel does not set
+  std::size_t done = pairs;  // number of pairs before the last SS that have their initial number
   std::int64_t lost = 0;
-  for (; done > 0 && ss[done - 1] == not_an_answer; --done) lost += left_out(done - 1) ? 1 : 0;
+  for (const std::size_t n : {2U, 1U, 0U}) {
+    const auto is_right = [&](std::size_t i) { return c.ss[i] == static_cast<Real>(initial_numbers[n]); };
+    for (done = pairs; done > 0 && ss[done - 1] == initial_numbers[n];) --done;
+    for (std::size_t rule = 0; rule < 4; ++rule) {
+      std::int64_t all = lost = 0;
+      for (std::size_t i = 0; i < pairs; ++i) {
+        const bool left_out_by_rule[] = {i == 0, i + 1 == pairs, i % 2 == 1, i >= done};
+        if (!left_out_by_rule[rule] || is_right(i)) continue;
+        ++all;
+        lost += ss[i] == initial_numbers[n] ? 1 : 0;
+      }
+      const double bits = rule == 3 ? (n == 0 ? end_bits : always_bits) : n == 0 ? 0.0 : 2.0;
+      if (all > 0) at(l::do_10, usual, 4 * n + rule).count(lost == all, bits, always_bits, lost);
+    }
+  }
   const auto left_at = [&](suspect& s, auto took) {
     std::size_t i = 0;
     while (i < pairs && !took(i)) ++i;
@@ -249,7 +269,7 @@ void fault_finder::note_smallest(const call_outputs& other) {
   bool is_one_of_them = other.smin == 1.0;
   for (const double s : other.ss) {
     if (s > 0.0 && s < least) least = s;
-    is_one_of_them = is_one_of_them || same_bits(s, other.smin);
+    is_one_of_them = is_one_of_them || same_bits(s, other.smin) || same_bits(std::abs(s), other.smin);
   }
   const bool wrong = !same_bits(least, other.smin);
   differ_ += wrong ? 1 : 0;
@@ -379,7 +399,7 @@ void fault_finder::note_text(const answered_call& right, const call_outputs& oth
 }
 
 std::optional<faulty_line> fault_finder::found() const {
-  const bool by_threshold = diffs_in_.most < diffs_out_.least || diffs_out_.most < diffs_in_.least;
+  const bool by_threshold = diffs_in_.is_apart_from(diffs_out_);
   // EPSMUL is 1/256. If the kernel's threshold seems to be next to 1/256, DIFF is rounded in another way.
   const bool is_rounded = diffs_in_.most != 1.0 / 256.0 && std::abs(diffs_in_.most * 256.0 - 1.0) < 1e-6;
   double least = std::numeric_limits<double>::infinity();
@@ -397,6 +417,10 @@ std::optional<faulty_line> fault_finder::found() const {
       bits += !by_threshold || is_rounded ? 1e6 : 1.0;
     else if (s.line != &l::if_separated)
       bits += choice_bits(s.reached, s.wrong);
+    // If an IF did not go wrong by a threshold, an SS of 1 is more likely a fault of line 38.
+    if ((s.line == &l::if_no_response || s.line == &l::if_stationary) &&
+        !s.compared.is_apart_from(s.spared) && !s.compared_sizes.is_apart_from(s.spared_sizes))
+      bits += 3.0 * static_cast<double>(s.wrong);
     if (flushes) bits = -static_cast<double>(s.explained);
     if (bits >= least) continue;
     least = bits;
@@ -404,11 +428,12 @@ std::optional<faulty_line> fault_finder::found() const {
   }
   if (best == nullptr) return std::nullopt;
   faulty_line line{*best->line, best->explained, differ_, std::min(differing_calls_, most_calls), ""};
-  if (best->line == &l::diff && best != &suspects_[std::size_t{10} * l::diff.number])
+  if (best->line == &l::diff && best != &suspects_[std::size_t{16} * l::diff.number])
     line.compared = "lines 51 and 52 are computed in another way, which rounds or underflows";
   const std::string_view statement = line.at.statement;
   const std::size_t open = statement.find("IF (") + 4;
-  const auto& [first, last] = best->compared;
+  const bool is_size = statement.find("ABS(") != std::string_view::npos;
+  const auto& [first, last] = is_size ? best->compared_sizes : best->compared;
   if (open < 4 || !std::isfinite(first) || !std::isfinite(last)) return line;
   char text[100];
   (void)std::snprintf(text, sizeof text, " was %.9g to %.9g", first, last);

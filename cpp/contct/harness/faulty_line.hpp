@@ -23,17 +23,20 @@ struct number_range {
     least = std::min(least, x);
     most = std::max(most, x);
   }
+  [[nodiscard]] bool is_apart_from(const number_range& o) const { return most < o.least || o.most < least; }
 };
 
 /// A fault that one line of the listing can have. The cost of a fault is the length in bits of a description
 /// of the wrong answers: which executions of the line went wrong, and which values the wrong executions gave.
 struct suspect {
   const listing_line* line = nullptr;
-  std::int64_t reached = 0, wrong = 0;  ///< numbers of executions, and of wrong executions
-  std::int64_t explained = 0;           ///< number of differing values that the fault explains
-  double bits = 0.0;                    ///< the cost, without the list of wrong executions
-  double last_ratio = not_an_answer;    ///< ratio of the last wrong value to the right value
-  number_range compared;                ///< range of the numbers that an IF compared when it went wrong
+  std::int64_t reached = 0, wrong = 0;        ///< numbers of executions, and of wrong executions
+  std::int64_t explained = 0;                 ///< number of differing values that the fault explains
+  double bits = 0.0;                          ///< the cost, without the list of wrong executions
+  double last_ratio = not_an_answer;          ///< ratio of the last wrong value to the right value
+  number_range compared;                      ///< range of the numbers that an IF compared when it went wrong
+  number_range spared;                        ///< the same when it rightly went to line 38
+  number_range compared_sizes, spared_sizes;  ///< the same for the absolute numbers
 
   /// Counts an execution. If the line went wrong, this costs `bits_if_wrong` and explains `values` differing
   /// values; otherwise it costs `bits_if_right`.
@@ -90,7 +93,7 @@ class fault_finder {
   void note_flushing(const answered_call& right, const call_outputs& other, std::int64_t differ);
   void note_digest(const call_outputs& other);
 
-  std::vector<suspect> suspects_ = std::vector<suspect>(std::size_t{10} * (listing::format_60.number + 1));
+  std::vector<suspect> suspects_ = std::vector<suspect>(std::size_t{16} * (listing::format_60.number + 1));
   std::int64_t equal_calls_ = 0, differing_calls_ = 0, pairs_ = 0, differ_ = 0;
   std::uint32_t digest_ = 2166136261U;
   std::vector<suspect*> left_by_;      // suspects that explain where the kernel left DO 10 in this call

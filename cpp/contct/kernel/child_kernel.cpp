@@ -372,7 +372,8 @@ void host_plugin(const std::string& path, int channel) {
   if (version == nullptr || ask == nullptr)
     return say(channel, std::string("found no symbol ") +
                             (version == nullptr ? "contct_kernel_abi" : "contct_kernel") +
-                            "; allowed: a library that exports contct_kernel_abi and contct_kernel");
+                            "; allowed: a library that exports contct_kernel_abi and contct_kernel, "
+                            "as cpp/contct/kernel/plugin.h declares them");
   if (const int found = version(); found != CONTCT_KERNEL_ABI)
     return say(channel,
                "found ABI " + std::to_string(found) + "; allowed: " + std::to_string(CONTCT_KERNEL_ABI));

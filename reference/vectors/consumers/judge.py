@@ -37,8 +37,8 @@ for name, call in calls:
         smin, ss, isep = contct(pairs_of(call))
         answers = zip(names, [*ss, smin, *isep], expected, strict=True)
         first = next((f"{what} {x}, expected {y}" for what, x, y in answers if bits(x) != bits(y)), None)
-    except Exception as fault:  # no answer: the kernel divides by zero, or returns something else
-        first = f"{type(fault).__name__}: {fault}"
+    except Exception as fault:  # the kernel divides by zero, or returns something else
+        first = f"no answer ({type(fault).__name__}: {fault}), expected SMIN {call['smin']['decimal']}"
     wrong += first is not None
     if first and wrong == 1:
         print(f"{name}, call {call['call']} ({call['why']}): found {first}")
