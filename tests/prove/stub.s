@@ -1,8 +1,10 @@
 # Loads every register from the state on the next page, executes one instruction, and stores every register. The state
-# has 16 general registers in the order of their numbers, flags, 16 vector registers, and the caller's stack pointer.
+# has 16 general registers in the order of their numbers, flags, whether the instruction jumped to `landing`, 16 vector
+# registers, and the caller's stack pointer.
 .set general, stub + 4096
 .set flags, general + 128
-.set vectors, flags + 16
+.set landed, flags + 8
+.set vectors, landed + 8
 .set kept, vectors + 256
 .macro each what
   \what 0, rax
@@ -34,7 +36,11 @@ stub:
   push flags(%rip)
   popfq
   each in
-  .skip 16, 0x90
+  .skip 32, 0x90  # the instruction, and bytes that fault if it is longer than expected
+  jmp after
+landing:
+  movq $1, landed(%rip)
+after:
   each out
   mov kept(%rip), %rsp
   pushfq

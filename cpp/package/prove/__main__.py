@@ -39,7 +39,7 @@ ISEP and makes its events, by machine-checked induction.
 Preconditions: {"; ".join(PRECONDITIONS.values())};
 ISEP and ISURF are any such numbers, where `contct fuzz` draws ISEP from -2 to 2 and ISURF 1 or -1;
 no array overlaps another; one rounding mode, subnormals kept, floating-point exceptions masked.
-Trusted: capstone {capstone.__version__}, Z3 {z3.get_version_string()}, and the interpreter; that libgfortran changes only its parameter block.
+Trusted: Z3 {z3.get_version_string()} and the interpreter of instructions; that libgfortran changes only its parameter block.
 Not covered: the digits that a FORMAT writes, and other builds."""
 
 

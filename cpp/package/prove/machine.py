@@ -5,10 +5,10 @@ from typing import Iterator
 
 import capstone
 import z3
-from capstone import x86 as names
 
-from . import Undecided, encoding, runtime, x86
+from . import Undecided, runtime, x86
 from .elf import Image
+from .encoding import Instruction, decode
 from .reals import EFFORT, follows
 from .specification import Position, Specification
 from .state import State
@@ -33,9 +33,7 @@ class Machine:
         self.starting = False  # True for initialisers, which may write static data
         self.questions = self.paths = self._names = 0
         self.at, self.facts = None, None
-        self._decoder = capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64)
-        self._decoder.detail = True
-        self._decoded: dict[int, capstone.CsInsn] = {}
+        self._decoded: dict[int, Instruction] = {}
         self._is_element: dict[tuple[str, str, str], bool] = {}
 
     # Questions to Z3.
@@ -71,9 +69,9 @@ class Machine:
         return z3.BitVec(f"unknown {self._names}", width)
 
     def undecided(self, s: State, why: str) -> Undecided:
-        ins = self.instruction(s.pc)
-        why = " ".join(why.split())[:300]  # Z3 writes long terms in many lines
-        return Undecided(f"{self.image.path}, at {ins.address:#x} `{ins.mnemonic} {ins.op_str}`: {why}")
+        why, code = " ".join(why.split())[:300], self.image.code_at(s.pc)  # Z3 writes long terms in many lines
+        text = next(capstone.Cs(capstone.CS_ARCH_X86, capstone.CS_MODE_64).disasm_lite(code, s.pc, 1), (0, 0, code.hex(" "), ""))
+        return Undecided(f"{self.image.path}, at {s.pc:#x} `{' '.join(text[2:])}`: {why}")
 
     # Addresses.
 
@@ -198,12 +196,9 @@ class Machine:
 
     # Control.
 
-    def instruction(self, address: int) -> capstone.CsInsn:
+    def instruction(self, address: int) -> Instruction:
         if address not in self._decoded:
-            found = next(self._decoder.disasm(self.image.code_at(address), address, 1), None)
-            if found is None:
-                raise Undecided(f"{self.image.path}, at {address:#x}: no code, or an instruction that capstone does not know")
-            self._decoded[address] = found
+            self._decoded[address] = decode(self.image.code_at(address), address)
         return self._decoded[address]
 
     def cuts(self, at: int, above: set[int], done: set[int]) -> set[int]:
@@ -218,15 +213,11 @@ class Machine:
 
     def _next(self, address: int) -> list[int]:
         ins = self.instruction(address)
-        after = address + ins.size
-        if ins.mnemonic in ("ret", "hlt", "ud2"):
-            return []
-        if ins.mnemonic != "call" and not ins.mnemonic.startswith("j"):
-            return [after]
-        slots = [after + o.mem.disp for o in ins.operands if o.type == names.X86_OP_MEM]  # entries of the linkage table
-        known = [to for slot in slots if isinstance(to := self.image.relocations.get(slot), int)]
-        known += [o.imm for o in ins.operands if o.type == names.X86_OP_IMM]
-        return known if ins.mnemonic == "jmp" else [*known, after]
+        if ins.name not in ("j", "jmp", "call"):
+            return [] if ins.name in ("ret", "") else [address + ins.size]
+        target = ins.operands[0]  # a number, or an entry of the linkage table
+        to = target.number if target.where == "number" else self.image.relocations.get(target.number) if target.base == "rip" else None
+        return ([to] if isinstance(to, int) else []) + ([address + ins.size] if ins.name != "jmp" else [])
 
     def explore(self, start: State, cuts: set[int]) -> Iterator[State]:
         """Every path from `start` to a cut or to the end. At the end, pc is 0."""
@@ -255,25 +246,20 @@ class Machine:
 
     def _step(self, s: State) -> list[State]:
         ins = self.instruction(s.pc)
-        self.constants |= {op.imm % (1 << 8 * max(op.size, 1)) for op in ins.operands if op.type == names.X86_OP_IMM}
-        o = x86.Operands(self, s, ins)
-        after = ins.address + ins.size
-        fault = encoding.fault_of(ins)
-        if fault:
-            raise self.undecided(s, fault)
-        if ins.mnemonic in ("call", "jmp"):
-            direct = o.list[0].type == names.X86_OP_IMM
-            target = self.in_image(o.list[0].imm) if direct else o.get(0, 64)
-            if ins.mnemonic == "call":
+        self.constants |= {op.number % (1 << op.width) for op in ins.operands if op.where == "number" and not op.base}
+        o, after = x86.Operands(self, s, ins), ins.address + ins.size
+        if ins.name in ("call", "jmp"):
+            target = self.in_image(ins.operands[0].number) if ins.operands[0].where == "number" else o.get(0)
+            if ins.name == "call":
                 self.push(s, self.in_image(after))
             return self._go(s, target)
-        if ins.mnemonic.startswith("j"):
-            return self._branch(s, o.condition(ins.mnemonic[1:]), o.list[0].imm, after)
-        if ins.mnemonic == "ret" and not o.list:
+        if ins.name == "j":
+            return self._branch(s, o.condition(), ins.operands[0].number, after)
+        if ins.name == "ret":
             return self._go(s, self.pop(s))
-        if ins.mnemonic not in x86.ACTIONS:
-            raise self.undecided(s, "this mnemonic is not known")
-        x86.ACTIONS[ins.mnemonic](o)
+        if not ins.name:
+            raise self.undecided(s, "this encoding is not known")
+        x86.ACTIONS[ins.name](o)
         s.pc = after
         return [s]
 

@@ -5,7 +5,7 @@ from typing import Callable
 
 import z3
 
-GENERAL = ["rax", "rbx", "rcx", "rdx", "rsi", "rdi", "rbp", "rsp"] + [f"r{k}" for k in range(8, 16)]
+GENERAL = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for k in range(8, 16)]  # by number
 KEPT = ["rbx", "rbp", "r12", "r13", "r14", "r15"]  # registers that a callee must preserve by the System V ABI
 REGISTERS = {f"xmm{k}": (f"xmm{k}", 0, 16) for k in range(16)}  # name: (full register, first byte, size)
 for _full in GENERAL:
