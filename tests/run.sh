@@ -87,6 +87,7 @@ campaign "20,000 random problems and their certificates against the exact path" 
 campaign "failing system calls" python3 tests/faults/faults.py build/release/contct build/release/tests/libcontct_fail.so \
   build/release/tests/plugins/libvariant_reassociated.so --more
 campaign "mutants of both kernels" python3 tests/mutants/mutants.py build/release/tests/mutants/build.json
+campaign "every mutant is not proved" /usr/bin/python3 -B tests/prove/faults.py "$PWD/build/release" "$PWD" all
 campaign "exact numbers of verification.toml" python3 tests/results/write_exact.py build/release/contct reference --check --least 733
 campaign "proofs of all reference problems" python3 tests/proof/check_proof_test.py build/release/contct reference all
 campaign "two LAPACKs" sh tests/two_lapacks/run.sh build/release

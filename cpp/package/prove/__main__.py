@@ -38,7 +38,7 @@ For every call within the preconditions, each kernel that is proved leaves the b
 ISEP and makes its events, by machine-checked induction.
 Preconditions: {"; ".join(PRECONDITIONS.values())};
 ISEP and ISURF are any such numbers, where `contct fuzz` draws ISEP from -2 to 2 and ISURF 1 or -1;
-no array overlaps another; one rounding mode, subnormals kept, floating-point exceptions masked.
+no array overlaps another or the middle of the address space; one rounding mode, subnormals kept, floating-point exceptions masked.
 Trusted: Z3 {z3.get_version_string()} and the interpreter of instructions; that libgfortran changes only its parameter block.
 Not covered: the digits that a FORMAT writes, and other builds."""
 

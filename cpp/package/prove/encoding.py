@@ -65,7 +65,7 @@ class Row(NamedTuple):
 class Operand(NamedTuple):
     """A register, memory or a number. The address in memory is base + scale * index + number, where rip counts as 0."""
 
-    where: str  # the full register, "memory" or "number"
+    where: str  # the full register, "memory", "guard" or "number"
     width: int  # in bits
     first: int = 0  # of a register, the first byte
     number: int = 0
@@ -104,8 +104,16 @@ for _code, _row in _read(_ROWS):
     ROWS.setdefault(_code, []).append(_row)
 
 
+def _is_guard(raw: bytes) -> bool:
+    """True for mov, sub, cmp and xor of a 64-bit register with %fs:0x28, the guard of -fstack-protector."""
+    return raw[:1] == b"\x64" and raw[1] in (0x48, 0x4C) and raw[2] in (0x8B, 0x2B, 0x3B, 0x33) and raw[3] & 0xC7 == 4 and raw[4:9] == b"\x25\x28\0\0\0"
+
+
 def decode(raw: bytes, address: int) -> Instruction:
     """The instruction at the beginning of `raw`."""
+    if _is_guard(raw):
+        guarded = decode(raw[1:], address + 1)
+        return guarded._replace(address=address, size=9, operands=[guarded.operands[0], Operand("guard", 64)])
     code, k, rex, vector, is_known = raw + bytes(32), 0, 0, 0, True
     while code[k] in (0x66, 0xF2, 0xF3, 0x2E):
         k += 1

@@ -1,17 +1,18 @@
 """The proof that a kernel equals the specification from loop head to loop head, for any number of pairs."""
 
-from typing import NamedTuple
+from typing import Iterator, NamedTuple
 
 import z3
 
 from . import Undecided
 from .interfaces import Interface, entry, fault_of_return
-from .machine import Machine, symbols
-from .reals import comparisons_are_ieee
+from .machine import ARRAYS, BASE, Machine, NewCut, Split, symbols
+from .reals import are_ieee
 from .specification import Position, Toggle
-from .state import State
+from .state import GENERAL, State
 
-MOST_ROUNDS = 40
+MOST_ROUNDS = 400
+LONGEST_TURN = 16  # heads in one turn of a loop
 Slot = tuple[str, int, int]  # a region, the first byte and the size
 VARYING = {"i", "smin", "toggled", "unknown"}  # symbols whose meaning depends on the position
 
@@ -27,6 +28,7 @@ class Head:
     def __init__(self, loop: int, facts: list[z3.BoolRef], guesses: dict[Slot, list[z3.BitVecRef]]):
         self.loop, self.facts = loop, facts
         self.guesses = guesses  # possible values of each slot; the first is assumed
+        self.turns = True  # False if no path leads back to the head
         self.version = 0  # number of changes of the assumptions
 
 
@@ -54,20 +56,24 @@ class Proof:
 
     def __init__(self, machine: Machine, interface: Interface, address: int):
         self.machine, self.spec, self.interface, self.address = machine, machine.spec, interface, address
-        self.cuts = machine.cuts(address, set(), set())
+        machine.find_cuts(address)
         self.heads: dict[int, Head] = {}
         self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # of each head, the version and the paths
 
     def prove(self) -> None:
-        if not comparisons_are_ieee(self.spec.width) or not self.spec.is_kept():
+        if not are_ieee(self.spec.width) or not self.spec.is_kept():
             raise Undecided("the lemmas of the specification are not proved")
         for _ in range(MOST_ROUNDS):
-            arrivals = self._arrivals()
-            new = [a for a in arrivals if a.s.pc and a.s.pc not in self.heads]
-            if not any([self._weaken(a) for a in arrivals if a.s.pc in self.heads]):
-                if not new:
-                    return self._judge_all(arrivals)
-                self._make_head(new[0])  # earlier heads need no further change
+            try:
+                arrivals = self._arrivals()
+                if not any([self._weaken(a) for a in arrivals if a.s.pc in self.heads]):
+                    new = [a for a in arrivals if a.s.pc and a.s.pc not in self.heads]
+                    if not new:
+                        return self._judge_all(arrivals)
+                    first = max((a.s.pc for a in new), key=lambda pc: self.machine.order.get(pc, 0))
+                    self._make_head([a for a in new if a.s.pc == first])  # earlier heads need no further change
+            except NewCut:
+                self.taken.clear()  # older paths may go on beyond the new cut
         raise Undecided(f"no invariant after {MOST_ROUNDS} rounds")
 
     # Paths.
@@ -75,68 +81,127 @@ class Proof:
     def _arrivals(self) -> list[Arrival]:
         """All paths. Paths from a head whose assumptions did not change are reused."""
         first = Position(1, z3.BitVecVal(0, 64), self.spec.one, z3.BitVecVal(0, 32))
-        if not self.taken:
-            self.taken[0] = 0, self._paths(entry(self.machine, self.interface, self.address), 0, first, [])
+        if 0 not in self.taken:
+            self.taken[0] = 0, list(self._paths(entry(self.machine, self.interface, self.address), 0, first, []))
         for pc, head in self.heads.items():
             if self.taken.get(pc, (-1,))[0] != head.version:
                 s, at = State(pc), self.spec.here._replace(loop=head.loop)
                 for (region, place, size), options in head.guesses.items():
                     s.write(region, place, options[0] if options else self.machine.fresh(8 * size))
-                self.taken[pc] = head.version, self._paths(s, pc, at, head.facts)
+                self.taken[pc] = head.version, list(self._paths(s, pc, at, head.facts))
         return [a for _, arrivals in self.taken.values() for a in arrivals]
 
-    def _paths(self, s: State, origin: int, at: Position, facts: list[z3.BoolRef]) -> list[Arrival]:
+    def _paths(self, s: State, origin: int, at: Position, facts: list[z3.BoolRef]) -> Iterator[Arrival]:
         """The paths from a state in which `facts`, the preconditions and the specification's invariant hold."""
         facts = facts + self.spec.of_call() + self.spec.of_position(at)
+        facts += [z3.ULT(BASE[name], 1 << 63) for name in ARRAYS]  # so that no address in an array overflows
         facts += [fact for k in range(3) for fact in self.spec.of_pair(at.i + k)]
         self.machine.begin(at, facts)
-        return [Arrival(end, origin, at, facts) for end in self.machine.explore(s, self.cuts)]
+        return (Arrival(end, origin, at, facts) for end in self.machine.explore(s))
 
     # Assumptions.
 
-    def _make_head(self, a: Arrival) -> None:
-        """Make a head with an assumption for every slot: its current value, or its growth in the first turn of the
-        loop."""
-        self.machine.begin(a.at, a.facts)
-        to = self._advance(a).to
+    def _make_head(self, arrivals: list[Arrival]) -> None:
+        """Make a head with assumptions that its arrivals do not refute: for every slot its value there, as it depends on
+        the pair, or its growth in a turn of the loop."""
+        cases = [case for a in arrivals for case in self._cases(a)]
+        a, to = cases[0][0], cases[0][1].to
         known = (self.heads[a.origin].facts if a.origin else []) + a.s.path
         facts = [f for f in known if symbols(f).isdisjoint(VARYING | {"()"})]
-        again = self._paths(State(a.s.pc, dict(a.s.cells)), a.s.pc, to, a.facts + a.s.path)
-        turns = [b.s for b in again if b.s.pc == a.s.pc and b.s.pairs]
-        self.machine.begin(a.at, a.facts)
+        facts += [z3.ULT(self.spec.here.i, self.spec.pairs), *self._residues(a, to)]
+        turns = self._turns(a, to) if z3.is_bv_value(to.i) else []
         slots = [(region, at, value.size() // 8) for (region, at), value in a.s.cells.items()]
-        guesses = {slot: self._guesses(a, to, slot, turns) for slot in slots}
-        self.heads[a.s.pc] = Head(to.loop, [z3.ULT(self.spec.here.i, self.spec.pairs), *facts], guesses)
+        guesses = {slot: self._guesses(cases, slot, turns) for slot in slots}
+        head = self.heads[a.s.pc] = Head(to.loop, facts, guesses)
+        head.turns = self.machine.leads_back(a.s.pc)
+        if not turns and z3.is_bv_value(to.i):
+            head.facts.append(self.spec.here.i == to.i)
 
-    def _guesses(self, a: Arrival, to: Position, slot: Slot, turns: list[State]) -> list[z3.BitVecRef]:
-        """Possible values of a slot when the loop begins a pair: its current value with growth, SMIN, or the number of
+    def _residues(self, a: Arrival, to: Position) -> list[z3.BoolRef]:
+        """The rests of I and of the number of pairs from I on, divided by the number of pairs of an unrolled loop."""
+        if not self.machine.is_unrolled:
+            return []
+        self.machine.begin(a.at, a.facts)
+        here, found = self.spec.here, []
+        for term in (here.i, self.spec.pairs - here.i):
+            for n in (3, 2, 1):
+                low = z3.Extract(n - 1, 0, term)
+                there = self.machine.one_value(a.s, z3.substitute(low, (here.i, to.i)))
+                if there is not None:
+                    found.append(low == there)
+                    break
+        return found
+
+    def _turns(self, a: Arrival, to: Position) -> list[tuple[State, int]]:
+        """Ends of paths from this arrival back to the same place, with the numbers of their pairs: all that meet no other
+        head, or one through the heads of an unrolled loop."""
+        s, at, facts, pairs = a.s, to, a.facts + a.s.path, 0
+        for _ in range(LONGEST_TURN if self.machine.is_unrolled else 0):
+            ends = self._paths(State(s.pc, dict(s.cells)), s.pc, at, facts)
+            b = next((b for b in ends if b.s.pairs and b.s.pc and self.machine.leads(b.s.pc, a.s.pc)), None)
+            if b is None:
+                return []
+            case, listing = self._cases(b)[0]
+            s, at, facts, pairs = case.s, listing.to, case.facts + case.s.path, pairs + len(case.s.pairs)
+            if s.pc == a.s.pc:
+                return [(s, pairs)]
+        ends = self._paths(State(s.pc, dict(s.cells)), s.pc, at, facts)
+        return [(b.s, len(b.s.pairs)) for b in ends if b.s.pc == a.s.pc and b.s.pairs]
+
+    def _guesses(self, cases: list[tuple[Arrival, Advance]], slot: Slot, turns: list[tuple[State, int]]) -> list[z3.BitVecRef]:
+        """Possible values of a slot when the loop begins a pair: a value that depends on the pair, SMIN, or the number of
         events."""
-        here, start = self.spec.here, a.s.read(*slot)
-        guesses = []
-        if symbols(start).isdisjoint(VARYING):
-            grown = [_growing(start, s.read(*slot), len(s.pairs), here.i - to.i) for s in turns] or [start]
-            guesses = grown[:1] if all(g is not None and g.eq(grown[0]) for g in grown) else []
-        if start.size() == self.spec.width and self.machine.same(a.s, start, to.smin):
-            guesses.append(here.smin)
-        if z3.is_bv_value(start) and start.as_long() == 0 and start.size() >= 32:
-            guesses += [extend(start.size() - 32, here.toggled) for extend in (z3.ZeroExt, z3.SignExt)]
-        return guesses
+        here, guesses, fixed = self.spec.here, [], []
+        found = [(a.s.read(*slot), listing.to) for a, listing in cases]
+        if any(start is None for start, _ in found):
+            return []
+        for start, to in {(start.get_id(), to.i.get_id()): (start, to) for start, to in found}.values():
+            least = [here.smin] if start.eq(z3.simplify(to.smin)) else []
+            before = z3.simplify(to.i - here.i)
+            if "()" in symbols(start):
+                guesses += least  # a value in an array or of reals is hardly needed for the next pair
+                continue
+            if z3.is_bv_value(before):
+                start = z3.simplify(z3.substitute(start, (here.i, here.i - before)))
+            if symbols(start).isdisjoint(VARYING - ({"i"} if z3.is_bv_value(before) else set())):
+                grown = [_growing(start, s.read(*slot), pairs, here.i - to.i) for s, pairs in turns] or [start]
+                guesses += grown[:1] if all(g is not None and g.eq(grown[0]) for g in grown) else []
+                fixed += [(start, to.i)] if z3.is_bv_value(to.i) else []
+            guesses += least
+            if not turns and slot[0] in GENERAL:
+                guesses += [z3.simplify(start + step * z3.Extract(start.size() - 1, 0, here.i - to.i)) for step in (1, 8, 4, -1)]
+            if z3.is_bv_value(start) and start.as_long() == 0 and start.size() >= 32:
+                guesses += [extend(start.size() - 32, here.toggled) for extend in (z3.ZeroExt, z3.SignExt)]
+        for (start, i), (after, j) in zip(fixed, fixed[1:]):
+            if i.as_long() < j.as_long():
+                start, after, i, j = after, start, j, i
+            grown = None if i.eq(j) else _growing(after, start, i.as_long() - j.as_long(), here.i - j)
+            guesses += [] if grown is None else [grown]
+        return list({g.get_id(): g for g in guesses}.values())
 
     def _weaken(self, a: Arrival) -> bool:
         """Remove the assumptions that this arrival refutes. True if any was removed."""
         head = self.heads[a.s.pc]
         if a.origin and self.heads[a.origin].version != self.taken[a.origin][0]:
             return False  # this path began with assumptions that are now removed
-        self.machine.begin(a.at, a.facts)
-        to = self._advance(a).to
-        when = lambda term: z3.simplify(z3.substitute(term, *zip(self.spec.here[1:], to[1:])))  # the term at position `to`
-        kept = [fact for fact in head.facts if self.machine.holds(a.s, when(fact))]
-        refuted = [options for slot, options in head.guesses.items() if options and not self._holds(a, slot, when(options[0]))]
-        changed = len(kept) < len(head.facts) or bool(refuted)
-        head.facts, head.version = kept, head.version + changed
-        for options in refuted:
-            del options[0]
-        return changed
+        if a.s.judged.get("refutes nothing of version") == head.version:
+            return False
+        before, cases = head.version, self._cases(a)
+        while cases and head.version == before:  # further cases began with assumptions that are now removed
+            (case, listing), *cases = cases
+            when = lambda term: z3.substitute(term, *zip(self.spec.here[1:], listing.to[1:]))  # the term there
+            kept = [fact for fact in head.facts if self.machine.holds(case.s, when(fact))]
+            refuted = [options for slot, options in head.guesses.items() if options and not self._holds(case, slot, when(options[0]))]
+            changed = len(kept) < len(head.facts) or bool(refuted)
+            head.facts, head.version = kept, head.version + changed
+            for slot, options in head.guesses.items():
+                if any(options is found for found in refuted):
+                    del options[0]
+                    while options and not head.turns and not self._holds(case, slot, when(options[0])):
+                        del options[0]  # no assumption of this head is one of this arrival
+        if head.version == before:
+            a.s.judged["refutes nothing of version"] = before
+        return head.version > before
 
     def _holds(self, a: Arrival, slot: Slot, value: z3.BitVecRef) -> bool:
         found = a.s.read(*slot)
@@ -144,17 +209,31 @@ class Proof:
 
     # The listing along a path.
 
+    def _cases(self, a: Arrival) -> list[tuple[Arrival, Advance]]:
+        """The path with the listing along it, once for each answer to the listing's conditions that it leaves open."""
+        self.machine.begin(a.at, a.facts)
+        key = "cases", a.s.pc in self.heads
+        if key not in a.s.judged:
+            try:
+                a.s.judged[key] = [(a, self._advance(a))]
+            except Split as split:
+                claims = [split.condition, z3.simplify(z3.Not(split.condition))]
+                halves = [a._replace(s=a.s.branch(a.s.pc, claim)) for claim in claims]
+                a.s.judged[key] = [case for half in halves for case in self._cases(half)]
+        return a.s.judged[key]
+
     def _advance(self, a: Arrival) -> Advance:
         """Run the listing along this path, for as many pairs as have an element of SS read or written."""
         at, elements, toggles = a.at, {}, []
+        holds = lambda *claims: self.machine.decide(a.s, *claims)
         for k in sorted(a.s.pairs):
             if at.loop == 1:
-                elements["SS", k] = self.spec.scale_factor(at.i)
-                at = at._replace(smin=self.spec.smaller(elements["SS", k], at.smin))
-            else:
-                toggles.append(self.spec.toggle(at))
-                elements["ISEP", k] = self.spec.isep_after(toggles[-1])
-                at = at._replace(toggled=z3.If(toggles[-1].happens, at.toggled + 1, at.toggled))
+                elements["SS", k] = self.spec.scale_factor(at.i, holds)
+                at = at._replace(smin=self.spec.smaller(elements["SS", k], at.smin, holds))
+            elif toggle := self.spec.toggle(at, holds):
+                toggles.append(toggle)
+                elements["ISEP", k] = z3.BitVecVal(-1 if toggle.makes else 1, 32)  # 55, 58
+                at = at._replace(toggled=z3.simplify(at.toggled + 1))
             at = at._replace(i=z3.simplify(at.i + 1))
         return Advance(self._turned(a, at), elements, toggles)
 
@@ -179,28 +258,29 @@ class Proof:
     # The verdict.
 
     def _judge_all(self, arrivals: list[Arrival]) -> None:
+        idle = {(a.origin, a.s.pc) for a in arrivals if a.origin and a.s.pc and not a.s.pairs and self.heads[a.s.pc].loop == a.at.loop}
+        while idle:  # paths without a pair, from head to head: every sequence of them must end
+            ended = {step for step in idle if step[1] not in {origin for origin, _ in idle}}
+            if not ended:
+                raise Undecided(f"the loop at {min(idle)[0]:#x} may never end")
+            idle -= ended
         for a in arrivals:
             try:
-                self._judge(a)
+                for case in self._cases(a):
+                    self._judge(*case)
             except Differs as why:
                 to = f"to {a.s.pc:#x}" if a.s.pc else "to the end"
                 raise Differs(f"from {a.origin or self.address:#x} {to}: {why}") from why
-            if a.s.pc in self.heads and a.origin and not a.s.pairs and self.heads[a.s.pc].loop == a.at.loop:
-                raise Undecided(f"the loop at {a.s.pc:#x} may never end")
 
-    def _judge(self, a: Arrival) -> None:
-        self.machine.begin(a.at, a.facts)
-        s, listing, same = a.s, self._advance(a), self.machine.same
-        for (array, k), value in listing.elements.items():
-            found = s.elements.get((array, k), None if array == "SS" else self.spec.element(array, a.at.i + k))
-            if found is None or not same(s, found, value):
+    def _judge(self, a: Arrival, listing: Advance) -> None:
+        s, same = a.s, self.machine.same
+        for key in listing.elements.keys() | {key for key in s.elements if key[0] != "EVENTS"}:
+            array, k = key
+            before = None if array == "SS" else self.spec.element(array, a.at.i + k)
+            found, value = s.elements.get(key, before), listing.elements.get(key, before)
+            if found is None or value is None or not same(s, found, value):
                 raise Differs(f"a pair has another {array}")
-        if any(key not in listing.elements for key in s.elements if key[0] != "EVENTS"):
-            raise Differs("an element is written that the listing does not change")
-        happened = [t for t in listing.toggles if self.machine.holds(s, t.happens)]
-        if not all(self.machine.holds(s, z3.Not(t.happens)) for t in listing.toggles if t not in happened):
-            raise Differs("this path does not determine whether a pair has an event")
-        expected = self.interface.expected(happened, listing.to.loop == 0 and a.at.loop == 1)
+        expected = self.interface.expected(listing.toggles, listing.to.loop == 0 and a.at.loop == 1)
         found = self.interface.told(s)
         if len(found) != len(expected) or not all(same(s, *both) for both in zip(found, expected)):
             raise Differs("the events differ")

@@ -32,7 +32,7 @@ def fortran(machine: Machine) -> Interface:
         label = lambda number: z3.BitVecVal(number, 32)
         events = [label(20), spec.one, END] if no_event else []
         for t in toggles:
-            events += [z3.If(t.makes, label(40), label(50)), END]
+            events += [label(40 if t.makes else 50), END]
             events += [label(60), z3.Extract(31, 0, t.i) + 1, t.node, t.isurf, t.smin, END]
         return events
 
@@ -53,8 +53,7 @@ def cpp(machine: Machine) -> Interface:
         return [halves.get(k, z3.BitVec("nothing", 32)) for k in range(len(halves))]
 
     def expected(toggles: list[Toggle], no_event: bool) -> list[z3.BitVecRef]:
-        what = lambda t: z3.If(t.makes, z3.BitVecVal(0, 32), z3.BitVecVal(1, 32))
-        return [half for t in toggles for half in (z3.Extract(31, 0, t.i), what(t))]
+        return [half for t in toggles for half in (z3.Extract(31, 0, t.i), z3.BitVecVal(not t.makes, 32))]
 
     return Interface([BASE["CALL"], BASE["EVENTS"]], cells, told, expected, smin=("CALL", 64), returns_count=True)
 

@@ -11,7 +11,7 @@ from .elf import Image
 from .encoding import Instruction, decode
 from .reals import EFFORT, follows
 from .specification import Position, Specification
-from .state import State
+from .state import State, condition_of
 
 LONGEST_PATH = 4000  # instructions from one loop head to the next
 RED_ZONE = 128  # bytes below the stack pointer that no signal handler overwrites
@@ -23,6 +23,17 @@ RETURN = z3.BitVec("return", 64)
 sys.setrecursionlimit(20_000)  # Machine.cuts calls itself for each instruction
 
 
+class NewCut(Exception):
+    """A path must be cut at an address that was found on it."""
+
+
+class Split(Exception):
+    """A condition that a path does not determine."""
+
+    def __init__(self, condition: z3.BoolRef):
+        self.condition = condition
+
+
 class Machine:
     """The data that all states of a proof use: the file, the arrays, and Z3."""
 
@@ -32,32 +43,75 @@ class Machine:
         self.constants: set[int] = set()  # constants in the function's code
         self.starting = False  # True for initialisers, which may write static data
         self.questions = self.paths = self._names = 0
+        self.guard = z3.BitVec("guard", 64)  # of -fstack-protector: the loader sets it once
         self.at, self.facts = None, None
+        self.cuts: set[int] = set()  # addresses that cut every loop
+        self.order: dict[int, int] = {}  # of each instruction, the place in a depth-first search; the entry is last
+        self.is_unrolled = False  # True if a path from cut to cut had more than one pair
+        self._is_element: dict[tuple, tuple[bool, list]] = {}  # with the terms, whose numbers are in the key
+        self._of_numbers: dict[int, tuple[z3.BoolRef, bool]] = {}
         self._decoded: dict[int, Instruction] = {}
-        self._is_element: dict[tuple[str, str, str], bool] = {}
 
     # Questions to Z3.
 
     def begin(self, at: Position, facts: list[z3.BoolRef]) -> None:
         """Set the position of the listing at which the next paths begin, and the facts that hold."""
         if facts is not self.facts or at is not self.at:
-            self.at, self.facts, self._of_numbers = at, facts, list(filter(of_numbers, facts))
+            self.at, self.facts = at, facts
             self.solver = z3.SimpleSolver()
             self.solver.set("rlimit", EFFORT)
             self.solver.add(*facts)
 
     def possible(self, s: State, claim: z3.BoolRef) -> bool:
         """Whether `claim` can hold on this path."""
-        self.questions += 1
-        answer = self.solver.check(*s.path, claim)
-        if answer == z3.unknown:
-            raise self.undecided(s, "Z3 gave no answer")
-        return answer == z3.sat
+        return not self.holds(s, z3.Not(claim))
 
     def holds(self, s: State, claim: z3.BoolRef) -> bool:
         """Whether `claim` must hold on this path."""
         claim = z3.simplify(claim)
-        return z3.is_true(claim) or any(claim.eq(c) for c in s.path) or not self.possible(s, z3.simplify(z3.Not(claim)))
+        if z3.is_true(claim) or z3.is_false(claim):
+            return z3.is_true(claim)
+        if claim.get_id() not in s.known:
+            self.questions += 1
+            answer = self.solver.check(*s.path, z3.simplify(z3.Not(claim)))
+            if answer == z3.unknown:
+                raise self.undecided(s, "Z3 gave no answer")
+            s.known[claim.get_id()] = claim, answer == z3.unsat
+        return s.known[claim.get_id()][1]
+
+    def one_value(self, s: State, term: z3.BitVecRef) -> z3.BitVecRef | None:
+        """The only value of a term on this path; None if there are several."""
+        term = z3.simplify(term)
+        if not z3.is_bv_value(term) and self.solver.check(*s.path) == z3.sat:
+            found = self.solver.model().eval(term, model_completion=True)
+            return found if self.holds(s, term == found) else None
+        return term if z3.is_bv_value(term) else None
+
+    def decide(self, s: State, claim: z3.BoolRef, others: list[tuple[z3.BoolRef, z3.BoolRef]] = [], lemmas: list[z3.BoolRef] = []) -> bool:
+        """Whether `claim` holds on this path. Raises Split if it may or may not hold. `others`: conditions, and the claims
+        that then are the same as `claim`; `lemmas` are always true."""
+        claim = z3.simplify(claim)
+        answer = self._is_written(s, claim)
+        for condition, other in others if answer is None else []:
+            found = self._is_written(s, z3.simplify(other))
+            if found is not None and not self.holds(s, z3.Not(condition)):
+                if not self.holds(s, condition):
+                    raise Split(z3.simplify(condition))
+                answer = found
+        if answer is None and others:
+            s.path += lemmas
+        if answer is None:
+            answer = True if self.holds(s, claim) else False if self.holds(s, z3.Not(claim)) else None
+        if answer is None:
+            raise Split(claim)
+        return answer
+
+    def _is_written(self, s: State, claim: z3.BoolRef) -> bool | None:
+        """Whether the conditions of this path have the claim, or its opposite; None if they have neither."""
+        for term, answer in ((claim, True), (z3.simplify(z3.Not(claim)), False)):
+            if s.known.get(term.get_id(), (None, False))[1]:
+                return answer
+        return None
 
     def same(self, s: State, a: z3.BitVecRef, b: z3.BitVecRef) -> bool:
         a, b = z3.simplify(a), z3.simplify(b)
@@ -106,20 +160,31 @@ class Machine:
             i = z3.simplify(self.at.i + k)
             if self._stands_at(s, array, i, offset) and self.holds(s, z3.ULT(i, self.spec.pairs)):
                 s.pairs |= {k} if array == "SS" else set()
+                s.began.setdefault(k, s.pc)
                 return k
+        if array == "SS" and self.at.loop == 1 and s.pc not in self.cuts and self._stands_at(s, array, z3.BitVecVal(0, 64), offset):
+            self.cuts.add(s.pc)  # DO 30 begins here, without the head of a loop before it
+            raise NewCut
         raise self.undecided(s, f"a subscript of {array} that is not that of the next pair: {offset}")
 
     def _stands_at(self, s: State, array: str, i: z3.BitVecRef, offset: z3.BitVecRef) -> bool:
         """True if pair `i`'s element has this offset and is inside the array, provided that the pair exists. The answer
         depends only on facts about the call's numbers, not on arrays, so that it can be stored."""
-        index, known = self.spec.index(array, i), [*self._of_numbers, *filter(of_numbers, s.path)]
+        index, known = self.spec.index(array, i), list(filter(self._is_of_numbers, [*self.facts, *s.path]))
         place = z3.simplify(index * (self.spec.widths[array] // 8))
-        key = (offset.sexpr(), place.sexpr(), *(fact.sexpr() for fact in known))
+        key = (array, *(term.get_id() for term in (offset, place, *known)))
         if key not in self._is_element:
-            known += [*self.spec.of_call(), *self.spec.of_pair(i), z3.ULT(i, self.spec.pairs)]
+            more = [*self.spec.of_call(), *self.spec.of_pair(i), z3.ULT(i, self.spec.pairs)]
             right = z3.And(offset == place, z3.ULT(index, self.spec.length(array)))
-            self._is_element[key] = follows(right, *known)
-        return self._is_element[key]
+            self._is_element[key] = follows(right, *known, *more), [offset, place, *known]
+        return self._is_element[key][0]
+
+    def _is_of_numbers(self, fact: z3.BoolRef) -> bool:
+        """True if a fact has no symbols but NC, INDOF, NDOFPN, the arrays' lengths and I."""
+        if fact.get_id() not in self._of_numbers:
+            answer = symbols(fact).isdisjoint({"()", "unknown", "smin", "toggled"})
+            self._of_numbers[fact.get_id()] = fact, answer
+        return self._of_numbers[fact.get_id()][1]
 
     def _event(self, s: State, offset: z3.BitVecRef) -> int:
         """The number of the 32-bit half of an event at an offset, counted from the path's first event."""
@@ -201,15 +266,30 @@ class Machine:
             self._decoded[address] = decode(self.image.code_at(address), address)
         return self._decoded[address]
 
-    def cuts(self, at: int, above: set[int], done: set[int]) -> set[int]:
-        """Addresses that cut every loop: the targets of back edges in a depth-first search."""
-        if at in above or at in done:
-            return {at} & above
-        above.add(at)
-        found = set().union(*(self.cuts(to, above, done) for to in self._next(at)))
-        above.remove(at)
-        done.add(at)
-        return found
+    def find_cuts(self, at: int, above: set[int] | None = None) -> None:
+        """Find addresses that cut every loop: the targets of back edges in a depth-first search."""
+        above = set() if above is None else above
+        if at in above:
+            self.cuts.add(at)
+        elif at not in self.order:
+            above.add(at)
+            for to in self._next(at):
+                self.find_cuts(to, above)
+            above.remove(at)
+            self.order[at] = len(self.order)
+
+    def leads_back(self, at: int) -> bool:
+        return any(self.leads(to, at) for to in self._next(at))
+
+    def leads(self, at: int, to: int) -> bool:
+        """Whether some sequence of instructions leads from one address to another."""
+        seen, waiting = set(), [at]
+        while waiting and to not in seen:
+            at = waiting.pop()
+            if at not in seen:
+                seen.add(at)
+                waiting += self._next(at)
+        return to in seen
 
     def _next(self, address: int) -> list[int]:
         ins = self.instruction(address)
@@ -219,20 +299,25 @@ class Machine:
         to = target.number if target.where == "number" else self.image.relocations.get(target.number) if target.base == "rip" else None
         return ([to] if isinstance(to, int) else []) + ([address + ins.size] if ins.name != "jmp" else [])
 
-    def explore(self, start: State, cuts: set[int]) -> Iterator[State]:
-        """Every path from `start` to a cut or to the end. At the end, pc is 0."""
+    def explore(self, start: State) -> Iterator[State]:
+        """Every path from `start` to a cut or to the end. At the end, pc is 0. In an unrolled loop, a path is also cut
+        where its second pair begins, because the number of paths grows exponentially with their pairs."""
         waiting = [start]
         while waiting:
             s = waiting.pop()
-            if s.steps and (s.pc in cuts or s.pc == 0):
+            if s.steps and (s.pc in self.cuts or s.pc == 0):
                 self.paths += 1
                 yield s
                 continue
             s.steps += 1
             if s.steps > LONGEST_PATH:
                 raise self.undecided(s, f"no end of the path after {LONGEST_PATH} instructions")
-            top = s.cells.get(("rsp", 0))
+            s.choices, top = [], s.cells.get(("rsp", 0))
             after = self._step(s)
+            if len(s.pairs) > 1 or (self.is_unrolled and 1 in s.began):
+                self.is_unrolled = True
+                self.cuts.add(s.began[1])
+                raise NewCut
             for end in after:
                 if end.cells.get(("rsp", 0)) is not top:
                     self._forget(end)
@@ -261,7 +346,22 @@ class Machine:
             raise self.undecided(s, "this encoding is not known")
         x86.ACTIONS[ins.name](o)
         s.pc = after
-        return [s]
+        return self._choose(s)
+
+    def _choose(self, s: State) -> list[State]:
+        """A path for each answer to the conditions on which the values of this instruction depend, as if it were a
+        branch."""
+        chosen, s.choices = [key for key in s.choices if key in s.cells and condition_of(s.cells[key]) is not None], []
+        if not chosen:
+            return [s]
+        condition, after = condition_of(s.cells[chosen[0]]), []
+        for claim, answer in ((condition, True), (z3.simplify(z3.Not(condition)), False)):
+            if self.possible(s, claim):
+                end = s.branch(s.pc, claim)
+                for key in chosen:
+                    end.write(*key, z3.substitute(end.cells[key], (condition, z3.BoolVal(answer))))
+                after += self._choose(end)
+        return after
 
     def _branch(self, s: State, condition: z3.BoolRef, to: int, after: int) -> list[State]:
         if z3.is_true(condition) or z3.is_false(condition):
@@ -297,8 +397,3 @@ def symbols(term: z3.ExprRef) -> set[str]:
             unknown = term.decl().kind() == z3.Z3_OP_UNINTERPRETED
             found |= {term.decl().name().split()[0] if term.num_args() == 0 else "()"} if unknown else set()
     return found
-
-
-def of_numbers(fact: z3.BoolRef) -> bool:
-    """True if a fact has no symbols but NC, INDOF, NDOFPN, the arrays' lengths and I."""
-    return symbols(fact).isdisjoint({"()", "unknown", "smin", "toggled"})

@@ -5,7 +5,7 @@ import z3
 
 z3.set_param("rewriter.elim_sign_ext", False)  # Z3 is faster with whole terms than with single bits
 
-EFFORT = 100_000_000  # limit for a question in Z3's own units, so that verdicts do not depend on the machine's load
+EFFORT = 10_000_000  # limit for a question in Z3's own units, so that verdicts do not depend on the machine's load
 INFINITY = {32: 0x7F800000, 64: 0x7FF0000000000000}
 
 
@@ -40,6 +40,13 @@ def magnitude(x: z3.BitVecRef) -> z3.BitVecRef:
     return x & z3.BitVecVal((1 << x.size() - 1) - 1, x.size())
 
 
+def of_quotient(a: z3.BitVecRef, b: z3.BitVecRef) -> list[z3.BoolRef]:
+    """What is known of a / b for a number b > 0: NaN / b is NaN, and 0 / b is 0, with some sign."""
+    q = arithmetic("div", a, b)
+    above_0 = less(z3.BitVecVal(0, b.size()), b)
+    return [z3.Implies(is_nan(a), is_nan(q)), z3.Implies(z3.And(magnitude(a) == 0, above_0), magnitude(q) == 0)]
+
+
 def is_nan(x: z3.BitVecRef) -> z3.BoolRef:
     return z3.UGT(magnitude(x), INFINITY[x.size()])
 
@@ -67,8 +74,13 @@ def follows(claim: z3.BoolRef, *facts: z3.BoolRef) -> bool:
     return solver.check() == z3.unsat
 
 
-def comparisons_are_ieee(width: int) -> bool:
-    """True if these comparisons agree with Z3's theory of IEEE 754 for all bit patterns."""
+def are_ieee(width: int) -> bool:
+    """True if these comparisons, and of_quotient in any rounding mode, agree with Z3's theory of IEEE 754 for all bit
+    patterns."""
     a, b = z3.BitVecs("a b", width)
     x, y = (z3.fpBVToFP(bits, {32: z3.Float32(), 64: z3.Float64()}[width]) for bits in (a, b))
-    return follows(z3.And(less(a, b) == z3.fpLT(x, y), equal(a, b) == z3.fpEQ(x, y), is_nan(a) == z3.fpIsNaN(x)))
+    q = z3.fpDiv(z3.Const("mode", z3.RNE().sort()), x, y)
+    of_nan = z3.Implies(is_nan(a), z3.fpIsNaN(q))
+    of_0 = z3.Implies(z3.And(magnitude(a) == 0, less(z3.BitVecVal(0, width), b)), z3.fpIsZero(q))
+    compares = z3.And(less(a, b) == z3.fpLT(x, y), equal(a, b) == z3.fpEQ(x, y), is_nan(a) == z3.fpIsNaN(x))
+    return all(map(follows, (compares, of_nan, of_0)))

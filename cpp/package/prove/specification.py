@@ -1,10 +1,10 @@
 """CONTCT for one pair, in the order of the listing. Numbers in comments are lines of fortran/contct.f."""
 
-from typing import NamedTuple
+from typing import Callable, NamedTuple
 
 import z3
 
-from .reals import arithmetic, equal, follows, from_integer, less, magnitude, product
+from .reals import arithmetic, equal, follows, from_integer, less, magnitude, of_quotient, product
 
 CONSTANTS = {  # DATA, line 22, in each precision
     32: {"one": 0x3F800000, "delta": 0x1E3CE508, "epsgap": 0x2EDBE6FF, "epsmul": 0x3B800000},
@@ -24,6 +24,9 @@ PRECONDITIONS = {
 }
 
 
+Holds = Callable[..., bool]
+
+
 class Position(NamedTuple):
     """A position of the listing: the loop (1: DO 10, 2: DO 30, 0: returned), the pair (from 0), SMIN, and the number of
     toggled pairs."""
@@ -35,10 +38,9 @@ class Position(NamedTuple):
 
 
 class Toggle(NamedTuple):
-    """DO 30 for one pair: whether the pair is toggled, whether it makes contact, and the numbers of the WRITEs."""
+    """DO 30 for a pair that is toggled: whether the pair makes contact, and the numbers of the WRITEs."""
 
-    happens: z3.BoolRef
-    makes: z3.BoolRef
+    makes: bool
     i: z3.BitVecRef
     node: z3.BitVecRef
     isurf: z3.BitVecRef
@@ -46,7 +48,8 @@ class Toggle(NamedTuple):
 
 
 class Specification:
-    """The listing with REAL of `width` bits, for the arrays of any call."""
+    """The listing with REAL of `width` bits, for the arrays of any call. `holds` tells whether a condition of the
+    listing holds on a path, as Machine.decide does."""
 
     def __init__(self, width: int, left_out: str = ""):
         self.width, self.left_out = width, left_out
@@ -72,31 +75,32 @@ class Specification:
     def ndof(self, i: z3.BitVecRef) -> z3.BitVecRef:
         return product(self.element("ID", i) - 1, self.ndofpn) + self.indof  # 28, 29
 
-    def scale_factor(self, i: z3.BitVecRef) -> z3.BitVecRef:
+    def scale_factor(self, i: z3.BitVecRef, holds: Holds) -> z3.BitVecRef:
         """SS(I): the body of DO 10."""
         dtest = self.element("DTEST", i)
+        if holds(equal(dtest, self.zero)):  # 31
+            return self.one  # 32
         gap = arithmetic("sub", self.element("CC", i), self.element("DD", i))  # 30
+        if not holds(less(magnitude(gap), self.epsgap)):  # 33
+            return arithmetic("div", gap, dtest)  # 38
         signs = product(self.element("ISEP", i), self.element("ISURF", i))
         sschk = arithmetic("div", from_integer(signs, self.width), dtest)  # 35
-        touching = z3.If(less(self.zero, sschk), arithmetic("mul", sschk, self.delta), self.one)  # 34, 36
-        apart = arithmetic("div", gap, dtest)  # 38
-        moving = z3.If(less(magnitude(gap), self.epsgap), touching, apart)  # 33
-        return z3.If(equal(dtest, self.zero), self.one, moving)  # 31, 32
+        return arithmetic("mul", sschk, self.delta) if holds(less(self.zero, sschk)) else self.one  # 36, 34
 
-    def smaller(self, s: z3.BitVecRef, smin: z3.BitVecRef) -> z3.BitVecRef:
+    def smaller(self, s: z3.BitVecRef, smin: z3.BitVecRef, holds: Holds) -> z3.BitVecRef:
         """SMIN after a pair with the scale factor `s`."""
-        return z3.If(z3.And(less(self.zero, s), less(s, smin)), s, smin)  # 40
+        return s if holds(less(self.zero, s)) and holds(less(s, smin)) else smin  # 40
 
-    def toggle(self, at: Position) -> Toggle:
-        """DO 30 for the pair at this position."""
-        diff = arithmetic("div", magnitude(arithmetic("sub", self.element("SS", at.i), at.smin)), at.smin)  # 51
-        makes = self.element("ISEP", at.i) == 1  # 54
+    def toggle(self, at: Position, holds: Holds) -> Toggle | None:
+        """DO 30 for the pair at this position; None if the pair is not toggled."""
+        signed = arithmetic("sub", self.element("SS", at.i), at.smin)
+        is_close = lambda size: less(arithmetic("div", size, at.smin), self.epsmul)  # 51, 52
+        size, minus = magnitude(signed), signed ^ (1 << self.width - 1)
+        others = [(value == size, is_close(value)) for value in (signed, minus)]  # for ABS by a comparison
+        if not holds(is_close(size), others, [fact for value in (signed, minus, size) for fact in of_quotient(value, at.smin)]):
+            return None
         node, isurf = self.element("ID", at.i), self.element("ISURF", at.i)  # 53, 61
-        return Toggle(less(diff, self.epsmul), makes, at.i, node, isurf, at.smin)  # 52
-
-    def isep_after(self, t: Toggle) -> z3.BitVecRef:
-        toggled = z3.If(t.makes, z3.BitVecVal(-1, 32), z3.BitVecVal(1, 32))  # 55, 58
-        return z3.If(t.happens, toggled, self.element("ISEP", t.i))
+        return Toggle(holds(self.element("ISEP", at.i) == 1), at.i, node, isurf, at.smin)  # 54
 
     def of_call(self) -> list[z3.BoolRef]:
         """The preconditions for a call."""
@@ -126,5 +130,6 @@ class Specification:
 
     def is_kept(self) -> bool:
         """True if DO 10 keeps SMIN positive and at most 1 for any SS."""
-        after = self.here._replace(smin=self.smaller(z3.BitVec("s", self.width), self.here.smin))
+        smin, s = self.here.smin, z3.BitVec("s", self.width)
+        after = self.here._replace(smin=z3.If(z3.And(less(self.zero, s), less(s, smin)), s, smin))
         return follows(self.of_position(after)[0], self.of_position(self.here)[0])

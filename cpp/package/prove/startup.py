@@ -38,7 +38,7 @@ def _ends(image: Image, address: int, starting: bool = True) -> tuple[Machine, l
     machine.starting = starting
     machine.begin(Position(1, z3.BitVecVal(0, 64), machine.spec.one, z3.BitVecVal(0, 32)), [])
     start = entry(machine, Interface([], {}, lambda s: [], lambda toggles, no_event: []), address)
-    ends = list(machine.explore(start, set()))
+    ends = list(machine.explore(start))
     for s in ends:
         if not all(machine.same(s, s.register(name), on_entry(name)) for name in KEPT):
             raise machine.undecided(s, "the function returns with other registers than it must keep")

@@ -20,6 +20,14 @@ def bits(value: z3.BitVecRef, low: int, width: int) -> z3.BitVecRef:
     return z3.simplify(z3.Extract(low + width - 1, low, value))
 
 
+def condition_of(value: z3.ExprRef) -> z3.BoolRef | None:
+    """The condition of a value that is one of two, perhaps with other bits above it."""
+    kind = value.decl().kind()
+    if kind == z3.Z3_OP_CONCAT:
+        return condition_of(value.arg(value.num_args() - 1))
+    return value.arg(0) if kind == z3.Z3_OP_ITE else None
+
+
 class State:
     """One symbolic state. Values are shared between copies and never changed."""
 
@@ -32,34 +40,49 @@ class State:
         self.pairs: set[int] = set()  # pairs with a read or written element of SS, from the path's first pair
         self.events: list[z3.BitVecRef] = []  # labels and numbers written to unit 26
         self.path: list[z3.BoolRef] = []  # conditions of the taken branches
+        self.known: dict[int, tuple[z3.BoolRef, bool]] = {}  # answers of Z3 on this path, by the number of the term
+        self.began: dict[int, int] = {}  # the instruction that first used a pair's elements
+        self.judged: dict = {}  # what the proof found out about this state as the end of a path
+        self.choices: list[tuple[str, int]] = []  # cells of this instruction whose value depends on a condition
 
     def branch(self, pc: int, *claims: z3.BoolRef) -> "State":
         """A copy that continues at `pc`, where `claims` hold."""
         other = copy.copy(self)
         other.pc = pc
-        for name in ("cells", "elements", "pairs", "events", "path"):
+        for name in ("cells", "elements", "pairs", "events", "path", "began", "choices"):
             setattr(other, name, getattr(self, name).copy())
         other.path += claims
+        other.judged = {}
+        other.known = {key: told for key, told in self.known.items() if told[1]}
+        for claim in claims:
+            opposite = z3.simplify(z3.Not(claim))
+            other.known |= {claim.get_id(): (claim, True), opposite.get_id(): (opposite, False)}
         return other
 
     def write(self, region: str, at: int, value: z3.BitVecRef) -> None:
         """Store a value. If older values overlap the new value, their other bytes do not change."""
         end = at + value.size() // 8
-        for (place, start), old in list(self.cells.items()):
+        for place, start in [key for key in self.cells if key[0] == region and key[1] < end]:
+            old = self.cells[place, start]
             above = start + old.size() // 8 - end
-            if place == region and start < end and above > at - end:
+            if above > at - end:
                 del self.cells[place, start]
                 if start < at:
                     self.cells[place, start] = bits(old, 0, 8 * (at - start))
                 if above > 0:
                     self.cells[place, end] = bits(old, old.size() - 8 * above, 8 * above)
-        self.cells[region, at] = z3.simplify(value)
+        self.cells[region, at] = value = z3.simplify(value)
+        if condition_of(value) is not None:
+            self.choices.append((region, at))
 
     def read(self, region: str, at: int, size: int) -> z3.BitVecRef | None:
         """The value of `size` bytes; None if any byte is unknown."""
-        for (place, start), value in self.cells.items():
+        whole = self.cells.get((region, at))
+        if whole is not None and whole.size() == 8 * size:
+            return whole
+        for start, value in [(key[1], value) for key, value in self.cells.items() if key[0] == region and key[1] <= at]:
             held = start + value.size() // 8 - at  # number of bytes from `at`
-            if place == region and start <= at and held > 0:
+            if held > 0:
                 low = bits(value, 8 * (at - start), 8 * min(size, held))
                 rest = self.read(region, at + held, size - held) if held < size else None
                 return low if held >= size else None if rest is None else z3.simplify(z3.Concat(rest, low))

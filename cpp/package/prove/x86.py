@@ -32,6 +32,8 @@ class Operands:
             return z3.BitVecVal(op.number, op.width)
         if op.where == "memory":
             return self.machine.load(self.s, self.address(op), op.width)
+        if op.where == "guard":
+            return self.machine.guard
         return self.s.read(op.where, op.first, op.width // 8)
 
     def both(self) -> tuple[z3.BitVecRef, z3.BitVecRef]:
@@ -73,7 +75,7 @@ def _compare_reals(o: Operands) -> None:
     a, b = o.both()
     nan = reals.unordered(a, b)
     o.s.flags = lambda: {"p": nan, "e": z3.Or(nan, reals.equal(a, b)), "b": z3.Or(nan, reals.less(a, b)),
-                         "be": z3.Or(nan, reals.less(a, b), reals.equal(a, b))}  # fmt: skip
+                         "be": z3.Not(reals.less(b, a))}  # fmt: skip
 
 
 def _logic(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
