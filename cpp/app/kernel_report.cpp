@@ -38,6 +38,7 @@ std::string identity(const std::string& kernel) {
 
 std::string quoted_lines(const std::vector<std::string>& lines) {
   std::vector<std::string> all;
+  all.reserve(lines.size());
   for (const std::string& line : lines) all.push_back(quoted(line));
   return "[" + joined(all, ", ") + "]";
 }
@@ -121,6 +122,7 @@ std::string replay_json(const std::vector<compared_trace>& traces,
         quoted_lines(t.first ? words_of(*t.first) : std::vector<std::string>{})));
   }
   std::vector<std::string> checked;
+  checked.reserve(kernels.size());
   for (const checked_kernel& k : kernels)
     checked.push_back(fmt::format("\n  {{ \"kernel\": {}, \"at_fault\": {}, {}: {} }}", quoted(k.name),
                                   at_fault_json(k.at_fault), quoted("findings"), quoted_lines(k.findings)));
