@@ -32,9 +32,11 @@ echo "the static program has $size bytes, the same bytes if it is built in anoth
 
 for language in c fortran python; do
   quietly python3 tests/vectors/consumers.py . $language "" $program
-  [ "$(grep -c "{'vectors': 1, 'static replay': 1}" "$log")" = 12 ] || { cat "$log"; fail "$language: not all of the twelve faults are found"; }
+  faults=$(sed -n "s/^$language: \([0-9]*\) faults are found$/\1/p" "$log")
+  [ "$faults" -ge 12 ] && [ "$(grep -c "{'vectors': 1, 'static replay': 1}" "$log")" = "$faults" ] ||
+    { cat "$log"; fail "$language: found $faults faults; allowed: 12 or more, each found by both"; }
 done
-echo "the static program and the vectors find twelve faults each in C, Fortran and Python"
+echo "the static program and the vectors find at least twelve faults each in C, Fortran and Python"
 
 echo "-- in an empty root folder"
 empty=$work/empty
