@@ -3,12 +3,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #ifdef __SSE2__
 #include <xmmintrin.h>
 #endif
 
 #include "contct/harness/compare.hpp"
+#include "contct/harness/told_text.hpp"
 #include "contct/kernel/contct.hpp"
 #include "contct/number/bits.hpp"
 #include "contct/text/strings.hpp"
@@ -33,6 +33,13 @@ double choice_bits(std::int64_t n, std::int64_t k) {
   return some * std::log2(all / some) + (all - some) * std::log2(all / (all - some));
 }
 
+/// The number of pairs before the last ones whose SS all are `unset`.
+std::size_t set_pairs(std::span<const double> ss, double unset) {
+  std::size_t set = ss.size();
+  while (set > 0 && ss[set - 1] == unset) --set;
+  return set;
+}
+
 /// The cost of describing the wrong number `got`: few bits if it is not finite, if it is 0 or 1 (1 only where
 /// `is_1_a_rule`), or if its ratio to `right` is that of the last wrong number; otherwise number_bits.
 template <class Real>
@@ -42,75 +49,6 @@ double value_bits(suspect& s, Real got, Real right, bool is_1_a_rule = true) {
   if (std::abs(ratio / s.last_ratio - 1.0) < 1e-6) return 1.0;
   s.last_ratio = ratio;
   return number_bits;
-}
-
-/// The event of each pair [pairs] that a kernel's unit-26 text reports. Pairs beyond 999, which I3 cannot
-/// print, have none.
-std::vector<std::optional<change>> told_by(std::string_view text, std::size_t pairs) {
-  std::vector<std::optional<change>> told(pairs);
-  change what = change::make;
-  while (!text.empty()) {
-    const std::string line(take_line(text));
-    if (line.find("MAKING") != std::string::npos) what = change::make;
-    if (line.find("BREAKING") != std::string::npos) what = change::break_;
-    const std::size_t pair = line.find("PAIR:");
-    const auto number = pair == std::string::npos ? 0 : std::strtol(line.c_str() + pair + 5, nullptr, 10);
-    if (number > 0 && static_cast<std::size_t>(number) <= pairs) told[number - 1] = what;
-  }
-  return told;
-}
-
-/// The numbers of a line of text, and the line with a 0 for each character of a number except the point.
-struct text_line {
-  explicit text_line(const std::string& words) {
-    for (const char* at = words.c_str(); *at != '\0';) {
-      char* end = nullptr;
-      const double number = std::strtod(at, &end);
-      if (end != at) numbers.push_back(number);
-      for (const char* past = std::max<const char*>(end, at + 1); at != past; ++at)
-        form += end > at && *at != '.' ? '0' : *at;
-    }
-  }
-  std::vector<double> numbers = {};
-  std::string form = {};
-};
-
-/// The statements that write a line of text, and the words by which the line is recognised.
-struct text_writer {
-  std::string_view mark;
-  const listing_line &write, &format;
-};
-
-const text_writer& writer_of(std::string_view line) {
-  static constexpr text_writer writers[] = {{"NO EVENTS", l::write_20, l::format_20},
-                                            {"MAKING", l::write_40, l::format_40},
-                                            {"BREAKING", l::write_50, l::format_50},
-                                            {"", l::write_60, l::format_60}};
-  return *std::ranges::find_if(writers,
-                               [line](const auto& w) { return line.find(w.mark) != std::string_view::npos; });
-}
-
-/// The statement that is at fault if the line `got` was written instead of `right`: the FORMAT if only the
-/// form of the numbers differs; line 53 if the node is `last_node`; otherwise the WRITE.
-const listing_line& written_by(std::string_view right, std::string_view got, int last_node) {
-  const text_writer& writer = writer_of(right);
-  const text_line expected{std::string(right)};
-  text_line found{std::string(got)};
-  const auto same = [](double a, double b) {
-    constexpr double rounding = 6e-4;  // relative; rounding to four digits changes a number by 5e-4
-    return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
-  };
-  if (!expected.numbers.empty() && !found.numbers.empty()) {
-    const double power = std::log10(found.numbers.back() / expected.numbers.back());
-    // If the last numbers of both lines differ by a power of ten, this is a fault of the form.
-    if (same(power, std::round(power))) found.numbers.back() = expected.numbers.back();
-  }
-  if (!writer.mark.empty() && &writer != &writer_of(got)) return writer.write;
-  if (expected.form != found.form || std::ranges::equal(expected.numbers, found.numbers, same))
-    return writer.format;
-  const bool node_again = expected.numbers.size() > 1 && expected.numbers[0] == found.numbers[0] &&
-                          expected.numbers[1] != found.numbers[1] && found.numbers[1] == last_node;
-  return node_again ? l::node_again : writer.write;
 }
 
 }  // namespace
@@ -128,7 +66,7 @@ void suspect::explain(double more_bits, std::int64_t values) {
 }
 
 suspect& fault_finder::at(const listing_line& line, fault kind, std::size_t way) {
-  suspect& s = suspects_[16 * static_cast<std::size_t>(line.number) + kind + way];
+  suspect& s = suspects_[faults_of_line * static_cast<std::size_t>(line.number) + kind + way];
   s.line = &line;
   return s;
 }
@@ -230,29 +168,41 @@ void fault_finder::note_pair(const call<Real>& c, const answered_call& right, st
   assigns(at(l::if_check_positive, wrong_product), false);
 }
 
-/// Finds which SS the kernel did not set, so that they keep their initial value. Suspects are the bounds and
-/// the step of the DO 10 loop, and lines 32 and 40, where a wrong port leaves the loop.
+/// Judges rules by which a wrong DO 10 loop leaves pairs out, if an SS that the kernel does not set is
+/// `unset`: the first pair, the last pair, every other pair, or all pairs from one pair on. Returns how many
+/// SS the last rule explains.
+template <class Real>
+std::int64_t fault_finder::note_left_out(const call<Real>& c, std::span<const double> ss, double unset,
+                                         std::size_t way) {
+  const bool is_marked = unset == not_an_answer;  // any other number can be an answer
+  const std::size_t done = set_pairs(ss, unset);
+  std::int64_t lost = 0;
+  const auto judge = [&](double bits, auto leaves_out) {
+    std::int64_t all = lost = 0;
+    for (std::size_t i = 0; i < ss.size(); ++i) {
+      if (!leaves_out(i) || c.ss[i] == static_cast<Real>(unset)) continue;
+      ++all;
+      lost += ss[i] == unset ? 1 : 0;
+    }
+    if (all > 0) at(l::do_10, usual, way).count(lost == all, bits, always_bits, lost);
+    ++way;
+  };
+  const double rule_bits = is_marked ? 0.0 : 2.0;
+  judge(rule_bits, [](std::size_t i) { return i == 0; });
+  judge(rule_bits, [&](std::size_t i) { return i + 1 == ss.size(); });
+  judge(rule_bits, [](std::size_t i) { return i % 2 == 1; });
+  judge(is_marked ? end_bits : always_bits, [&](std::size_t i) { return i >= done; });
+  return lost;
+}
+
+/// Judges the bounds and the step of the DO 10 loop, and lines 32 and 40, where a wrong port leaves the loop.
 template <class Real>
 void fault_finder::note_loop(const call<Real>& c, std::span<const double> ss) {
+  note_left_out(c, ss, 0.0, 8);
+  note_left_out(c, ss, 1.0, 4);
+  const std::int64_t lost = note_left_out(c, ss, not_an_answer, 0);
   const std::size_t pairs = ss.size();
-  const double initial_numbers[] = {not_an_answer, 1.0, 0.0};  // of an SS that the kernel does not set
-  std::size_t done = pairs;  // number of pairs before the last SS that have their initial number
-  std::int64_t lost = 0;
-  for (const std::size_t n : {2U, 1U, 0U}) {
-    const auto is_right = [&](std::size_t i) { return c.ss[i] == static_cast<Real>(initial_numbers[n]); };
-    for (done = pairs; done > 0 && ss[done - 1] == initial_numbers[n];) --done;
-    for (std::size_t rule = 0; rule < 4; ++rule) {
-      std::int64_t all = lost = 0;
-      for (std::size_t i = 0; i < pairs; ++i) {
-        const bool left_out_by_rule[] = {i == 0, i + 1 == pairs, i % 2 == 1, i >= done};
-        if (!left_out_by_rule[rule] || is_right(i)) continue;
-        ++all;
-        lost += ss[i] == initial_numbers[n] ? 1 : 0;
-      }
-      const double bits = rule == 3 ? (n == 0 ? end_bits : always_bits) : n == 0 ? 0.0 : 2.0;
-      if (all > 0) at(l::do_10, usual, 4 * n + rule).count(lost == all, bits, always_bits, lost);
-    }
-  }
+  const std::size_t done = set_pairs(ss, not_an_answer);
   const auto left_at = [&](suspect& s, auto took) {
     std::size_t i = 0;
     while (i < pairs && !took(i)) ++i;
@@ -383,15 +333,9 @@ void fault_finder::note_flushing([[maybe_unused]] const answered_call& right,
 }
 
 void fault_finder::note_text(const answered_call& right, const call_outputs& other) {
-  std::string_view a = *right.text;
-  std::string_view b = other.text;
   ++differ_;
-  const bool as_many = std::count(a.begin(), a.end(), '\n') == std::count(b.begin(), b.end(), '\n');
-  std::string_view expected = take_line(a);
-  std::string_view found = take_line(b);
-  for (; expected == found && !a.empty(); found = take_line(b)) expected = take_line(a);
-  const listing_line& line = as_many ? written_by(expected, found, right.c.id.empty() ? 0 : right.c.id.back())
-                                     : writer_of(expected).write;
+  const int last_node = right.c.id.empty() ? 0 : right.c.id.back();
+  const listing_line& line = fault_of_text(*right.text, other.text, last_node);
   at(line).explain(1.0);
   if (other.text.empty())
     for (suspect* s : left_by_) ++s->explained;
@@ -428,7 +372,7 @@ std::optional<faulty_line> fault_finder::found() const {
   }
   if (best == nullptr) return std::nullopt;
   faulty_line line{*best->line, best->explained, differ_, std::min(differing_calls_, most_calls), ""};
-  if (best->line == &l::diff && best != &suspects_[std::size_t{16} * l::diff.number])
+  if (best->line == &l::diff && best != &suspects_[faults_of_line * l::diff.number])
     line.compared = "lines 51 and 52 are computed in another way, which rounds or underflows";
   const std::string_view statement = line.at.statement;
   const std::size_t open = statement.find("IF (") + 4;

@@ -83,6 +83,8 @@ class fault_finder {
   template <class Real>
   void note_pair(const call<Real>& c, const answered_call& right, std::size_t i, Real got);
   template <class Real>
+  std::int64_t note_left_out(const call<Real>& c, std::span<const double> ss, double unset, std::size_t way);
+  template <class Real>
   void note_loop(const call<Real>& c, std::span<const double> ss);
   void note_smallest(const call_outputs& other);
   template <class Real>
@@ -93,7 +95,9 @@ class fault_finder {
   void note_flushing(const answered_call& right, const call_outputs& other, std::int64_t differ);
   void note_digest(const call_outputs& other);
 
-  std::vector<suspect> suspects_ = std::vector<suspect>(std::size_t{16} * (listing::format_60.number + 1));
+  static constexpr std::size_t faults_of_line = 16;  // kinds and ways
+  std::vector<suspect> suspects_ =
+      std::vector<suspect>(faults_of_line * (std::size_t{listing::format_60.number} + 1));
   std::int64_t equal_calls_ = 0, differing_calls_ = 0, pairs_ = 0, differ_ = 0;
   std::uint32_t digest_ = 2166136261U;
   std::vector<suspect*> left_by_;      // suspects that explain where the kernel left DO 10 in this call

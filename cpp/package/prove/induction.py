@@ -9,10 +9,9 @@ from .interfaces import Interface, entry, fault_of_return
 from .machine import ARRAYS, BASE, Machine, NewCut, Split, symbols
 from .reals import are_ieee
 from .specification import Position, Toggle
-from .state import GENERAL, State
+from .state import State
 
 MOST_ROUNDS = 400
-LONGEST_TURN = 16  # heads in one turn of a loop
 Slot = tuple[str, int, int]  # a region, the first byte and the size
 VARYING = {"i", "smin", "toggled", "unknown"}  # symbols whose meaning depends on the position
 
@@ -28,7 +27,6 @@ class Head:
     def __init__(self, loop: int, facts: list[z3.BoolRef], guesses: dict[Slot, list[z3.BitVecRef]]):
         self.loop, self.facts = loop, facts
         self.guesses = guesses  # possible values of each slot; the first is assumed
-        self.turns = True  # False if no path leads back to the head
         self.version = 0  # number of changes of the assumptions
 
 
@@ -108,44 +106,17 @@ class Proof:
         a, to = cases[0][0], cases[0][1].to
         known = (self.heads[a.origin].facts if a.origin else []) + a.s.path
         facts = [f for f in known if symbols(f).isdisjoint(VARYING | {"()"})]
-        facts += [z3.ULT(self.spec.here.i, self.spec.pairs), *self._residues(a, to)]
+        facts += [z3.ULT(self.spec.here.i, self.spec.pairs)]
         turns = self._turns(a, to) if z3.is_bv_value(to.i) else []
         slots = [(region, at, value.size() // 8) for (region, at), value in a.s.cells.items()]
         guesses = {slot: self._guesses(cases, slot, turns) for slot in slots}
         head = self.heads[a.s.pc] = Head(to.loop, facts, guesses)
-        head.turns = self.machine.leads_back(a.s.pc)
         if not turns and z3.is_bv_value(to.i):
             head.facts.append(self.spec.here.i == to.i)
 
-    def _residues(self, a: Arrival, to: Position) -> list[z3.BoolRef]:
-        """The rests of I and of the number of pairs from I on, divided by the number of pairs of an unrolled loop."""
-        if not self.machine.is_unrolled:
-            return []
-        self.machine.begin(a.at, a.facts)
-        here, found = self.spec.here, []
-        for term in (here.i, self.spec.pairs - here.i):
-            for n in (3, 2, 1):
-                low = z3.Extract(n - 1, 0, term)
-                there = self.machine.one_value(a.s, z3.substitute(low, (here.i, to.i)))
-                if there is not None:
-                    found.append(low == there)
-                    break
-        return found
-
     def _turns(self, a: Arrival, to: Position) -> list[tuple[State, int]]:
-        """Ends of paths from this arrival back to the same place, with the numbers of their pairs: all that meet no other
-        head, or one through the heads of an unrolled loop."""
-        s, at, facts, pairs = a.s, to, a.facts + a.s.path, 0
-        for _ in range(LONGEST_TURN if self.machine.is_unrolled else 0):
-            ends = self._paths(State(s.pc, dict(s.cells)), s.pc, at, facts)
-            b = next((b for b in ends if b.s.pairs and b.s.pc and self.machine.leads(b.s.pc, a.s.pc)), None)
-            if b is None:
-                return []
-            case, listing = self._cases(b)[0]
-            s, at, facts, pairs = case.s, listing.to, case.facts + case.s.path, pairs + len(case.s.pairs)
-            if s.pc == a.s.pc:
-                return [(s, pairs)]
-        ends = self._paths(State(s.pc, dict(s.cells)), s.pc, at, facts)
+        """Ends of the paths from this arrival back to the same place, with the numbers of their pairs."""
+        ends = self._paths(State(a.s.pc, dict(a.s.cells)), a.s.pc, to, a.facts + a.s.path)
         return [(b.s, len(b.s.pairs)) for b in ends if b.s.pc == a.s.pc and b.s.pairs]
 
     def _guesses(self, cases: list[tuple[Arrival, Advance]], slot: Slot, turns: list[tuple[State, int]]) -> list[z3.BitVecRef]:
@@ -168,8 +139,6 @@ class Proof:
                 guesses += grown[:1] if all(g is not None and g.eq(grown[0]) for g in grown) else []
                 fixed += [(start, to.i)] if z3.is_bv_value(to.i) else []
             guesses += least
-            if not turns and slot[0] in GENERAL:
-                guesses += [z3.simplify(start + step * z3.Extract(start.size() - 1, 0, here.i - to.i)) for step in (1, 8, 4, -1)]
             if z3.is_bv_value(start) and start.as_long() == 0 and start.size() >= 32:
                 guesses += [extend(start.size() - 32, here.toggled) for extend in (z3.ZeroExt, z3.SignExt)]
         for (start, i), (after, j) in zip(fixed, fixed[1:]):
@@ -197,8 +166,6 @@ class Proof:
             for slot, options in head.guesses.items():
                 if any(options is found for found in refuted):
                     del options[0]
-                    while options and not head.turns and not self._holds(case, slot, when(options[0])):
-                        del options[0]  # no assumption of this head is one of this arrival
         if head.version == before:
             a.s.judged["refutes nothing of version"] = before
         return head.version > before

@@ -47,7 +47,6 @@ class Machine:
         self.at, self.facts = None, None
         self.cuts: set[int] = set()  # addresses that cut every loop
         self.order: dict[int, int] = {}  # of each instruction, the place in a depth-first search; the entry is last
-        self.is_unrolled = False  # True if a path from cut to cut had more than one pair
         self._is_element: dict[tuple, tuple[bool, list]] = {}  # with the terms, whose numbers are in the key
         self._of_numbers: dict[int, tuple[z3.BoolRef, bool]] = {}
         self._decoded: dict[int, Instruction] = {}
@@ -78,14 +77,6 @@ class Machine:
                 raise self.undecided(s, "Z3 gave no answer")
             s.known[claim.get_id()] = claim, answer == z3.unsat
         return s.known[claim.get_id()][1]
-
-    def one_value(self, s: State, term: z3.BitVecRef) -> z3.BitVecRef | None:
-        """The only value of a term on this path; None if there are several."""
-        term = z3.simplify(term)
-        if not z3.is_bv_value(term) and self.solver.check(*s.path) == z3.sat:
-            found = self.solver.model().eval(term, model_completion=True)
-            return found if self.holds(s, term == found) else None
-        return term if z3.is_bv_value(term) else None
 
     def decide(self, s: State, claim: z3.BoolRef, others: list[tuple[z3.BoolRef, z3.BoolRef]] = [], lemmas: list[z3.BoolRef] = []) -> bool:
         """Whether `claim` holds on this path. Raises Split if it may or may not hold. `others`: conditions, and the claims
@@ -160,7 +151,6 @@ class Machine:
             i = z3.simplify(self.at.i + k)
             if self._stands_at(s, array, i, offset) and self.holds(s, z3.ULT(i, self.spec.pairs)):
                 s.pairs |= {k} if array == "SS" else set()
-                s.began.setdefault(k, s.pc)
                 return k
         if array == "SS" and self.at.loop == 1 and s.pc not in self.cuts and self._stands_at(s, array, z3.BitVecVal(0, 64), offset):
             self.cuts.add(s.pc)  # DO 30 begins here, without the head of a loop before it
@@ -278,19 +268,6 @@ class Machine:
             above.remove(at)
             self.order[at] = len(self.order)
 
-    def leads_back(self, at: int) -> bool:
-        return any(self.leads(to, at) for to in self._next(at))
-
-    def leads(self, at: int, to: int) -> bool:
-        """Whether some sequence of instructions leads from one address to another."""
-        seen, waiting = set(), [at]
-        while waiting and to not in seen:
-            at = waiting.pop()
-            if at not in seen:
-                seen.add(at)
-                waiting += self._next(at)
-        return to in seen
-
     def _next(self, address: int) -> list[int]:
         ins = self.instruction(address)
         if ins.name not in ("j", "jmp", "call"):
@@ -300,8 +277,7 @@ class Machine:
         return ([to] if isinstance(to, int) else []) + ([address + ins.size] if ins.name != "jmp" else [])
 
     def explore(self, start: State) -> Iterator[State]:
-        """Every path from `start` to a cut or to the end. At the end, pc is 0. In an unrolled loop, a path is also cut
-        where its second pair begins, because the number of paths grows exponentially with their pairs."""
+        """Every path from `start` to a cut or to the end. At the end, pc is 0."""
         waiting = [start]
         while waiting:
             s = waiting.pop()
@@ -313,15 +289,10 @@ class Machine:
             if s.steps > LONGEST_PATH:
                 raise self.undecided(s, f"no end of the path after {LONGEST_PATH} instructions")
             s.choices, top = [], s.cells.get(("rsp", 0))
-            after = self._step(s)
-            if len(s.pairs) > 1 or (self.is_unrolled and 1 in s.began):
-                self.is_unrolled = True
-                self.cuts.add(s.began[1])
-                raise NewCut
-            for end in after:
+            for end in self._step(s):
                 if end.cells.get(("rsp", 0)) is not top:
                     self._forget(end)
-            waiting += after
+                waiting.append(end)
 
     def _forget(self, s: State) -> None:
         """Forget what is below the red zone, where a signal handler may write."""
@@ -367,8 +338,12 @@ class Machine:
         if z3.is_true(condition) or z3.is_false(condition):
             s.pc = to if z3.is_true(condition) else after
             return [s]
-        claims = [(condition, to), (z3.simplify(z3.Not(condition)), after)]
-        return [s.branch(pc, claim) for claim, pc in claims if self.possible(s, claim)]
+        opposite, ends = z3.simplify(z3.Not(condition)), []
+        if self.possible(s, condition):
+            ends.append(s.branch(to, condition))
+        if not ends or self.possible(s, opposite):  # one of them is possible on every path
+            ends.append(s.branch(after, opposite))
+        return ends
 
     def _go(self, s: State, target: z3.BitVecRef) -> list[State]:
         """Jump to an address of the file, return to the caller, or call the run-time library."""

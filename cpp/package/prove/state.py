@@ -41,7 +41,6 @@ class State:
         self.events: list[z3.BitVecRef] = []  # labels and numbers written to unit 26
         self.path: list[z3.BoolRef] = []  # conditions of the taken branches
         self.known: dict[int, tuple[z3.BoolRef, bool]] = {}  # answers of Z3 on this path, by the number of the term
-        self.began: dict[int, int] = {}  # the instruction that first used a pair's elements
         self.judged: dict = {}  # what the proof found out about this state as the end of a path
         self.choices: list[tuple[str, int]] = []  # cells of this instruction whose value depends on a condition
 
@@ -49,7 +48,7 @@ class State:
         """A copy that continues at `pc`, where `claims` hold."""
         other = copy.copy(self)
         other.pc = pc
-        for name in ("cells", "elements", "pairs", "events", "path", "began", "choices"):
+        for name in ("cells", "elements", "pairs", "events", "path", "choices"):
             setattr(other, name, getattr(self, name).copy())
         other.path += claims
         other.judged = {}
