@@ -54,7 +54,7 @@ need_program() {
 
 # The packages of the long tests. Fails if Debian has one that cannot be installed.
 need_for_long_tests() {
-  need "for the long tests" pkgconf groff-base mandoc python3-pytest python3-numpy python3-scipy python3-matplotlib \
+  need "for the long tests" pkgconf groff-base mandoc python3-pytest python3-numpy python3-scipy python3-pandas python3-matplotlib \
     python3-getfem mypy libsuitesparse-dev chromium fonts-dejavu-core poppler-utils emscripten f2c libf2c2-dev \
     libfast-float-dev librange-v3-dev ca-certificates calculix-ccx clang clang-tidy gfortran-aarch64-linux-gnu \
     g++-aarch64-linux-gnu qemu-user dpkg-dev lintian debootstrap && need_petsc

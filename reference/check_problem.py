@@ -7,7 +7,7 @@ from check_beam import beam, find, listed, need, numbers, only, positive, real
 from check_matrix import matrix
 from check_plate import plate
 
-TOP = {"title", "units", "beam", "plate", "matrix", "hinge", "support", "contact", "bed", "step", "case", "combination", "train"}
+TOP = {"title", "project", "author", "revision", "units", "beam", "plate", "matrix", "hinge", "support", "contact", "bed", "step", "case", "combination", "train", "watch"}
 
 
 def one_each(values, nodes):
@@ -63,12 +63,12 @@ class Problem:
                 self.K[i][j] = self.K[i].get(j, 0) + k
         self.supports = []  # (dof, spring stiffness, or None if fixed)
         for s in t.get("support", []):
-            self.support(s, self.nodes(s, {"fix", "spring"}))
+            self.support(s, self.nodes(s, {"name", "fix", "spring"}))
         self.fixed = {dof for dof, spring in self.supports if spring is None}
         self.continuum, self.bed_pairs, self.bed_held = [], [], []  # of each bed its intervals, n and face; its pairs, and those at fixed nodes, with their tributary lengths
         self.pairs, self.others, self.held = [], [], []  # (dof, n, face, stiffness); the dof that carries the face, or None; pairs of beds at fixed nodes
         for c in t.get("contact", []):
-            nodes = self.nodes(c, {"surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
+            nodes = self.nodes(c, {"name", "surface", "face", "stiffness", "state"} | (set() if self.lines else {"other"}))
             self.contact(c, nodes, c["surface"], one_each(c["stiffness"], nodes))
         self.contacts = len(self.pairs)
         for c in t.get("bed", []):
@@ -95,8 +95,8 @@ class Problem:
         """Returns the stiffness of a bed at each of its nodes: the modulus times what of the half elements there lies inside."""
         pieces = [piece for piece in listed(c["modulus"]) if isinstance(piece, dict) and len(self.lines) == 1]
         if not pieces and not c.keys() & {"from", "to"}:
-            return {node: real(c["modulus"]) * share[node] for node in self.nodes(c, {"surface", "face", "modulus", "state"}, "all")}
-        only(c, {"from", "to", "surface", "face", "modulus", "state"})
+            return {node: real(c["modulus"]) * share[node] for node in self.nodes(c, {"name", "surface", "face", "modulus", "state"}, "all")}
+        only(c, {"name", "from", "to", "surface", "face", "modulus", "state"})
         need(type(c["face"]) is not list, "a list of faces without nodes")
         ends, springs, half = {key: c[key] for key in ("from", "to") if key in c}, {}, F(1, 2)
         for piece in pieces or [{"value": c["modulus"]}]:
@@ -122,7 +122,7 @@ class Problem:
             ends = [begin] + [place(piece["to"]) for piece in c["modulus"]]
             parts = [[a, b, real(piece["value"])] for a, b, piece in zip(ends, ends[1:], c["modulus"])]
         elif not c.keys() & {"from", "to"}:
-            nodes = sorted(self.nodes(c, {"surface", "face", "modulus", "state"}, "all"))
+            nodes = sorted(self.nodes(c, {"name", "surface", "face", "modulus", "state"}, "all"))
             ends = sorted({middle[node] for node in nodes} ^ {middle[node + 1] for node in nodes})  # of nodes in a row
             parts = [[a, b, None] for a, b in zip(ends[::2], ends[1::2])]
         parts = [(a, b, real(c["modulus"]) if k is None else k) for a, b, k in parts]

@@ -43,10 +43,12 @@ struct run_options : problem_options {
   bool free_run = false;
   bool final_only = false;
   bool strict = false;
-  bool detail = false;    ///< prints all numbers on the terminal
-  bool envelope = false;  ///< the result has an envelope
-  bool refine = false;    ///< solves a second time with half the element size
-  std::string watched;    ///< the node in the tables: its number, label or x; empty: the node that moves most
+  bool detail = false;         ///< prints all numbers on the terminal
+  bool envelope = false;       ///< the result has an envelope
+  std::string compare = "20";  ///< the combinations in which the rules are compared, or "all"
+  bool appendix = false;       ///< the printed page has its appendix
+  bool refine = false;         ///< solves a second time with half the element size
+  std::string watched;  ///< the node in the tables: its number, label or x; empty: the node that moves most
   int max_increments = 0;  ///< limit of increments in a step; 0: the default limit
 };
 

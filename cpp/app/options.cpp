@@ -182,13 +182,16 @@ void declare_pictures(CLI::App* c, run_options& o) {
            "Write a report of the run as one HTML page to this file (- is standard output): the structure "
            "increment by increment, its events, the comparison of the kernels, the certificate. A "
            "structure given by its matrix is drawn if coordinates are known; otherwise the page has a table");
+  c->add_flag("--appendix", o.appendix,
+              "Put the appendix of the report on paper too: all tables, increments, calls and certificates")
+      ->needs(c->get_option("--html"));
   add_file(c, "--csv", o.csv,
            "Write a table with a row for each increment to this file (- is standard output). For F.csv also "
            "write F.pairs.csv, with a row for each pair and increment, and F.states.csv, with w, slope, "
            "moment, shear, bearing pressure and stress at the end of each step, along a beam or at the nodes "
            "of a plate. Columns of F.csv: step, increment, kind, s, share, force, events, closed, open, "
            "at_face, smin, kernels; of F.pairs.csv: step, increment, pair, node, surface, state, look, w, "
-           "gap, force, face");
+           "gap, force, face, x, y, label, name");
   add_file(c, "--vtu", o.vtu,
            "For ParaView: write the final state to this file, F.vtu. Also write F.000.vtu, F.001.vtu, .. for "
            "the start, each kept increment and every step's final state, and F.pvd, which lists these "
@@ -210,6 +213,11 @@ void declare_run(option_parser& p, CLI::App* c) {
   CLI::Option* const final_only = c->add_flag("--final-only", o.final_only,
                                               "Do not follow the path: find only the reference solution at "
                                               "the end of each step, and its certificate");
+  c->add_option(
+       "--compare", o.compare,
+       "Where there are more than 20 combinations: compare the 1989 rule with the answer in 20 of them, "
+       "the governing ones first, or in all [20]")
+      ->check(CLI::IsMember({"20", "all"}));
   c->add_flag("--strict", o.strict, "Exit with status 3 if a final state is not certified");
   c->add_flag("--detail", o.detail,
               "Print every event, and after each step all pairs, reactions, and moments and shears at the "
@@ -238,7 +246,7 @@ void declare_run(option_parser& p, CLI::App* c) {
   add_file(c, "--proof", o.proof,
            "Write the proof of the error bounds to this file; reference/check_proof.py checks it");
   for (const char* of_a_path : {"--free-run", "--kernels", "--engine", "--trace", "--log", "--max-increments",
-                                "--html", "--csv", "--vtu", "--envelope", "--node"})
+                                "--html", "--csv", "--vtu", "--envelope", "--node", "--compare"})
     final_only->excludes(c->get_option(of_a_path));
 }
 

@@ -122,7 +122,12 @@ problem problem_of(const run_options& o, const std::vector<output_option>& outpu
 }
 
 run_request request_of(const run_options& o, const model& m, const std::string& date) {
-  run_request r{.file = o.file, .engine = o.engine, .free_run = o.free_run, .envelope = o.envelope};
+  run_request r{.file = o.file,
+                .engine = o.engine,
+                .free_run = o.free_run,
+                .envelope = o.envelope,
+                .compare_all = o.compare == "all",
+                .appendix = o.appendix};
   if (!o.final_only) r.kernels = o.kernels;
   if (o.kernels.empty() && o.free_run) r.kernels = kernels_of_1989;
   r.both_rules = r.kernels.empty() && !o.final_only;

@@ -150,8 +150,9 @@ using namespace contct;
 
 char* contct_run(const char* text, const char* options) {
   return answered([&](served_answer& a) {
-    const request r(options, {"file", "folder", "allow_outside", "kernels", "engine", "final_only",
-                              "envelope", "max_increments", "page", "log", "trace", "proof", "states"});
+    const request r(options,
+                    {"file", "folder", "allow_outside", "kernels", "engine", "final_only", "envelope",
+                     "max_increments", "page", "log", "trace", "proof", "states", "refine"});
     const run_request wanted = read_run_request(r);
     output_file result(&a.result);
     run_outputs to{&result, wanted.pictures ? result_parts::states : result_parts::ends};
@@ -163,6 +164,7 @@ char* contct_run(const char* text, const char* options) {
     const linear_structure structure = structure_of(p);
     run run(p, structure, wanted);
     run.go(to);
+    if (r.flag("refine")) run.refine();
     run.find_mesh_errors();
     if (status_of(run.result.end.status) == exit_status::bad_input)
       throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));

@@ -15,6 +15,7 @@ import ctypes.util
 import html
 import importlib
 import json
+import math
 import operator
 import os
 import re
@@ -197,6 +198,7 @@ class Result(Answer):
         self._again, self._right = again, right
         self._texts: dict[str, str] = {}
         self._drawable: Optional[Record] = None  # the same result with its structure, if `self` has no structure
+        self._files: Any = None
 
     @property
     def answer(self) -> Result:
@@ -206,6 +208,12 @@ class Result(Answer):
         if not isinstance(self._right, Result):
             self._right = Result(_ask(_library.contct_run, self._right, {"final_only": True}))
         return self._right
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = dict(self.__dict__)
+        if state["_files"] is not None:  # files of a matrix stay with this process
+            state["_files"] = state["_again"] = None
+        return state
 
     page = _text_of("page", "The report as one HTML page, as `contct run --html` writes it")
     log = _text_of("log", "Unit 26 of the leading kernel (`--log`)")
@@ -236,12 +244,12 @@ class Result(Answer):
     def plot(self, quantity: str = "w", step: int = -1, ax: Any = None) -> Any:
         """Draw the end of `steps[step]` with matplotlib, and return the axes. The first use runs the problem again.
 
-        `quantity` is w, moment or shear for a beam. Dots mark extremes; for "w", squares mark pairs in contact,
-        and bars mark the faces of separated pairs. A plate has only "w", in colours."""
+        `quantity` is a key of `quantities` at nodes or in elements. Dots mark extremes of w, moment and shear of a
+        beam; for "w", squares mark pairs in contact, and bars mark the faces of separated pairs. A plate is drawn in
+        colours, with the mean of the elements at each node."""
         shown = self._with_structure()
         kind, end = shown.structure.kind, shown.steps[step]
-        along = [key for key in end.elements[0].pieces[0] if key != "x"] if kind == "beam" else []
-        allowed = ["w"] if kind == "plate" else along
+        allowed = [row.key for row in shown.quantities if row.on in ("nodes", "element_ends") and kind != "matrix"]
         if quantity not in allowed:
             raise InputError(f"plot: found quantity {quantity!r} of a {kind}; allowed: {', '.join(allowed) or 'beams and plates'}")
         if ax is None:
@@ -256,9 +264,33 @@ class Result(Answer):
             _plot_beam(shown, end, quantity, ax)
             ax.set(xlabel="x" + length, ylabel=words, title=title)
         else:
-            _plot_plate(shown, end, ax)
+            _plot_plate(shown, _nodal(shown, end, quantity), ax)
             ax.set(xlabel="x" + length, ylabel="y" + length, title=f"{title}: {words}", aspect="equal")
         return ax
+
+    def array(self, quantity: str, step: int = -1) -> Any:
+        """Every value of a quantity, a key of `quantities`, at the end of `steps[step]`: in the order of `nodes`, `pairs`,
+        `reactions`, `beds` or `hinges`, or one for the structure; of a quantity in elements, a row for each element. NaN
+        for the other kind of reaction of a beam or plate, force or moment. A NumPy array if NumPy is installed."""
+        rows = {row.key: row for row in self.quantities}
+        if quantity not in rows:
+            raise InputError(f"array: found quantity {quantity!r}; allowed: {', '.join(rows)}")
+        return _array(_values_of(self.steps[step], quantity, rows[quantity].on))
+
+    def to_dataframe(self, on: str = "nodes", step: int = -1) -> Any:
+        """A pandas DataFrame of all quantities on a list: "nodes", "pairs", "supports", "beds", "hinges" or "structure".
+        Its index counts from 1; its columns are keys of `quantities`."""
+        keys = [row.key for row in self.quantities if row.on == on]
+        allowed = sorted({row.on for row in self.quantities} - {"element_ends"})
+        if on not in allowed:
+            raise InputError(f"to_dataframe: found on={on!r}; allowed: {', '.join(allowed)}")
+        try:
+            pandas = importlib.import_module("pandas")
+        except ImportError as error:
+            raise ImportError(f"contct.Result.to_dataframe: {error}. It needs pandas (Debian: python3-pandas)") from error
+        frame = pandas.DataFrame({key: self.array(key, step) for key in keys})
+        frame.index += 1
+        return frame
 
     def _with_structure(self) -> Record:
         if "structure" not in self and self._drawable is None:
@@ -269,10 +301,45 @@ class Result(Answer):
         return self if self._drawable is None else self._drawable
 
 
-def _along(end: Record, quantity: str) -> tuple[list[float], list[float]]:
+def _array(values: list[Any]) -> Any:
+    return _numpy.array(values) if _numpy else values
+
+
+def _values_of(end: Record, quantity: str, on: str) -> list[Any]:
+    """The values of a quantity at the end of a step, in the order of its list."""
+    if on == "nodes":
+        return list(end[quantity])
+    if on == "supports":  # "w" is a deflection; a matrix has labels instead
+        return [r.value if "node" not in r or (r.dof == "w") == (quantity == "reaction") else math.nan for r in end.reactions]
+    prefix = {"beds": "bed_", "hinges": "hinge_", "structure": "sum_of_"}.get(on, "")
+    key = quantity.removeprefix(prefix)
+    entries = {"pairs": "pairs", "beds": "beds", "hinges": "hinges", "structure": "balance", "element_ends": "elements"}[on]
+    found = [entry[key] for entry in ([end[entries]] if on == "structure" else end[entries])]
+    return [value.max.value if isinstance(value, Record) else value for value in found]
+
+
+def _nodal(shown: Record, end: Record, quantity: str) -> list[float]:
+    """A quantity at the nodes of a plate; of a quantity in elements, the mean of the elements at each node."""
+    if next(row.on for row in shown.quantities if row.key == quantity) == "nodes":
+        return list(end[quantity])
+    columns, sums, counts = shown.structure.columns, [0.0] * len(shown.structure.nodes), [0] * len(shown.structure.nodes)
+    for number, element in enumerate(end.elements):
+        first = number // (columns - 1) * columns + number % (columns - 1)
+        for node, value in zip((first, first + 1, first + columns + 1, first + columns), element[quantity]):
+            sums[node] += value
+            counts[node] += 1
+    return [total / count for total, count in zip(sums, counts)]
+
+
+def _along(shown: Record, end: Record, quantity: str) -> tuple[list[float], list[float]]:
     """x and a quantity along a beam, also between nodes, from the polynomials of its elements."""
     parts = max(2, 480 // len(end.elements))
     xs, ys = [], []
+    nodes = [node.x for node in shown.structure.nodes]
+    if quantity not in end.elements[0].pieces[0]:  # known at nodes, or at the ends of elements
+        if next(row.on for row in shown.quantities if row.key == quantity) == "nodes":
+            return nodes, list(end[quantity])
+        return [x for pair in zip(nodes, nodes[1:]) for x in pair], [v for own in end.elements for v in own[quantity]]
     for piece in (piece for own in end.elements for piece in own.pieces):
         (left, right), polynomial = piece.x, list(piece[quantity])
         for t in (k / parts for k in range(parts + 1)):
@@ -283,9 +350,11 @@ def _along(end: Record, quantity: str) -> tuple[list[float], list[float]]:
 
 def _plot_beam(shown: Record, end: Record, quantity: str, ax: Any) -> None:
     ax.axhline(0, color="0.8", linewidth=1)
-    xs, ys = _along(end, quantity)
+    xs, ys = _along(shown, end, quantity)
     ax.plot(xs, ys, color="black" if quantity == "w" else "tab:blue", label=quantity)
-    extremes = [end.extremes[quantity][bound] for bound in ("min", "max")]
+    extremes = [end.extremes[quantity][bound] for bound in ("min", "max")] if quantity in end.extremes else []
+    if not extremes:
+        return
     ax.plot([v.x for v in extremes], [v.value for v in extremes], "o", color="0.3", markersize=4, label="extremes")
     near = 2.5 * max(abs(v.value) for v in extremes)  # a face much farther away would flatten the line
     for state, mark, label in (("contact", "s", "in contact"), ("separated", "_", "face")):
@@ -295,9 +364,9 @@ def _plot_beam(shown: Record, end: Record, quantity: str, ax: Any) -> None:
         ax.plot([x for x, _ in marked], [y for _, y in marked], mark, color="tab:brown", label=label)
 
 
-def _plot_plate(shown: Record, end: Record, ax: Any) -> None:
+def _plot_plate(shown: Record, values: list[float], ax: Any) -> None:
     nodes, columns = shown.structure.nodes, shown.structure.columns
-    rows = [list(end.w[at:at + columns]) for at in range(0, len(nodes), columns)]
+    rows = [values[at:at + columns] for at in range(0, len(nodes), columns)]
     drawn = ax.contourf([node.x for node in nodes[:columns]], [node.y for node in nodes[::columns]], rows, 12, cmap="YlOrBr_r")
     ax.figure.colorbar(drawn, ax=ax)
 
@@ -500,7 +569,7 @@ def read(path: Union[str, os.PathLike[str]]) -> dict[str, Any]:
 
 
 _MATRIX = ("found a matrix; allowed: the name of a file in [matrix], which "
-           "scipy.io.mmwrite(FILE, matrix, symmetry=\"symmetric\") writes; only `certify` takes a matrix in memory")
+           "scipy.io.mmwrite(FILE, matrix, symmetry=\"symmetric\") writes; `run` and `certify` take a matrix in memory")
 _ESCAPES: dict[str, str] = {'"': '\\"', "\\": "\\\\", "\b": "\\b", "\t": "\\t", "\n": "\\n", "\f": "\\f", "\r": "\\r"}
 
 
@@ -565,21 +634,38 @@ def _kernel_list(kernels: Kernels) -> list[str]:
 # Functions of a problem
 
 
-def run(problem: Problem, *, kernels: Optional[Kernels] = None, engine: Optional[str] = None, final_only: bool = False,
-        envelope: bool = False, states: bool = False, max_increments: int = 0, strict: bool = False,
-        folder: Folder = None, allow_outside: bool = False) -> Result:
-    """Follow the path of a problem: `contct run`.
+def run(problem: Any, *, kernels: Optional[Kernels] = None, engine: Optional[str] = None, final_only: bool = False,
+        envelope: bool = False, states: bool = False, refine: bool = False, max_increments: int = 0, strict: bool = False,
+        pairs: Iterable[Any] = (), loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None,
+        free_motions: Optional[int] = None, folder: Folder = None, allow_outside: bool = False) -> Result:
+    """Follow the path of a problem: `contct run`. `problem` is the name of a problem file (ending in `.toml`, or a Path),
+    its text, a dict with the same keys, or a stiffness matrix: a square array, or an object with `tocoo()` such as a
+    SciPy sparse matrix.
+
+    With a matrix, rows and dofs are numbered from 0, or named by `labels`. `loads` has a number for each dof, or is a
+    dict of them. `pairs` has tuples (dof, surface, face, stiffness) or dicts with the keys of [[contact]]: surface "below"
+    or "above", `face` the position of the face (at most 0 below, at least 0 above), `stiffness` force per length.
+    `supports` has fixed dofs, or is a dict of spring stiffnesses. `free_motions` is the number of motions that the
+    supports leave free, if rounded entries hide it.
 
     `kernels` are names, or one text with commas; None selects both rules. `engine` is one of `about().engines`.
     `final_only` computes only the ends of the steps; `envelope` and `states` add the extremes over all increments and
-    the state after each; `max_increments` is the limit of increments (0: the default). With `strict`, NotSolved is raised unless all
+    the state after each; `refine` adds `refined`, the changes by half the element size; `max_increments` is the limit of increments (0: the default). With `strict`, NotSolved is raised unless all
     steps are solved and certified and the kernels are equal. `folder` is the folder of files that a text or a dict
     names. Raises InputError for a bad problem or option."""
+    matrix = _is_matrix(problem)
+    if not matrix and (pairs or loads is not None or supports or labels is not None or free_motions is not None):
+        raise InputError("run: found pairs, loads, supports, labels or free_motions with a problem, which has its own; allowed: "
+                         "these only with a matrix")
+    files = tempfile.TemporaryDirectory() if matrix else None
+    if files is not None:
+        problem, folder = _matrix_problem(problem, pairs, loads, supports, labels, Path(files.name), free_motions), files.name
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     options = {"kernels": None if final_only or kernels is None else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
-               "envelope": envelope or None, "states": states or None, "max_increments": max_increments or None}
+               "envelope": envelope or None, "states": states or None, "refine": refine or None, "max_increments": max_increments or None}
     answer = _ask(_library.contct_run, source, options)
     result = Result(answer, None if final_only else (source, options))
+    result._files = files  # kept for pages and texts, which run the problem again
     if strict and not (result.exit == 0 and result.certified):
         why = "; ".join([f"{result._verdict}; allowed with strict=True: solved, kernels equal, certified", *result.messages])
         raise NotSolved(why, result.exit or 3, result)
@@ -631,25 +717,21 @@ def explain(problem: Problem, *, kernels: Kernels = ("fortran", "cpp"), engine: 
                                                          "increment": increment}))
 
 
-def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] = None, pairs: Iterable[Sequence[Any]] = (),
+def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] = None, pairs: Iterable[Any] = (),
             loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None, free_motions: Optional[int] = None,
             folder: Folder = None, allow_outside: bool = False) -> Result:
     """Compute bounds on the errors of states from another program or a formula.
 
     `displacement` has, for each of the first steps, the displacement of every dof under the whole load: w and theta of
     each node of a beam; w, wx and wy of each node of a plate; the rows of a matrix in their order. Values are
-    lengths, positive up, and slopes. `problem` may also be a stiffness matrix that has the method `tocoo()`, such as a
-    SciPy sparse matrix; then `loads` has a number for each dof, `pairs` has tuples (dof, surface, face, stiffness),
-    `supports` has fixed dofs, or a dict of springs, and `free_motions` is the number of motions that the supports leave
-    free, if rounded entries hide it. Rows and dofs are numbered from 0. `closed` has the pairs in contact for each
+    lengths, positive up, and slopes. `problem` may also be a stiffness matrix, with `pairs`, `loads`, `supports`, `labels`
+    and `free_motions` as of `run`. `closed` has the pairs in contact for each
     state, from 1; None selects the pairs whose faces the state touches or penetrates. The result has `w`, `pairs`,
     `error` and `certificate` of each state, and no increments; its `answer` is the equilibrium.
     """
-    if hasattr(problem, "tocoo"):
+    if _is_matrix(problem):
         with tempfile.TemporaryDirectory() as files:
-            written = _matrix_problem(problem, pairs, loads, supports, labels, Path(files))
-            if free_motions is not None:
-                written["matrix"]["free_motions"] = operator.index(free_motions)
+            written = _matrix_problem(problem, pairs, loads, supports, labels, Path(files), free_motions)
             lists = None if closed is None else [list(closed)]
             try:
                 found = certify(written, [displacement], closed=lists, folder=files)
@@ -670,14 +752,21 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
     return Result(_ask(_library.contct_certify, source, options), right=source)
 
 
+def _is_matrix(given: Any) -> bool:
+    return hasattr(given, "tocoo") or getattr(given, "ndim", 0) == 2
+
+
 def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
     """The entries (row, column, value) of the lower triangle, from 0. Entries at the same place are added."""
     entries: dict[tuple[int, int], float] = {}
-    coo = matrix.tocoo()
-    if coo.shape[0] != coo.shape[1]:
-        raise InputError(f"matrix: found {coo.shape[0]} rows and {coo.shape[1]} columns; allowed: a square matrix")
-    for row, column, value in zip(coo.row.tolist(), coo.col.tolist(), coo.data.tolist()):
-        entries[row, column] = entries.get((row, column), 0.0) + value
+    if matrix.shape[0] != matrix.shape[1]:
+        raise InputError(f"matrix: found {matrix.shape[0]} rows and {matrix.shape[1]} columns; allowed: a square matrix")
+    if hasattr(matrix, "tocoo"):
+        coo = matrix.tocoo()
+        for row, column, value in zip(coo.row.tolist(), coo.col.tolist(), coo.data.tolist()):
+            entries[row, column] = entries.get((row, column), 0.0) + value
+    else:
+        entries = {(i, j): value for i, row in enumerate(matrix.tolist()) for j, value in enumerate(row) if value != 0}
     largest = max((abs(value) for value in entries.values()), default=0.0)
     for (row, column), value in entries.items():
         across = entries.get((column, row), 0.0)
@@ -687,8 +776,11 @@ def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
     return [(row, column, value) for (row, column), value in entries.items() if row >= column]
 
 
-def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, supports: Any, labels: Optional[Sequence[str]],
-                    folder: Path) -> dict[str, Any]:
+_PAIR = ("dof", "surface", "face", "stiffness")
+
+
+def _matrix_problem(matrix: Any, pairs: Iterable[Any], loads: Any, supports: Any, labels: Optional[Sequence[str]],
+                    folder: Path, free_motions: Optional[int]) -> dict[str, Any]:
     """Write a matrix and its labels to `folder`, and return a problem that names these files."""
     entries, size = _symmetric_entries(matrix), matrix.shape[0]
     names = [str(name) for name in labels] if labels is not None else [str(row) for row in range(size)]
@@ -718,13 +810,19 @@ def _matrix_problem(matrix: Any, pairs: Iterable[Sequence[Any]], loads: Any, sup
     (folder / "labels").write_text("\n".join(names) + "\n")
     contacts = []
     for number, pair in enumerate(pairs, 1):
-        if isinstance(pair, (str, Mapping)) or not hasattr(pair, "__len__") or len(pair) != 4:
-            raise InputError(f"pairs: found {pair!r} as pair {number}; allowed: (dof, surface, face, stiffness)")
-        contacts.append(dict(zip(("dof", "surface", "face", "stiffness"), (name_of(pair[0], f"pair {number}"), *pair[1:]))))
+        if not isinstance(pair, Mapping) and (isinstance(pair, str) or not hasattr(pair, "__len__") or len(pair) != len(_PAIR)):
+            raise InputError(f"pairs: found {pair!r} as pair {number}; allowed: (dof, surface, face, stiffness), or a dict")
+        contact = dict(pair if isinstance(pair, Mapping) else zip(_PAIR, pair))
+        if "dof" not in contact:
+            raise InputError(f"pairs: found pair {number} without dof; allowed: dof, surface, face and stiffness")
+        contacts.append(contact | {key: name_of(contact[key], f"pair {number}") for key in ("dof", "other") if key in contact})
     held = [{"dof": name_of(dof, "supports"), ("fix" if spring is None else "spring"): True if spring is None else spring}
             for dof, spring in springs.items()]
     points = [{"dof": name_of(dof, "loads"), "value": value} for dof, value in loads.items()]
-    problem: dict[str, Any] = {"matrix": {"stiffness": "matrix", "dofs": "labels"}, "support": held, "contact": contacts, "step": [{"point": points}]}
+    table: dict[str, Any] = {"stiffness": "matrix", "dofs": "labels"}
+    if free_motions is not None:
+        table["free_motions"] = operator.index(free_motions)
+    problem: dict[str, Any] = {"matrix": table, "support": held, "contact": contacts, "step": [{"point": points}]}
     return {key: value for key, value in problem.items() if value}
 
 

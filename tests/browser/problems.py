@@ -91,3 +91,19 @@ for k in range(18):
     net += f'[[contact]]\ndof = "{55 * side + 10 + 5 * k}.z"\nsurface = "below"\nface = {-(0.1 + 0.004 * k)!r}\nstiffness = 5.0\n'
 point = ", ".join(f'{{ dof = "{55 * side + at}.z", value = -{load} }}' for at in range(5, 105) for load in ["1.0"])
 write("grid", net + f"[[step]]\npoint = [ {point} ]\n" + '[[step]]\npoint = [ { dof = "0.z", value = 0 } ]\n')
+
+# Jobs whose report must fit five pages: a crane runway with names, a raft of 10 m x 8 m, and 371 places of a train on 40 sleepers.
+crane = (Path(__file__).parents[2] / "reference/cookbook/crane.toml").read_text(encoding="utf-8")
+write("crane", crane.replace("[units]", 'project = "Hall 3"\nauthor = "A. Engineer"\n\n[units]').replace('fix = "w"', 'fix = "w"\nname = ["north", "middle"]')
+      + '[[watch]]\nname = "span 2"\nfrom = 6.0\n[[watch]]\nname = "columns"\nnames = ["north", "middle"]\n')
+write("raft", '[units]\nlength = "m"\nforce = "kN"\n[plate]\nsize = [10.0, 8.0]\nelements = [20, 16]\nE = 3.0e7\nnu = 0.2\nthickness = 0.5\nweight = 25.0\n'
+      "[[bed]]\nmodulus = 2.0e4\nface = 0.0\n" + "".join(f'[[case]]\nname = "{name}"\n{load}\n' for name, load in (
+          ("G", "self_weight = true"), ("columns", "point = [ { at = [[2.0, 2.0], [8.0, 2.0], [2.0, 6.0], [8.0, 6.0]], w = -400.0 } ]"),
+          ("wind", "point = [ { at = [[2.0, 2.0], [2.0, 6.0]], w = 500.0 }, { at = [[8.0, 2.0], [8.0, 6.0]], w = -500.0 } ]")))
+      + "".join(f'[[combination]]\nname = "{name}"\nterms = {{ G = {g}, columns = {c}, wind = {w} }}\n' for name, g, c, w in (
+          ("ULS", 1.35, 1.5, 0.9), ("wind", 1.35, 1.0, 1.5), ("uplift", 0.9, 0.9, 1.5))))
+sleepers = [0.3 + 0.6 * k for k in range(40)]
+write("places", '[units]\nlength = "m"\nforce = "kN"\n[beam]\nlength = 24.0\nelement_size = 0.3\nEI = 6.4e3\n[[contact]]\n'
+      f'x = {[round(x, 1) for x in sleepers]}\nsurface = "below"\nface = {[-0.002 if k in (10, 11) else 0.0 for k in range(40)]}\nstiffness = 3.0e4\n'
+      '[[case]]\nname = "G"\nuniform = -0.6\n[[train]]\nname = "bogies"\naxles = [ { at = 0.0, w = -80.0 }, { at = -2.6, w = -80.0 }, '
+      "{ at = -10.4, w = -80.0 }, { at = -13.0, w = -80.0 } ]\nfrom = 5.5\nto = 24.0\nby = 0.05\nterms = { G = 1.0 }\n")

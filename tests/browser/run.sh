@@ -32,6 +32,8 @@ for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-
   page "${problem%%-*}" "reference/problems/$problem.toml" 0
 done
 for name in free close row bolts two-faces long wide bare grid; do page $name "$work/$name.toml" 0; done
+for name in slab base-plate racks rail; do page $name reference/cookbook/$name.toml 0; done
+for name in crane raft places; do page $name "$work/$name.toml" 0; done
 page alone "$work/alone.toml" 0 --kernels cpp
 page settling "$work/settling.toml" 0 --envelope
 page strip "$work/strip.toml" 0 --envelope

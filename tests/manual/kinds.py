@@ -63,7 +63,7 @@ KINDS = {
 
 LINES = [
     ["--envelope", "--detail", "--csv", "t.csv", "--log", "t.log", "--trace", "t.trace", "--junit", "t.xml", "--markdown", "t.md", "--proof", "t.proof"],
-    ["--html", "page.html", "--allow-outside"],
+    ["--html", "page.html", "--appendix", "--compare", "all", "--allow-outside"],
     ["--kernels", "fortran,cpp", "--engine", "refactor", "--max-increments", "50", "--strict", "--node", "1"],
     ["--kernels", "corrected,fortran", "--free-run"],
     ["--refine", "--vtu", "t.vtu"],

@@ -1,4 +1,6 @@
 """Tests contct.certify: proofs about another program's displacements of a structure with a matrix in memory."""
+import pickle
+
 import contct
 import pytest
 from conftest import refusal
@@ -73,7 +75,6 @@ def test_dofs_of_a_matrix_are_rows_counted_from_0_or_labels_and_its_supports_are
 @pytest.mark.parametrize("wrong, words", [
     ({"pairs": [(3, "below", 0.0, 1.0)]}, "pair 1: found dof 3; allowed: a row of the matrix, from 0 to 2, or a label"),
     ({"pairs": [(2, "below", 0.0)]}, "pairs: found (2, 'below', 0.0) as pair 1; allowed: (dof, surface, face, stiffness)"),
-    ({"pairs": [{"dof": 2, "surface": "below", "face": 0.0, "stiffness": 1.0}]}, "pairs: found {'dof': 2"),
     ({"pairs": ["abcd"]}, "pairs: found 'abcd' as pair 1"),
     ({"pairs": (2, "below", 0.0, 1.0)}, "pairs: found 2 as pair 1"),
     ({"pairs": [(0.5, "below", 0.0, 1.0)]}, "pair 1: found dof 0.5; allowed: a row of the matrix"),
@@ -101,8 +102,8 @@ def test_a_matrix_that_is_not_a_stiffness_matrix_is_refused(matrix, words):
     assert words in refused and "/" not in refused
 
 
-def test_contct_run_refuses_a_matrix_in_memory_and_names_the_function_that_writes_the_file():
-    for problem in CHAIN, {"matrix": {"stiffness": CHAIN}}, {"matrix": CHAIN}:
+def test_a_matrix_inside_a_problem_is_refused_and_the_function_that_writes_the_file_is_named():
+    for problem in {"matrix": {"stiffness": CHAIN}}, {"matrix": CHAIN}:
         with pytest.raises((contct.InputError, TypeError), match="found a matrix; allowed: .*scipy.io.mmwrite"):
             contct.run(problem)
 
@@ -122,3 +123,31 @@ def test_contct_certify_of_a_problem_also_gives_the_right_state_and_refuses_load
         contct.run(beam).answer
     with pytest.raises(contct.InputError, match="with a problem, which has its own"):
         contct.certify(beam, [0.0] * 6, loads=[0.0] * 6)
+
+
+def test_contct_run_solves_a_matrix_in_memory_with_pairs_as_tuples_or_dicts():
+    for pairs in (STOP, [{"dof": 2, "surface": "below", "face": -0.002, "stiffness": 1000.0}]):
+        found = contct.run(CHAIN, pairs=pairs, loads=LOADS)
+        assert found.certified and list(found.steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
+        assert [len(i.events) for i in found.steps[0].increments] == [1, 0]
+    assert pickle.loads(pickle.dumps(found)) == found
+    assert found.log.count("MAKING CONTACT") == 1  # the run is repeated, so the files must still exist
+    assert contct.run(CHAIN, loads={"c": -3.0}, labels=["a", "b", "c"]).steps[0].w[2] == pytest.approx(-0.009, rel=1e-12)
+
+
+def test_a_square_array_is_a_matrix():
+    numpy = pytest.importorskip("numpy")
+    found = contct.run(numpy.array([[2000.0, -1000.0, 0.0], [-1000.0, 2000.0, -1000.0], [0.0, -1000.0, 1000.0]]), pairs=STOP, loads=LOADS)
+    assert list(found.steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
+
+
+@pytest.mark.parametrize("changed, words", [
+    ({"pairs": [{"surface": "below"}]}, "pairs: found pair 1 without dof"), ({"pairs": [(0, "below")]}, "pairs: found (0, 'below') as pair 1"),
+    ({"pairs": [(7, "below", 0.0, 1.0)]}, "pair 1: found dof 7"), ({"pairs": [{"dof": 2, "surface": "below", "face": 0.0}]}, "stiffness"),
+    ({"loads": [1.0]}, "loads: found 1 number")])
+def test_errors_of_a_matrix_name_the_argument(changed, words):
+    assert words in str(refusal(CHAIN, contct.run, **{"pairs": STOP, "loads": LOADS, **changed}))
+
+
+def test_a_problem_has_no_arguments_of_a_matrix():
+    assert "allowed: these only with a matrix" in str(refusal({"beam": {}}, contct.run, loads=[1.0]))

@@ -84,13 +84,13 @@ def test_plot_draws_a_plate_in_colours_on_the_given_axes(matplotlib):
     low, high = given.figure.axes[1].get_ylim()  # the range of the colour bar
     assert low <= min(result.steps[0].w) < 0.5 * low and high >= 0
     assert given.get_xlim() == (0.0, 3.0) and given.get_ylim() == (0.0, 2.0) and given.get_title() == "Step 1: w"
-    with pytest.raises(contct.InputError, match="found quantity 'moment' of a plate; allowed: w$"):
+    with pytest.raises(contct.InputError, match="found quantity 'moment' of a plate; allowed: w, wx, wy, mx, my, mxy$"):
         result.plot("moment")
 
 
 def test_plot_refuses_a_quantity_or_a_result_that_cannot_be_drawn(simple, monkeypatch):
     result = contct.run(simple, kernels="corrected")
-    with pytest.raises(contct.InputError, match="found quantity 'mx' of a beam; allowed: w, moment, shear"):
+    with pytest.raises(contct.InputError, match="found quantity 'mx' of a beam; allowed: w, theta, shear, moment"):
         result.plot("mx")
     with pytest.raises(contct.InputError, match="allowed: a result of contct.run without final_only"):
         contct.certify(simple, [[0.0] * 6]).plot()
@@ -98,3 +98,16 @@ def test_plot_refuses_a_quantity_or_a_result_that_cannot_be_drawn(simple, monkey
     with pytest.raises(ImportError, match="It needs matplotlib"):
         result.plot()
     assert pickle.loads(pickle.dumps(result)) == result
+
+
+def test_every_quantity_of_a_beam_and_of_a_plate_can_be_drawn(simple, matplotlib):
+    simple["bed"] = [{"modulus": 10.0, "face": 0.0}]
+    simple["beam"] = {"length": L, "elements": 2, "section": {"E": EI, "I": 1.0, "W": 0.5}}
+    end = contct.run(simple, kernels="corrected").steps[1]
+    assert plotted(simple, "pressure")["pressure"][1] == pytest.approx(list(end.pressure))
+    assert plotted(simple, "stress")["stress"][1] == pytest.approx([v for e in end.elements for v in e.stress])
+    plate = {"plate": {"size": [2.0, 1.0], "elements": [2, 1], "D": 10.0, "nu": 0.3}, "bed": [{"modulus": 1.0, "face": 0.0}],
+             "step": [{"uniform": -1.0, "point": [{"node": 3, "w": -1.0}]}]}
+    drawn = contct.run(plate)
+    for quantity in ("w", "wx", "pressure", "mx", "mxy"):
+        assert quantity in drawn.plot(quantity).get_title()

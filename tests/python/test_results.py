@@ -179,3 +179,43 @@ def test_fractions_longer_than_pythons_limit_of_digits_are_read():
         sys.set_int_max_str_digits(limit)
     assert len(text) > 2 * limit
     assert contct.Record({"w": [text, "0", "-7", "15/28"]}, rational=True).w == [Fraction(-p, q), 0, -7, Fraction(15, 28)]
+
+
+NAMED = {"beam": {"length": 4.0, "elements": 4, "section": {"E": 1e4, "I": 1.0, "W": 0.5}}, "support": [{"x": [0.0, 4.0], "fix": "w", "name": ["A", "B"]}],
+         "contact": [{"x": 2.0, "surface": "below", "face": 0.0, "stiffness": 1e3, "name": "S"}],
+         "bed": [{"from": 1.0, "to": 3.0, "modulus": 10.0, "face": 0.0}], "step": [{"uniform": -8.0}]}
+
+
+def test_every_quantity_is_an_array_by_its_name():
+    found = contct.run(NAMED)
+    end, seen = found.steps[0], 0
+    lengths = {"nodes": 5, "pairs": len(end.pairs), "supports": 2, "beds": 1, "element_ends": 4, "structure": 1}
+    for row in found.quantities:
+        values = found.array(row.key)
+        assert len(values) == lengths[row.on], row.key
+        seen += 1
+    assert seen >= 14
+    assert list(found.array("reaction")) == [r.value for r in end.reactions] and end.reactions[0].name == "A"
+    assert list(found.array("force")) == [p.force for p in end.pairs] and end.pairs[0].name == "S"
+    assert list(found.array("bed_pressure")) == [end.beds[0].pressure.max.value]
+    assert list(found.array("moment")[1]) == list(end.elements[1].moment)
+    assert found.array("sum_of_loads")[0] == pytest.approx(-32.0)
+    with pytest.raises(contct.InputError, match="found quantity 'mx'; allowed: w, theta, "):
+        found.array("mx")
+
+
+def test_a_data_frame_has_a_column_for_each_quantity_of_a_list():
+    pandas = pytest.importorskip("pandas")
+    found = contct.run(NAMED)
+    frame = found.to_dataframe("pairs")
+    assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == ["gap", "force", "face"]
+    assert list(frame.index) == list(range(1, len(found.steps[0].pairs) + 1))
+    assert list(frame["force"]) == [p.force for p in found.steps[0].pairs]
+    with pytest.raises(contct.InputError, match="found on='elements'; allowed: beds, "):
+        found.to_dataframe("elements")
+
+
+def test_refine_adds_the_changes_by_half_the_element_size():
+    found = contct.run(NAMED, refine=True)
+    assert 0 < found.refined.w.change < found.refined.w.of
+    assert "refined" not in contct.run(NAMED)

@@ -84,6 +84,13 @@ std::vector<std::string> words_of(const problem& p) {
   add("pairs", pairs);
   add("beds", beds);
   add("names", names);
+  add("named", words{fmt::format("{}; {}; {}", fmt::join(p.names.supports, " "),
+                                 fmt::join(p.names.pairs, " "), fmt::join(p.names.beds, " "))});
+  words watched;
+  for (const watched_part& w : p.watches)
+    watched.push_back(fmt::format("{} from {} {} to {} {} {}", w.name, w.from[0], w.from[1], w.to[0], w.to[1],
+                                  fmt::join(w.names, " ")));
+  add("watched", watched);
   add("units", p.units.length.empty() ? words{} : words{p.units.length, p.units.force}, " ");
   add("warnings", p.warnings, " / ");
   add("number of warnings", words{std::to_string(p.warnings.size())});

@@ -7,6 +7,7 @@
 #include "contct/number/random.hpp"
 #include "contct/path/solve_problem.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/results/envelope.hpp"
 #include "contct/text/input_text.hpp"
 #include "contct/text/output_file.hpp"
 #include "contct/write/words.hpp"
@@ -172,4 +173,37 @@ TEST_CASE("the 1989 rule uses the engine refactor, but a faster one on large pro
   output_file to(&trace);
   CHECK(both_rules(large, {.trace = &to}).beside().engine == "refactor");
   check_words(trace, {"\nkernel fortran\n"});
+}
+
+TEST_CASE(
+    "Of more than 20 combinations the rules are compared in 20, the governing ones first, or in all on "
+    "request") {
+  const std::string text =
+      "[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = 'w'\n[[contact]]\nx = "
+      "6\nsurface = "
+      "'below'\nface = -0.001\nstiffness = 1e5\n[[train]]\nname = 'axle'\naxles = [ { at = 0, w = -10 } "
+      "]\nfrom = 0\nto = "
+      "12\nby = 0.5\n";
+  const both_rules some(text);
+  const std::set<int>& only = some.beside().only;
+  CHECK(only.size() == 20);
+  CHECK(some.beside().record.steps.size() == 20);
+  CHECK(some.beside().differences.size() == 20);
+  REQUIRE(some.run.result.record.steps.size() == 25);
+  const envelope e = envelope_of(some.run.result);
+  for (const auto& v : e.values) CHECK((only.contains(v.least.step) && only.contains(v.most.step)));
+  for (const solved_step& s : some.run.result.record.steps)
+    CHECK(some.beside().rows[s.step - 1].empty() == !only.contains(s.step));
+  const std::vector<std::string> lines = rule_1989_words(some.run.result);
+  REQUIRE(lines.size() == 1);
+  check_words(lines[0], {"in 20 of 25 combinations (all: --compare all)"});
+
+  const problem p = parse_problem(text, "p.toml");
+  const linear_structure s = structure_of(p);
+  contct::run whole(p, s, {.file = "p.toml", .both_rules = true, .compare_all = true});
+  whole.go({});
+  CHECK(whole.result.beside->only.empty());
+  CHECK(whole.result.beside->differences.size() == 25);
+  check_words(rule_1989_words(whole.result)[0],
+              {"in 25 combinations the 1989 rule comes to the same states"});
 }

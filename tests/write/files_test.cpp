@@ -139,7 +139,7 @@ TEST_CASE("the CSV table of pairs has a row for each pair in each increment, wit
     const structure_state& f = t.states[(i + 1) / 2];
     const std::size_t pair = (i + 1) % 2;
     INFO("row " << i);
-    REQUIRE(r.size() == 11);
+    REQUIRE(r.size() == 15);
     CHECK(r[2] == std::to_string(pair + 1));
     CHECK(r[5] == (f.closed(pair) ? "contact" : "separated"));
     // Within a step the table has D of the path, which equals the separately solved state.

@@ -261,7 +261,7 @@ TEST_CASE("the JSON result and the report page have the warnings about the probl
          "2]\nmodulus = 4\nface = 0\n"
          "[[step]]\nuniform = -1\n",
          "~bed[1]: the bed acts to x = 3"},
-        {"[plate]\nsize = [1, 1]\nelements = [2, 2]\nE = 1\nnu = 0.3\nthickness = 1\n[[support]]\n"
+        {"[plate]\nsize = [1, 1]\nelements = [2, 2]\nE = 100\nnu = 0.3\nthickness = 1\n[[support]]\n"
          "nodes = [1, 2, 3, 4, 6, 7, 8, 9]\nfix = 'w'\n[[step]]\npoint = [ { node = 5, w = -1 } ]\n",
          "~under a point load"}}) {
     const json warnings = result_of(text)["warnings"];

@@ -201,11 +201,12 @@ namespace {
 
 /// The loop over steps. `way`, a path or reference_path, leads to the end of each step.
 template <class Way>
-solved_path ends_of(const problem& p, Way& way, certifier* proof) {
+solved_path ends_of(const problem& p, Way& way, certifier* proof, const std::set<int>& only = {}) {
   solved_path all;
   bool stands = true;  // the previous step was solved
   for (int step = 1; step <= std::ssize(p.steps); ++step) {
     if (!stands && !p.steps[step - 1].from_zero) continue;
+    if (!only.empty() && !only.contains(step)) continue;
     path_end end = way.follow(step);
     std::optional<solved_step> s;
     if (proof != nullptr)
@@ -233,11 +234,12 @@ solved_path certifier::find_final_states() {
 }
 
 solved_path follow(const problem& p, const linear_structure& s, std::string_view engine, kernel& leader,
-                   const std::vector<observer*>& observers, certifier* proof, int max_increments) {
+                   const std::vector<observer*>& observers, certifier* proof, int max_increments,
+                   const std::set<int>& only) {
   const std::unique_ptr<stiffness_engine> solves = make_engine(engine, s);
   const load_history loads(p, s);
   path way(s, loads, *solves, leader, observers, max_increments);
-  solved_path all = ends_of(p, way, proof);
+  solved_path all = ends_of(p, way, proof, only);
   all.end.work = solves->counts();
   return all;
 }

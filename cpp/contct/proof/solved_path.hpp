@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -141,9 +142,11 @@ class certifier;  // contct/proof/certificate.hpp
 
 /// Follows the path of a problem with a new engine named `engine`. `s` is the structure of the problem.
 /// `proof`, which may be null, settles the end of each step. After a step that is not solved, only steps from
-/// zero are followed. `max_increments`: see increments_allowed.
+/// zero are followed. `max_increments`: see increments_allowed. `only`: the steps to follow, from 1, all from
+/// zero; empty: all.
 [[nodiscard]] solved_path follow(const problem& p, const linear_structure& s, std::string_view engine,
                                  kernel& leader, const std::vector<observer*>& observers,
-                                 certifier* proof = nullptr, int max_increments = 0);
+                                 certifier* proof = nullptr, int max_increments = 0,
+                                 const std::set<int>& only = {});
 
 }  // namespace contct

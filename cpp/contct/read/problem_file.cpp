@@ -42,9 +42,13 @@ class problem_reader {
       : files_(file, allowed), top_(document, file, &numbers) {}
 
   problem read() {
-    top_.allow_only({"title", "units", "beam", "plate", "matrix", "calculix", "hinge", "support", "contact",
-                     "bed", "step", "case", "combination", "train"});
-    if (top_.has("title")) problem_.title = top_["title"].text();
+    top_.allow_only({"title", "project", "author", "revision", "units", "beam", "plate", "matrix", "calculix",
+                     "hinge", "support", "contact", "bed", "step", "case", "combination", "train", "watch"});
+    for (const auto& [key, text] : {std::pair("title", &problem::title),
+                                    {"project", &problem::project},
+                                    {"author", &problem::author},
+                                    {"revision", &problem::revision}})
+      if (top_.has(key)) problem_.*text = top_[key].text();
     if (top_.has("units")) read_units(top_["units"].table());
     problem_.geometry = read_model(top_, files_, problem_.warnings);
     nodes_.emplace(problem_.geometry);
@@ -59,6 +63,7 @@ class problem_reader {
     if (auto* a = std::get_if<assembled>(&problem_.geometry.kind)) store_matrix(top_, problem_.pairs, *a);
     for (const toml_value& t : top_["bed"].optional_tables()) read_bed(t);
     problem_.steps = read_steps(top_, *nodes_, files_, problem_);
+    for (const toml_value& t : top_["watch"].optional_tables()) read_watch(t);
     problem_.files = files_.all();
     return std::move(problem_);
   }
@@ -93,8 +98,37 @@ class problem_reader {
     }
   }
 
+  /// Reads the key "name" of a table with `count` places: one name for all, or one for each. Refuses a name
+  /// that another place or table of the same kind has. [count]; empty texts if the table has no name.
+  [[nodiscard]] std::vector<std::string> read_names(const toml_value& t, std::size_t count,
+                                                    const std::vector<std::string>& others) const {
+    if (!t.has("name")) return std::vector<std::string>(count);
+    const std::string allowed = fmt::format("text, or a list of {}", counted(count, "text"));
+    std::vector<std::string> names;
+    const auto given = t["name"].each(allowed);
+    for (const toml_value& one : given) {
+      names.push_back(one.text(allowed));
+      if (names.back().find_first_not_of(blanks) == std::string::npos) one.refuse(allowed);
+      if (std::ranges::count(names, names.back()) > 1 || std::ranges::count(others, names.back()) > 0)
+        one.refuse(fmt::format("{} again", one.found()), "a name that no other has");
+    }
+    if (!t["name"].is_array()) names.resize(count, names.front());
+    if (names.size() != count) t["name"].refuse(allowed);
+    return names;
+  }
+
   void read_support(const toml_value& t) {
-    t.allow_only(nodes_->keys_with({"fix", "spring"}));
+    const std::size_t first = problem_.supports.size();
+    read_dofs_of_support(t);
+    // Each dof, fixed or on a spring, is one after the other at every place.
+    const std::size_t places = nodes_->read(t).size();
+    const std::vector<std::string> names = read_names(t, places, problem_.names.supports);
+    for (std::size_t i = first; i < problem_.supports.size(); ++i)
+      problem_.names.supports.push_back(names[(i - first) % places]);
+  }
+
+  void read_dofs_of_support(const toml_value& t) {
+    t.allow_only(nodes_->keys_with({"name", "fix", "spring"}));
     const bool fixed = t.has("fix");
     const bool sprung = t.has("spring");
     if (nodes_->on_matrix()) {
@@ -176,11 +210,13 @@ class problem_reader {
   }
 
   void read_contact(const toml_value& t) {
-    std::vector<std::string_view> keys = {"surface", "face", "stiffness", "state"};
+    std::vector<std::string_view> keys = {"name", "surface", "face", "stiffness", "state"};
     if (nodes_->on_matrix() || t.has("other")) keys.emplace_back("other");
     t.allow_only(nodes_->keys_with(keys));
     const std::vector<int> at = nodes_->read(t);
     const std::vector<int> others = read_others(t, at);
+    std::ranges::move(read_names(t, at.size(), problem_.names.pairs),
+                      std::back_inserter(problem_.names.pairs));
     const facing common = read_facing(t, 0);
     const toml_value face = t["face"];
     const toml_value stiffness = t["stiffness"];
@@ -244,7 +280,8 @@ class problem_reader {
 
   /// Adds a pair at every node of a bed that can deflect.
   void read_bed(const toml_value& t) {
-    t.allow_only(nodes_->keys_with({"from", "to", "modulus", "surface", "face", "state"}));
+    t.allow_only(nodes_->keys_with({"name", "from", "to", "modulus", "surface", "face", "state"}));
+    problem_.names.beds.push_back(read_names(t, 1, problem_.names.beds).front());
     const facing common = read_facing(t, face_below);
     bed made{0.0, {}, problem_.pairs.size(), {}, common.closed, {}, read_parts(t)};
     const bed_springs springs = springs_of(problem_.geometry, made.parts);
@@ -284,6 +321,51 @@ class problem_reader {
     if (made.share.empty()) t.refuse("only nodes that are fixed in w", "at least one node that can deflect");
     if (const auto* b = std::get_if<beam>(&problem_.geometry.kind)) warn_of_ends(t, *b, made);
     problem_.beds.push_back(std::move(made));
+  }
+
+  /// Reads a part to watch: a range of places, or names of supports, pairs and beds.
+  void read_watch(const toml_value& t) {
+    t.allow_only({"name", "from", "to", "names"});
+    watched_part w;
+    for (const watched_part& other : problem_.watches) w.names.push_back(other.name);
+    (void)t["name"].required("the name of this part");
+    w.name = read_names(t, 1, w.names).front();
+    w.names.clear();
+    const bool in_range = t.has("from") || t.has("to");
+    if (in_range == t.has("names"))
+      t.refuse(in_range ? "both a range and names" : "neither a range nor names", "from and to, or names");
+    if (in_range && nodes_->on_matrix())
+      t.refuse("a range of a matrix", "names, because a matrix has no places");
+    if (in_range) {
+      const auto [from, to] = nodes_->read_area(t);
+      w.from = {from[0].x, from[1].x};
+      w.to = {to[0].x, to[1].x};
+      const auto* const on = std::get_if<plate>(&problem_.geometry.kind);
+      const auto has_line = [&w](const std::vector<double>& lines, std::size_t axis) {
+        return std::ranges::any_of(lines, [&](double x) { return w.from[axis] <= x && x <= w.to[axis]; });
+      };
+      if (on != nullptr && !(has_line(on->x, 0) && has_line(on->y, 1)))
+        t["from"].refuse("a rectangle without a node",
+                         "a rectangle with a node: extremes of plates are at nodes");
+    }
+    for (const toml_value& one :
+         in_range ? std::vector<toml_value>() : t["names"].each("text, or a list of texts"))
+      w.names.push_back(read_named(one));
+    problem_.watches.push_back(std::move(w));
+  }
+
+  /// Reads the name of a support, pair or bed.
+  [[nodiscard]] std::string read_named(const toml_value& one) const {
+    std::vector<std::string> known;
+    for (const auto* list : {&problem_.names.supports, &problem_.names.pairs, &problem_.names.beds})
+      for (const std::string& name : *list)
+        if (!name.empty() && std::ranges::count(known, name) == 0) known.push_back(name);
+    std::string name = one.text("text, the name of a support, pair or bed");
+    if (std::ranges::count(known, name) == 0)
+      one.refuse(in_quotes(name) + did_you_mean(name, known),
+                 known.empty() ? "names that supports, pairs or beds have by the key name"
+                               : "one of " + joined(known, ", "));
+    return name;
   }
 
   /// Warns if a bed by nodes ends inside the beam, half an element beyond its last node, or meets another one

@@ -38,7 +38,10 @@ void take(envelope::range<Value>& known, const Value& least, const Value& most, 
 /// Widens the ranges of `all` by a state. The first state replaces infinite values.
 void take(envelope& all, const step_results& r) {
   const structure_state& s = r.state;
+  const std::vector<watched_range> watched = watched_in(r);
   if (all.states++ == 0) {
+    all.watched = watched;
+    all.values_watched.assign(watched.size(), {{{infinite}}, {{-infinite}}});
     for (const value_range& v : r.ranges()) all.names.push_back(v.name);
     all.values.assign(all.names.size(), {{{infinite}}, {{-infinite}}});
     for (const quantity_row* row : quantities_of(r.what))
@@ -47,6 +50,8 @@ void take(envelope& all, const step_results& r) {
   }
   for (std::size_t i = 0; i < all.values.size(); ++i)
     take(all.values[i], r.ranges()[i].least, r.ranges()[i].most, s, std::mem_fn(&placed_value::value));
+  for (std::size_t i = 0; i < watched.size(); ++i)
+    take(all.values_watched[i], watched[i].least, watched[i].most, s, std::mem_fn(&placed_value::value));
   for (auto& [row, at] : all.lists) {
     const std::vector<double> values = row->values(r);
     at.resize(values.size(), {{infinite}, {-infinite}});
@@ -115,6 +120,30 @@ envelope envelope_of(const run_result& r) {
   envelope all;
   for_each_state_of_envelope(r, [&](const structure_state& s) { take(all, step_results(r.what, s)); });
   return all;
+}
+
+std::set<int> governing_steps(const run_result& r, std::size_t most) {
+  std::set<int> chosen;
+  const auto choose = [&](int step) {
+    if (chosen.size() < most && step > 0) chosen.insert(step);
+  };
+  for (const solved_step& s : r.record.steps)
+    if (s.fraction < 1.0) choose(s.step);
+  const envelope e = envelope_of(r);
+  for (const auto* values : {&e.values, &e.values_watched})
+    for (const auto& v : *values) {
+      choose(v.least.step);
+      choose(v.most.step);
+    }
+  for (const envelope::listed& l : e.lists) {
+    const auto value = [](const auto& at) { return at.most.value; };
+    if (!l.at.empty()) choose(std::ranges::max_element(l.at, {}, value)->most.step);
+  }
+  const std::vector<solved_step>& steps = r.record.steps;
+  const std::size_t stride = steps.size() / most + 1;
+  for (std::size_t i = 0; i < steps.size(); i += stride) choose(steps[i].step);
+  for (const solved_step& s : steps) choose(s.step);
+  return chosen;
 }
 
 envelope_curves curves_of(const run_result& r) {

@@ -1,11 +1,13 @@
 // The least and largest values on a path.
 #pragma once
 
+#include <set>
 #include <string_view>
 #include <vector>
 
 #include "contct/results/quantities.hpp"
 #include "contct/results/run_result.hpp"
+#include "contct/results/watches.hpp"
 
 namespace contct {
 
@@ -35,10 +37,16 @@ struct envelope {
   std::vector<std::string_view> names;
   std::vector<range<placed_value>> values;  ///< least and largest value for each name
   std::vector<listed> lists;
+  std::vector<watched_range> watched;               ///< the parts and their quantities
+  std::vector<range<placed_value>> values_watched;  ///< [watched]
 };
 
 /// The envelope of a run whose recorder keeps states, or of combinations.
 [[nodiscard]] envelope envelope_of(const run_result& r);
+
+/// At most `most` combinations of a run, ascending, from 1: those that did not reach their load and those
+/// with an extreme of the envelope first, then others at equal distances.
+[[nodiscard]] std::set<int> governing_steps(const run_result& r, std::size_t most);
 
 /// The envelope along a beam: the least and largest value of each quantity at each place, each with its step
 /// and increment. Empty for plates and matrices, and if no state is known.

@@ -1,5 +1,7 @@
 #include "contct/results/quantities.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -200,15 +202,34 @@ std::span<const quantity_row> all_quantities() {
 const list_row& list_of(on where) {
   static constexpr list_row rows[] = {
       {"nodes", "", "", nullptr, nullptr},
-      {"pairs", "pair", "", contacts_of, [](const problem& p, std::size_t i) { return p.pairs[i].node; }},
+      {"pairs", "pair", "", contacts_of, [](const problem& p, std::size_t i) { return p.pairs[i].node; },
+       &entry_names::pairs},
       {"supports", "", "", [](const problem& p) { return p.supports.size(); },
-       [](const problem& p, std::size_t i) { return p.supports[i].node; }},
-      {"beds", "bed", "bed_", [](const problem& p) { return p.beds.size(); }, nullptr},
+       [](const problem& p, std::size_t i) { return p.supports[i].node; }, &entry_names::supports},
+      {"beds", "bed", "bed_", [](const problem& p) { return p.beds.size(); }, nullptr, &entry_names::beds},
       {"hinges", "hinge", "hinge_", [](const problem& p) { return hinges_of(p).size(); },
        [](const problem& p, std::size_t i) { return hinges_of(p)[i]; }},
       {"element_ends", "", "", nullptr, nullptr},
       {"structure", "", "sum_of_", [](const problem& /*p*/) { return std::size_t{1}; }, nullptr}};
   return rows[static_cast<std::size_t>(where)];
+}
+
+std::string_view name_of_entry(const problem& p, on where, std::size_t i) {
+  if (where == on::pairs && i >= contacts_of(p)) {
+    const auto after = std::ranges::upper_bound(p.beds, i, {}, &bed::first_pair);
+    return name_of_entry(p, on::beds, static_cast<std::size_t>(after - p.beds.begin()) - 1);
+  }
+  const auto names = list_of(where).names;
+  return names != nullptr && i < (p.names.*names).size() ? std::string_view((p.names.*names)[i])
+                                                         : std::string_view();
+}
+
+std::string entry_words(const problem& p, on where, std::size_t i) {
+  const list_row& list = list_of(where);
+  const std::string name = on_one_line(name_of_entry(p, where, i));
+  if (list.node == nullptr)
+    return fmt::format("{} {}{}{}", list.entry, i + 1, name.empty() ? "" : ", ", name);
+  return name + (name.empty() ? "" : ", ") + place_words(p.geometry, list.node(p, i));
 }
 
 std::string_view key_in_list(const quantity_row& row) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,9 +21,16 @@ struct list_row {
   std::string_view prefix;  ///< of the keys of its rows, which are without it in results
   /// The number of entries that the problem names, which every mesh has; null: the mesh decides.
   std::size_t (*count)(const problem&);
-  int (*node)(const problem&, std::size_t entry);  ///< from 0; null: entries are at no node
+  int (*node)(const problem&, std::size_t entry);          ///< from 0; null: entries are at no node
+  std::vector<std::string> entry_names::*names = nullptr;  ///< null: the file names no entry
 };
 [[nodiscard]] const list_row& list_of(on where);
+
+/// The name that the file gives to an entry, from 0, or to the bed of a pair; empty: none.
+[[nodiscard]] std::string_view name_of_entry(const problem& p, on where, std::size_t i);
+/// The place of an entry at a node, with its name: "node 7", "S4, node 7"; otherwise "bed 1", "bed 1,
+/// ballast".
+[[nodiscard]] std::string entry_words(const problem& p, on where, std::size_t i);
 
 /// The lists whose entries every mesh has.
 inline constexpr on lists_of_entries[] = {on::supports, on::pairs, on::beds, on::hinges, on::structure};

@@ -8,6 +8,7 @@
 
 #include "contct/kernel/registry.hpp"
 #include "contct/path/solve_problem.hpp"
+#include "contct/results/envelope.hpp"
 #include "contct/results/path_rounding.hpp"
 #include "contct/results/quantities.hpp"
 
@@ -62,22 +63,30 @@ std::vector<row_of_1989> rows_of(const solved_step& answer, std::vector<timed_ev
   return rows;
 }
 
+/// The end of a step, from 1, on the 1989 path; null if the path has none.
+const solved_step* step_of(const rule_1989& r, int step) {
+  const auto found = std::ranges::lower_bound(r.record.steps, step, {}, &solved_step::step);
+  return found != r.record.steps.end() && found->step == step ? &*found : nullptr;
+}
+
 /// Compares the events up to the end of the path that ended first.
 void compare_events(const run_result& answer, rule_1989& r) {
-  std::size_t step = 0;
   for (const solved_step& mine : answer.record.steps) {
+    if (!r.only.empty() && !r.only.contains(mine.step)) {
+      r.rows.emplace_back();
+      continue;
+    }
     std::vector<timed_event> others;
     double limit = -1.0;
-    if (step < r.record.steps.size()) {
-      for (const increment_record& i : r.record.steps[step].increments)
+    if (const solved_step* const its = step_of(r, mine.step)) {
+      for (const increment_record& i : its->increments)
         for (const event& e : i.events)
           if (i.fraction <= mine.fraction + same_share) others.push_back({i.step, i.fraction, e});
-      limit = r.record.steps[step].fraction;  // less than 1 if the path ended early
+      limit = its->fraction;  // less than 1 if the path ended early
     }
     r.rows.push_back(rows_of(mine, others, limit));
     r.same_events = r.same_events && others.empty();
     for (const row_of_1989& row : r.rows.back()) r.same_events = r.same_events && row.otherwise.empty();
-    ++step;
   }
 }
 
@@ -96,9 +105,12 @@ struct end_comparison {
 };
 
 std::string place_on(const problem& p, on list, std::size_t i, std::size_t of_element) {
-  if (list == on::pairs) return fmt::format("pair {}", i + 1);
+  if (list == on::pairs) {
+    const std::string name = on_one_line(name_of_entry(p, list, i));
+    return fmt::format("pair {}{}{}", i + 1, name.empty() ? "" : ", ", name);
+  }
   if (list == on::element_ends) return fmt::format("element {}", i / of_element + 1);
-  return "the support at " + place_words(p.geometry, p.supports[i].node);
+  return "the support at " + entry_words(p, on::supports, i);
 }
 
 /// `rounding`: at the end of the step; null: none.
@@ -142,10 +154,10 @@ state_difference difference_of(const run_result& answer, const structure_state& 
 void compare_states(const run_result& answer, rule_1989& r) {
   std::optional<path_rounding> rounding;  // made for the first step that seems wrong
   std::size_t added = 0;                  // the steps in `rounding`
-  const std::size_t steps = std::min(answer.record.steps.size(), r.record.steps.size());
-  for (std::size_t i = 0; i < steps; ++i) {
-    const solved_step& right = answer.record.steps[i];
-    const structure_state& other = r.record.steps[i];
+  for (const solved_step& right : answer.record.steps) {
+    const solved_step* const its = step_of(r, right.step);
+    if (its == nullptr) continue;
+    const structure_state& other = *its;
     const std::optional<certificate>& c = right.judged;
     if (!c || !c->certified || other.fraction != 1.0) continue;
     const auto compared = [&](const path_rounding* noise) {
@@ -154,7 +166,7 @@ void compare_states(const run_result& answer, rule_1989& r) {
     state_difference d = compared(nullptr);
     if (d.is_wrong()) {
       if (!rounding) rounding.emplace(answer.what);
-      for (; added <= i; ++added) rounding->add(r.record.steps[added]);
+      for (; &r.record.steps[added] <= its; ++added) rounding->add(r.record.steps[added]);
       d = compared(&*rounding);
       d.but_for_rounding = !d.is_wrong();
     }
@@ -185,7 +197,12 @@ std::shared_ptr<const rule_1989> follow_rule_1989(const run_result& answer, cons
   std::vector<observer*> all = {&r->compared};
   all.insert(all.end(), shown.begin(), shown.end());
   all.push_back(&r->record);
-  r->take(follow(answer.what, answer.structure, r->engine, *leader, all, nullptr, wanted.max_increments));
+  constexpr std::size_t enough = 20;
+  if (!wanted.compare_all && !calls_are_kept && starts_from_zero(answer.what) &&
+      answer.what.steps.size() > enough)
+    r->only = governing_steps(answer, enough);
+  r->take(follow(answer.what, answer.structure, r->engine, *leader, all, nullptr, wanted.max_increments,
+                 r->only));
   const auto decide = [&answer](path_end& end) {
     if (end.status != path_status::solved && !end.has_equilibrium)
       end.has_equilibrium = has_equilibrium(answer, end.step);

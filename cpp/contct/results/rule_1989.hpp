@@ -45,7 +45,9 @@ struct rule_1989 : recorded_path {
 
   std::string engine;
   lockstep_on_path compared;
-  std::vector<std::vector<row_of_1989>> rows = {};  ///< for each increment of the answer [steps][increments]
+  /// For each increment of the answer [steps][increments]; of a step that was not followed, none.
+  std::vector<std::vector<row_of_1989>> rows = {};
+  std::set<int> only = {};  ///< the combinations that were followed, from 1; empty: all
   bool same_events = true;  ///< both paths have the same events, up to the end of the path that ended first
   std::vector<state_difference> differences = {};  ///< for each certified step that both paths solved
 };

@@ -20,10 +20,12 @@ struct run_request {
   std::string engine = {};                ///< empty: the default of the leading kernel
   bool free_run = false;                  ///< each kernel follows its own path, see follow_alone
   bool envelope = false;
-  bool pictures = false;   ///< keep all states, even if no output of this run needs them
-  int max_increments = 0;  ///< limit for each step; 0: the default limit
-  int watched = -1;        ///< the node in the table, from 0; -1: the node with the largest deflection
-  std::string date = {};   ///< date for the page; may be empty
+  bool compare_all = false;  ///< compares the rules in all combinations, not only in 20
+  bool appendix = false;     ///< the printed page has its appendix
+  bool pictures = false;     ///< keep all states, even if no output of this run needs them
+  int max_increments = 0;    ///< limit for each step; 0: the default limit
+  int watched = -1;          ///< the node in the table, from 0; -1: the node with the largest deflection
+  std::string date = {};     ///< date for the page; may be empty
 };
 
 /// The parts of a result that are written besides the ends of steps.

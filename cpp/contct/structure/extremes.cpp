@@ -61,9 +61,13 @@ class extremes {
   }
 
   /// Takes the quantity `of` / `over` along element `e` of a beam. `left_value` and `right_value`, the values
-  /// of the quantity at the ends of the element, are more accurate than the polynomials.
+  /// of the quantity at the ends of the element, are more accurate than the polynomials. Of an element that
+  /// is partly `within`, only polynomials are known.
   void take_element(const std::vector<element_line>& pieces, int e, poly element_line::*of, double left_value,
-                    double right_value, double over = 1.0) {
+                    double right_value, double over = 1.0, const watched_part* within = nullptr) {
+    if (within != nullptr &&
+        !(within->has(pieces.front().left, 0.0) && within->has(pieces.back().right, 0.0)))
+      return take_parts(pieces, of, over, *within);
     for (const element_line& line : pieces) {
       poly p = line.*of;
       if (over != 1.0)
@@ -90,6 +94,23 @@ class extremes {
     placed_value at;
     bool varies;
   };
+
+  /// Takes the parts of pieces between two places.
+  void take_parts(const std::vector<element_line>& pieces, poly element_line::*of, double over,
+                  const watched_part& within) {
+    for (const element_line& line : pieces) {
+      const double begin = std::max(line.left, within.from[0]);
+      const double end = std::min(line.right, within.to[0]);
+      if (begin >= end) continue;
+      const auto value_at = [&](double x) {
+        return placed_value{polynomial_at(line.*of, (x - line.left) / line.h) / over, x, 0.0, -1};
+      };
+      take(value_at(begin));
+      for (const double t : zeros_of(derivative(line.*of)))
+        if (const double x = line.left + t * line.h; begin < x && x < end) take(value_at(x), true);
+      take(value_at(end), (line.*of).size() > 1);
+    }
+  }
 
   /// True if v equals the largest value so far (side = 1) or the least (-1).
   [[nodiscard]] bool equals(double v, int side) const {
@@ -165,13 +186,17 @@ element_results stresses(const plate& p, const element_results& forces) {
 }
 
 std::vector<value_range> ranges_in(const plate& p, std::span<const double> u,
-                                   std::span<const double> element_values) {
+                                   std::span<const double> element_values, const watched_part* within) {
   const auto at = [&](int node, double value) {
     return placed_value{value, p.x[node % p.columns()], p.y[node / p.columns()], node};
   };
+  const auto is_in = [within](const placed_value& v) { return within == nullptr || within->has(v.x, v.y); };
+  const auto take = [&is_in](extremes& of, const placed_value& v) {
+    if (is_in(v)) of.take(v);
+  };
   std::vector<value_range> all;
   extremes w("w");
-  for (int node = 0; node < p.nodes(); ++node) w.take(at(node, u[std::size_t{plate::dofs_per_node} * node]));
+  for (int node = 0; node < p.nodes(); ++node) take(w, at(node, u[std::size_t{plate::dofs_per_node} * node]));
   all.push_back(w.range());
   element_results moments = results_in_elements(model{p}, {}, u);
   if (!element_values.empty()) moments.values.assign(element_values.begin(), element_values.end());
@@ -179,7 +204,7 @@ std::vector<value_range> ranges_in(const plate& p, std::span<const double> u,
     for (std::size_t name = first_name; name < of.names.size(); ++name) {
       extremes found(of.names[name]);
       for (int e = 0; e < p.elements(); ++e)
-        for (std::size_t k = 0; k < 4; ++k) found.take(at(p.corners_of(e)[k], of.at(e, name)[k]));
+        for (std::size_t k = 0; k < 4; ++k) take(found, at(p.corners_of(e)[k], of.at(e, name)[k]));
       all.push_back(found.range());
     }
   };
@@ -191,22 +216,24 @@ std::vector<value_range> ranges_in(const plate& p, std::span<const double> u,
 
 }  // namespace
 
-std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines, std::span<const double> u) {
+std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines, std::span<const double> u,
+                                   const watched_part* within) {
   extremes w("w");
   extremes shear(beam_elements<double>::names()[0]);
   extremes moment(beam_elements<double>::names()[1]);
   extremes stress(beam_elements<double>::stress_names()[0]);
   const bool has_stress = !b.sections.empty() && b.sections.front().W > 0.0;
   for (int e = 0; e < b.elements(); ++e) {
+    if (within != nullptr && (b.x[e + 1] <= within->from[0] || within->to[0] <= b.x[e])) continue;
     const std::vector<element_line> pieces = lines.pieces(e);
     const auto shears = lines.ends().at(e, 0);
     const auto moments = lines.ends().at(e, 1);
-    w.take_element(pieces, e, &element_line::w, w_at(u, e), w_at(u, e + 1));
-    moment.take_element(pieces, e, &element_line::moment, moments[0], moments[1]);
-    shear.take_element(pieces, e, &element_line::shear, shears[0], shears[1]);
+    w.take_element(pieces, e, &element_line::w, w_at(u, e), w_at(u, e + 1), 1.0, within);
+    moment.take_element(pieces, e, &element_line::moment, moments[0], moments[1], 1.0, within);
+    shear.take_element(pieces, e, &element_line::shear, shears[0], shears[1], 1.0, within);
     if (!has_stress) continue;
     const double W = b.sections[e].W;
-    stress.take_element(pieces, e, &element_line::moment, moments[0] / W, moments[1] / W, W);
+    stress.take_element(pieces, e, &element_line::moment, moments[0] / W, moments[1] / W, W, within);
   }
   std::vector<value_range> all = {w.range(), moment.range(), shear.range()};
   if (has_stress) all.push_back(stress.range());
@@ -214,10 +241,11 @@ std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines, std::
 }
 
 std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
-                                   std::span<const int> deflecting, std::span<const double> element_values) {
+                                   std::span<const int> deflecting, std::span<const double> element_values,
+                                   const watched_part* within) {
   if (const auto* const b = std::get_if<beam>(&m.kind))
-    return ranges_of(*b, beam_lines(*b, l, u, element_values), u);
-  if (const auto* const p = std::get_if<plate>(&m.kind)) return ranges_in(*p, u, element_values);
+    return ranges_of(*b, beam_lines(*b, l, u, element_values), u, within);
+  if (const auto* const p = std::get_if<plate>(&m.kind)) return ranges_in(*p, u, element_values, within);
   if (deflecting.empty()) return {};
   extremes w("w");
   for (const int dof : deflecting) w.take({u[dof], 0.0, 0.0, dof});

@@ -156,13 +156,16 @@ struct value_range {
 /// The extremes of each quantity. Beams: w, moment and shear over the whole length, and the stress if W is
 /// known. Plates: w at nodes, the moments at the corners of elements, and the principal and von Mises
 /// stresses if the thickness is known. A matrix: the displacements of the dofs in `deflecting`. If values are
-/// equal (see tie_of), the place is that of the first. `element_values`: see beam_lines.
+/// equal (see tie_of), the place is that of the first. `element_values`: see beam_lines. `within`: only
+/// places in this part of a beam or plate.
 [[nodiscard]] std::vector<value_range> ranges_of(const model& m, const load& l, std::span<const double> u,
                                                  std::span<const int> deflecting,
-                                                 std::span<const double> element_values = {});
+                                                 std::span<const double> element_values = {},
+                                                 const watched_part* within = nullptr);
 /// Those of a beam, by its lines under displacement `u`.
 [[nodiscard]] std::vector<value_range> ranges_of(const beam& b, const beam_lines& lines,
-                                                 std::span<const double> u);
+                                                 std::span<const double> u,
+                                                 const watched_part* within = nullptr);
 
 /// Stresses at the lower fibre or face, where sagging causes tension. For a beam: M / W at both ends of each
 /// element. For a plate: sx = 6 m_x / t^2, sy and txy, the principal stresses s1 >= s2 and the von Mises

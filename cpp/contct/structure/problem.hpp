@@ -336,9 +336,28 @@ struct pair_keys {
   std::string face, stiffness;
 };
 
+/// The names that the file gives to supports, pairs of [[contact]] and beds; empty if it gives none. A finer
+/// mesh may have more supports, without names.
+struct entry_names {
+  std::vector<std::string> supports, pairs, beds;
+};
+
+/// A part whose extremes are told besides those of the whole structure: places from `from` to `to`, along x
+/// and on a plate along y, or the supports, pairs and beds with these names.
+struct watched_part {
+  std::string name;
+  std::array<double, 2> from{}, to{};
+  std::vector<std::string> names = {};  ///< empty: from, to
+
+  [[nodiscard]] bool has(double x, double y) const {
+    return from[0] <= x && x <= to[0] && from[1] <= y && y <= to[1];
+  }
+};
+
 /// The contents of a problem file. Nodes, elements and pairs count from 0 here, from 1 in the file.
 struct problem {
   std::string title;
+  std::string project, author, revision;  ///< for the head of a report
   model geometry;
   std::vector<support> supports;
   std::vector<contact_pair> pairs;  ///< the pairs of every [[contact]] in file order, then those of beds
@@ -350,6 +369,8 @@ struct problem {
   std::vector<std::string> files;  ///< paths of the files that the problem file names
   /// [pairs of every [[contact]]] the keys of each pair, in the order of `pairs`; pairs of beds have no keys.
   std::vector<pair_keys> keys;
+  entry_names names;
+  std::vector<watched_part> watches;
 };
 
 /// The kinds of units. Moments in plates are per length; pressures are forces per length of a beam or per

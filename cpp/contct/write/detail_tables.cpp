@@ -72,7 +72,8 @@ class detail_printer {
       text_ += words;
       for (const std::vector<double>& of : columns)
         text_ += std::isnan(of[i]) ? fmt::format(" {:>14}", "") : fmt::format(" {:>14.7g}", of[i]);
-      text_ += place_column(m_, node) + '\n';
+      const std::string name = on_one_line(name_of_entry(r_.what, list, i));
+      text_ += place_column(m_, node) + (name.empty() ? "" : "  " + name) + '\n';
     }
   }
 

@@ -47,8 +47,12 @@ json envelope_json(const problem& p, const envelope& e, const envelope_curves& a
   json reactions = json::array();
   json beds = json::array();
   if (e.states > 0) {
-    reactions = list_of(p.supports, [&p](const support& at) { return support_json(p.geometry, at); });
-    for (std::size_t i = 0; i < p.beds.size(); ++i) beds.push_back({{"bed", i + 1}});
+    reactions =
+        list_of(p.supports, [&p, i = 0](const support& /*at*/) mutable { return support_json(p, i++); });
+    for (std::size_t i = 0; i < p.beds.size(); ++i) {
+      beds.push_back({{"bed", i + 1}});
+      put_name(beds.back(), p, on::beds, i);
+    }
   }
   for (const auto& [row, at] : e.lists)
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -59,6 +63,10 @@ json envelope_json(const problem& p, const envelope& e, const envelope_curves& a
     }
   out.update({{"pairs", pairs}, {"reactions", reactions}});
   if (!beds.empty()) out["beds"] = beds;
+  if (!e.watched.empty())
+    out["watch"] = watched_json(p, e.watched, list_of(e.values_watched, [&place](const auto& r) -> json {
+                                  return {{"min", place(r.least)}, {"max", place(r.most)}};
+                                }));
   if (!along.x.empty()) out["curves"] = curves_json(along);
   return out;
 }

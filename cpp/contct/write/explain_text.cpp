@@ -94,7 +94,7 @@ class increment_printer {
 
   void print_pair(const explained_pair& p) {
     out_ += "\n";
-    say(paint::strong, heading_of(p, place_words(of_.what.geometry, of_.what.pairs[p.pair].node)));
+    say(paint::strong, heading_of(p, entry_words(of_.what, on::pairs, p.pair)));
     for (const sentence& t : scale_factor_story(p)) say(t);
     if (i_.other != nullptr) say_side_by_side("s", p.s, i_.other->ss[p.pair]);
   }

@@ -173,6 +173,15 @@ json range_json(const model& m, const value_range& r) {
   return {{"min", value_json(m, r.least)}, {"max", value_json(m, r.most)}};
 }
 
+json watched_json(const problem& p, const std::vector<watched_range>& all, const json& ranges) {
+  json out = list_of(p.watches, [](const watched_part& part) -> json {
+    return {{"name", part.name}, {"extremes", json::object()}};
+  });
+  for (std::size_t i = 0; i < all.size(); ++i)
+    out[all[i].part]["extremes"][std::string(all[i].row->key)] = ranges[i];
+  return out;
+}
+
 json mesh_error_json(const mesh_error& e) {
   if (!e.not_proved.empty()) return {{"kind", "unknown"}, {"because", e.not_proved}};
   json out = {{"kind", "proved"}};
@@ -256,10 +265,15 @@ void put_place(json& entry, const model& m, int node, int other) {
   }
 }
 
+void put_name(json& entry, const problem& p, on list, std::size_t i) {
+  if (const std::string_view name = name_of_entry(p, list, i); !name.empty()) entry["name"] = name;
+}
+
 json pair_json(const problem& p, std::size_t i) {
   json entry = {{"pair", i + 1}};
   put_place(entry, p.geometry, p.pairs[i].node, p.pairs[i].other);
   entry["surface"] = surface_name(p.pairs[i].surface);
+  put_name(entry, p, on::pairs, i);
   return entry;
 }
 
@@ -276,15 +290,16 @@ json pair_state_json(const problem& p, std::size_t i, int isep, const json& gap,
 }
 
 json reaction_json(const problem& p, std::size_t i, const json& value) {
-  json entry = support_json(p.geometry, p.supports[i]);
+  json entry = support_json(p, i);
   entry["value"] = value;
   return entry;
 }
 
-json support_json(const model& m, const support& at) {
+json support_json(const problem& p, std::size_t i) {
   json entry;
-  put_place(entry, m, at.node);
-  if (!entry.contains("dof")) entry["dof"] = dof_names(m)[at.dof];
+  put_place(entry, p.geometry, p.supports[i].node);
+  if (!entry.contains("dof")) entry["dof"] = dof_names(p.geometry)[p.supports[i].dof];
+  put_name(entry, p, on::supports, i);
   return entry;
 }
 
@@ -310,8 +325,8 @@ json structure_json(const problem& p) {
   json& all = out["nodes"] = json::array();
   for (std::size_t node = 0; node < count_of_places(p.geometry); ++node)
     all.push_back(node_json(p.geometry, node));
-  out["supports"] = list_of(p.supports, [&p](const support& s) {
-    json entry = support_json(p.geometry, s);
+  out["supports"] = list_of(p.supports, [&p, i = 0](const support& s) mutable {
+    json entry = support_json(p, i++);
     entry["spring"] = s.fixed ? json(nullptr) : json(s.spring);
     return entry;
   });

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "contct/results/quantities.hpp"
+#include "contct/results/watches.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {
 
 std::string face_words(const problem& p, std::size_t pair) {
-  const contact_pair& at = p.pairs[pair];
-  return fmt::format("{} {}", place_words(p.geometry, at.node), surface_name(at.surface));
+  return fmt::format("{} {}", entry_words(p, on::pairs, pair), surface_name(p.pairs[pair].surface));
 }
 
 const value_range* bending(const problem& p, const std::vector<value_range>& ranges) {
@@ -66,7 +66,7 @@ std::vector<std::string> largest_lines(const step_results& r, int width, bool al
   std::string_view name = "reaction";
   for (const std::size_t i : r.hardest_supports())
     add_force(std::exchange(name, "and"), r.reactions[i], p.supports[i].node,
-              place_words(p.geometry, p.supports[i].node));
+              entry_words(p, on::supports, i));
   constexpr std::size_t most_faces = 4;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < r.pairs.size() && all; ++i)
@@ -74,6 +74,22 @@ std::vector<std::string> largest_lines(const step_results& r, int width, bool al
       add("moved face", r.pairs[i].face, unit_words(p, unit::length, p.pairs[i].node),
           fmt::format("pair {}, {}", i + 1, face_words(p, i)));
   if (moved > most_faces) lines.push_back(fmt::format("{} more moved faces in --json", moved - most_faces));
+  return lines;
+}
+
+std::vector<std::string> watch_lines(const step_results& r) {
+  std::vector<std::string> lines;
+  std::size_t next = 0;  // the first part without a line
+  for (const watched_range& w : watched_in(r)) {
+    const std::string name = w.part < next ? "" : on_one_line(r.what.watches[w.part].name) + ":";
+    next = w.part + 1;
+    const auto add = [&](std::string_view begin, std::string_view what, const placed_value& v) {
+      lines.push_back(fmt::format("{:<13} {} {:.6g}{} at {}", begin, what, v.value + 0.0,
+                                  unit_words(r.what, w.row->in, v.node), place_words(r.what.geometry, v)));
+    };
+    add(name, key_in_list(*w.row), w.least);
+    if (w.most.value != w.least.value) add("", "to", w.most);
+  }
   return lines;
 }
 
@@ -85,9 +101,9 @@ std::vector<std::string> sum_lines(const step_results& r) {
   for (const quantity_row* row : quantities_of(p, on::structure))
     sums.push_back(fmt::format("{} {}", key_in_list(*row), number(row->values(r)[0], row->in)));
   if (!sums.empty()) lines.push_back(fmt::format("{:<14}{}", "sums", joined(sums, ", ")));
-  for (int count = 0; const bed_reading& b : beds_in(r))
-    lines.push_back(fmt::format("{:<14}force {}, pressure {:.6g} to {}, largest at {}; {} in contact",
-                                fmt::format("bed {}", ++count), number(b.force, unit::force),
+  for (std::size_t i = 0; const bed_reading& b : beds_in(r))
+    lines.push_back(fmt::format("{:<13} force {}, pressure {:.6g} to {}, largest at {}; {} in contact",
+                                entry_words(p, on::beds, i++), number(b.force, unit::force),
                                 b.pressure.least.value, number(b.pressure.most.value, unit::pressure),
                                 place_words(p.geometry, b.pressure.most), number(b.contact, unit::extent)));
   for (std::size_t i = 0; i < list_of(on::hinges).count(p); ++i) {

@@ -40,12 +40,13 @@ std::string_view edition_section() {
 }  // namespace
 
 /// Fills the placeholders of the template in their order, so that inserted texts are not searched.
-std::string run_page(const run_result& r) {
+std::string run_page(const run_result& r, bool appendix) {
   const std::string title = markup_text(title_of(r.what, r.file));
   const std::pair<std::string_view, std::string> fillings[] = {
       {"{{title}}", title},
       {"{{style}}", std::string(report_css)},
       {"{{heading}}", title},
+      {"{{appendix}}", appendix ? "checked" : ""},
       {"{{edition}}", std::string(edition_section())},
       {"{{data}}", script_text(r)},
       {"{{script}}", std::string(result_js).append(picture_js).append(report_js)}};
@@ -74,7 +75,7 @@ void write_outputs(const run& r) {
     file.finish();
   };
   if (to.proof != nullptr) write_all(*to.proof, proof_json(r.result));
-  if (to.page != nullptr) write_all(*to.page, run_page(r.result));
+  if (to.page != nullptr) write_all(*to.page, run_page(r.result, r.wanted.appendix));
 }
 
 }  // namespace contct

@@ -16,7 +16,7 @@ namespace contct {
 
 /// Returns the result as an HTML page that needs no other file. The page draws the structure, shows the
 /// result in tables, and contains the parallel edition of the two kernels, folded.
-[[nodiscard]] std::string run_page(const run_result& r);
+[[nodiscard]] std::string run_page(const run_result& r, bool appendix = false);
 
 /// A state as an unstructured grid in VTK's XML format: lines or quadrilaterals, and a vertex for each pair
 /// (a line between two dofs), in the undeformed structure. Beams lie along x, plates in x and y, and z is up.

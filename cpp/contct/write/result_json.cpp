@@ -111,11 +111,13 @@ json rule_1989_json(const run_result& r) {
                        {"at", d.at},
                        {"value", d.value},
                        {"right", d.right}});
-  return {{"engine", beside.engine},
-          {"status", status_name(beside.end.status)},
-          {"lockstep", lockstep_json(beside.compared)},
-          {"same_events", beside.same_events},
-          {"wrong_steps", wrong}};
+  json out = {{"engine", beside.engine},
+              {"status", status_name(beside.end.status)},
+              {"lockstep", lockstep_json(beside.compared)},
+              {"same_events", beside.same_events},
+              {"wrong_steps", wrong}};
+  if (!beside.only.empty()) out["steps"] = beside.only;
+  return out;
 }
 
 /// The numbers of each entry of a list and, if it is at a node, its x.
@@ -126,6 +128,7 @@ json entries_json(const step_results& r, on where) {
   json out = json::array();
   for (std::size_t i = 0; i < count; ++i) {
     json& entry = out.emplace_back(json{{list.entry, i + 1}});
+    put_name(entry, r.what, where, i);
     if (list.node != nullptr) entry["x"] = place_of_node(r.what.geometry, list.node(r.what, i)).x;
     all.put(entry, i, count);
   }
@@ -153,27 +156,15 @@ json mesh_json(const run_result& r, std::size_t step) {
 }
 
 /// The combinations, from 0, whose states the page leaves out; empty if the page has room for all. The page
-/// keeps the combinations with an extreme of the envelope, those that failed, and every n-th of the others.
+/// keeps governing_steps.
 std::set<std::size_t> ends_left_out(const run_result& r) {
   const std::vector<solved_step>& steps = r.record.steps;
   const std::size_t room = std::clamp<std::size_t>(2'000'000 / bytes_of_state(r.what), 4, most_pictures);
   if (!starts_from_zero(r.what) || steps.size() <= room) return {};
-  std::set<int> named;
-  const auto name = [&named](const auto& at) { named.insert(at.step); };
-  const envelope e = envelope_of(r);
-  for (const auto& v : e.values) {
-    name(v.least);
-    name(v.most);
-  }
-  for (const envelope::listed& l : e.lists)
-    if (l.row->where == on::pairs)
-      name(std::ranges::max_element(l.at, {}, [](const auto& at) { return at.most.value; })->most);
-  for (const solved_step& s : steps)
-    if (s.fraction < 1.0) named.insert(s.step);
+  const std::set<int> kept = governing_steps(r, room);
   std::set<std::size_t> out;
-  const std::size_t stride = (steps.size() + room - 1) / room;
   for (std::size_t i = 0; i < steps.size(); ++i)
-    if (i % stride != 0 && !named.contains(steps[i].step)) out.insert(i);
+    if (!kept.contains(steps[i].step)) out.insert(i);
   return out;
 }
 
@@ -214,6 +205,10 @@ class result_writer {
     json members = {
         {"format", "contct-result-2"}, {"title", r_.what.title}, {"units", units_json(r_.what.units)},
         {"kernels", r_.kernels},       {"engine", r_.engine},    {"quantities", quantities_json(r_.what)}};
+    for (const auto& [key, text] : {std::pair("project", &problem::project),
+                                    {"author", &problem::author},
+                                    {"revision", &problem::revision}})
+      if (!(r_.what.*text).empty()) members[key] = r_.what.*text;
     if (parts_ == result_parts::ends) return members;
     members.update(
         {{"file", r_.file}, {"date", r_.date}, {"words", words()}, {"structure", structure_json(r_.what)}});
@@ -317,6 +312,10 @@ class result_writer {
                     {"extremes_at", places_of_extremes(m)},
                     {"beds", beds_json(at_end)}});
     if (const json hinges = entries_json(at_end, on::hinges); !hinges.empty()) members["hinges"] = hinges;
+    if (const std::vector<watched_range> watched = watched_in(at_end); !watched.empty())
+      members["watch"] = watched_json(r_.what, watched, list_of(watched, [&m](const watched_range& w) {
+                                        return range_json(m, {w.row->key, w.least, w.most});
+                                      }));
     if (!std::holds_alternative<assembled>(m.kind))
       columns(at_end, on::structure).put(members["balance"], 0, 1);
     if (parts_ != result_parts::ends)

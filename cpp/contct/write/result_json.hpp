@@ -103,7 +103,14 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
 
 /// A support: its "node", and the name of its "dof".
-[[nodiscard]] nlohmann::ordered_json support_json(const model& m, const support& at);
+[[nodiscard]] nlohmann::ordered_json support_json(const problem& p, std::size_t i);
+
+/// Adds the name of an entry of a list, from 0, if it has one.
+void put_name(nlohmann::ordered_json& entry, const problem& p, on list, std::size_t i);
+
+/// The parts that the problem watches, with their quantities. `ranges` [all]: what to write of each.
+[[nodiscard]] nlohmann::ordered_json watched_json(const problem& p, const std::vector<watched_range>& all,
+                                                  const nlohmann::ordered_json& ranges);
 
 /// Pair `i` (from 0); an event; a pair in a state. The keys are the same in results and exact paths.
 [[nodiscard]] nlohmann::ordered_json pair_json(const problem& p, std::size_t i);

@@ -75,6 +75,29 @@ std::vector<std::string> ended_words(const run_result& r) {
   return first_of(std::move(lines));
 }
 
+std::string advice_words(const run_result& r, int step) {
+  return fmt::format("contct explain {} --step {} shows which line of the listing causes the error", r.file,
+                     step);
+}
+
+/// For combinations, of which there may be hundreds: one line, and one more about the first error.
+std::vector<std::string> combination_words(const run_result& r, const std::vector<std::string>& ended) {
+  const std::vector<state_difference>& all = r.beside->differences;
+  const std::size_t followed = r.beside->only.empty() ? r.what.steps.size() : r.beside->only.size();
+  const auto wrong = std::ranges::count_if(all, &state_difference::is_wrong);
+  const std::string in =
+      followed == r.what.steps.size()
+          ? counted(followed, "combination")
+          : fmt::format("{} of {} combinations (all: --compare all)", followed, r.what.steps.size());
+  if (wrong == 0 && ended.empty())
+    return all.empty() ? std::vector<std::string>()
+                       : std::vector{fmt::format("in {} {}", in, agreement_words(r, all))};
+  if (wrong == 0) return {fmt::format("in {} {}", in, ended.front())};
+  const auto first = std::ranges::find_if(all, &state_difference::is_wrong);
+  return {fmt::format("in {} the 1989 rule, which is not the answer, is wrong in {}", in, wrong),
+          wrong_words(r, *first) + "; " + advice_words(r, first->step)};
+}
+
 }  // namespace
 
 std::vector<std::string> rule_1989_words(const run_result& r) {
@@ -82,6 +105,7 @@ std::vector<std::string> rule_1989_words(const run_result& r) {
   std::vector<std::string> lines;
   if (!r.beside) return lines;
   lines = ended_words(r);
+  if (starts_from_zero(r.what)) return combination_words(r, lines);
   const std::vector<state_difference>& all = r.beside->differences;
   std::size_t wrong = 0;
   int first = 0;
@@ -92,9 +116,7 @@ std::vector<std::string> rule_1989_words(const run_result& r) {
   }
   if (wrong > most_named)
     lines.push_back(fmt::format("the 1989 rule is wrong in {} more steps", wrong - most_named));
-  if (wrong > 0)
-    lines.push_back(fmt::format(
-        "contct explain {} --step {} shows which line of the listing causes the error", r.file, first));
+  if (wrong > 0) lines.push_back(advice_words(r, first));
   if (wrong == 0 && !all.empty()) lines.push_back(agreement_words(r, all));
   return lines;
 }

@@ -201,7 +201,8 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
   if (watched < 0) watched = node_that_deflects_most(r);
   increments.write(
       "step,increment,kind,s,share,force,events,closed,open,at_face,smin,kernels,node,w,name\r\n");
-  if (pairs != nullptr) pairs->write("step,increment,pair,node,surface,state,look,w,gap,force,face\r\n");
+  if (pairs != nullptr)
+    pairs->write("step,increment,pair,node,surface,state,look,w,gap,force,face,x,y,label,name\r\n");
   for (const path_moment& m : moments_of(r)) {
     const structure_state s = states.at(m);
     const std::vector<pair_reading> readings = readings_at(p, load_at(p, s.step, s.fraction), m);
@@ -211,9 +212,13 @@ void write_csv(const run_result& r, int watched, output_file& increments, output
     for (std::size_t i = 0; i < readings.size() && pairs != nullptr; ++i) {
       const contact_pair& at = p.pairs[i];
       const pair_reading& now = readings[i];
+      const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
+      const place where = of_matrix ? place() : place_of_node(p.geometry, at.node);
       pairs->write(row_of(s.step, s.number, i + 1, csv_field(place_name(p.geometry, at.node)),
                           surface_name(at.surface), state_name(s.isep[i]), look_name(now.look), now.w,
-                          now.gap, now.force, now.face));
+                          now.gap, now.force, now.face,
+                          of_matrix ? std::string(",") : fmt::format("{},{}", where.x, where.y),
+                          csv_field(name_of_entry(p, on::pairs, i)), csv_field(p.steps[s.step - 1].name)));
     }
   }
   increments.finish();
@@ -233,7 +238,7 @@ void write_states_csv(const run_result& r, output_file& out) {
 void write_supports_csv(const run_result& r, output_file& out) {
   const problem& p = r.what;
   std::vector<const quantity_row*> columns;
-  std::string heading = "step,name,on,number,place,what,x,y";
+  std::string heading = "step,name,on,number,place,what,x,y,label";
   for (const on list : lists_of_entries)
     for (const quantity_row* row : quantities_of(p, list)) {
       columns.push_back(row);
@@ -248,7 +253,7 @@ void write_supports_csv(const run_result& r, output_file& out) {
     for (const on list : lists_of_entries) {
       if (quantities_of(p, list).empty()) continue;
       for (std::size_t i = 0; i < list_of(list).count(p); ++i) {
-        std::string fields = place_fields(p, list, i);
+        std::string fields = place_fields(p, list, i) + ',' + csv_field(name_of_entry(p, list, i));
         for (std::size_t c = 0; c < columns.size(); ++c)
           fields += columns[c]->where == list && !std::isnan(numbers[c][i])
                         ? fmt::format(",{:.6g}", numbers[c][i])

@@ -177,7 +177,9 @@ class table_printer {
   [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const {
     row_of_1989 all;
     if (!run_.beside) return all;
-    for (const row_of_1989& row : std::span(run_.beside->rows[step]).subspan(first, count)) {
+    if (run_.beside->rows[step].empty()) all.reached = false;
+    for (const row_of_1989& row :
+         std::span(run_.beside->rows[step]).subspan(first, run_.beside->rows[step].empty() ? 0 : count)) {
       all.otherwise.insert(all.otherwise.end(), row.otherwise.begin(), row.otherwise.end());
       all.reached = all.reached && row.reached;
     }
@@ -227,6 +229,7 @@ class table_printer {
     const step_results r(problem_, s);
     for (std::size_t i = 0; i < r.ranges().size(); ++i) extremes_[i].emplace_back(s.step, r.ranges()[i]);
     std::vector<std::string> lines = largest_lines(r, width, whole_ends_);
+    std::ranges::move(watch_lines(r), std::back_inserter(lines));
     if (whole_ends_) std::ranges::move(sum_lines(r), std::back_inserter(lines));
     for (const std::string& unbroken : lines)
       for (const std::string& line : wrap({unbroken}, width))
@@ -299,21 +302,30 @@ class table_printer {
            {std::pair("least", &e.values[i].least), std::pair("largest", &e.values[i].most)})
         add(fmt::format("{} {}", word, shown_name(e.names[i])), at->value, at->step,
             row_named(problem_, e.names[i]).in);
+    for (std::size_t i = 0; i < e.watched.size(); ++i)
+      for (const auto& [word, at] :
+           {std::pair("least", &e.values_watched[i].least), std::pair("largest", &e.values_watched[i].most)})
+        add(fmt::format("{} {}", word, shown_name(e.watched[i].row->key)), at->value, at->step,
+            e.watched[i].row->in, on_one_line(problem_.watches[e.watched[i].part].name) + ", ");
     for (const envelope::listed& list : e.lists) {
       const quantity_row* const row = list.row;
       const auto& at = list.at;
+      const auto named = [&](std::size_t i) {
+        const std::string name = on_one_line(name_of_entry(problem_, row->where, i));
+        return name + (name.empty() ? "" : ", ");
+      };
       if (row->where == on::pairs) {
         const auto force = std::ranges::max_element(at, {}, [](const auto& r) { return r.most.value; });
         const auto pair = static_cast<std::size_t>(force - at.begin());
         if (force->most.value > 0.0)
           add("largest contact", at_node(force->most.value, problem_.pairs[pair].node), force->most.step,
-              row->in, fmt::format("pair {}, ", pair + 1));
+              row->in, fmt::format("pair {}, {}", pair + 1, named(pair)));
       } else if (row->where == on::supports && row->in == unit::force) {
         for (const int side : {-1, 1}) {
           const auto of = [&](std::size_t i) { return side < 0 ? at[i].least : at[i].most; };
           if (const auto i = extreme_support(problem_, side, [&of](std::size_t k) { return of(k).value; }))
             add(side < 0 ? "least reaction" : "largest reaction",
-                at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, row->in);
+                at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, row->in, named(*i));
         }
       } else if (row->where == on::beds) {
         for (std::size_t bed = 0; bed < at.size(); ++bed)
@@ -321,7 +333,7 @@ class table_printer {
                {std::pair("least", &at[bed].least), std::pair("largest", &at[bed].most)})
             lines += fmt::format("{:<17} {:<19} {:<22} {}\n", fmt::format("{} {}", word, key_in_list(*row)),
                                  fmt::format("{:.6g}{}", found->value + 0.0, unit_words(problem_, row->in)),
-                                 fmt::format("bed {}", bed + 1),
+                                 entry_words(problem_, on::beds, bed),
                                  on_one_line(problem_.steps[found->step - 1].name));
       }
     }

@@ -79,6 +79,40 @@ std::string concentration_warning(const problem& p, std::span<const solved_step>
   return warning;
 }
 
+std::string size_warning(const problem& p, std::span<const solved_step> steps) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return "";
+  constexpr double large_slope = 0.1;
+  const auto* const on = std::get_if<plate>(&p.geometry.kind);
+  const place first = place_of_node(p.geometry, 0);
+  const place last = place_of_node(p.geometry, nodes(p.geometry) - 1);
+  // A plate of unknown thickness is compared with its shorter side, as a beam with its length.
+  const double length = on == nullptr ? last.x - first.x : std::min(last.x - first.x, last.y - first.y);
+  const bool is_thick = on != nullptr && on->thickness > 0.0;
+  const double allowed = is_thick ? on->thickness / 2 : length / 10;
+  double w = 0.0;
+  double slope = 0.0;
+  int step = 0;
+  for (const solved_step& s : steps) {
+    const double before = std::max(w / allowed, slope / large_slope);
+    const auto stride = static_cast<std::size_t>(dofs_per_node(p.geometry));
+    for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {
+      double& most = dof % stride == 0 ? w : slope;
+      most = std::max(most, std::abs(s.displacement[dof]));
+    }
+    if (std::max(w / allowed, slope / large_slope) > before) step = s.step;
+  }
+  if (w <= allowed && slope <= large_slope) return "";
+  return fmt::format("{}: {}; results assume small displacements, {} and slopes up to {}",
+                     step_words(p, step),
+                     w > allowed ? fmt::format("a deflection of {:.3g}{}", w, unit_words(p, unit::length))
+                                 : fmt::format("a slope of {:.3g}", slope),
+                     is_thick ? fmt::format("deflections up to half the thickness, {:.3g}{},", allowed,
+                                            unit_words(p, unit::length))
+                              : fmt::format("deflections up to a tenth of the length, {:.3g}{},", allowed,
+                                            unit_words(p, unit::length)),
+                     large_slope);
+}
+
 std::string digit_warning(std::span<const solved_step> steps) {
   int fewest = 5;  // a state with 5 digits needs no warning
   const solved_step* worst = nullptr;
@@ -100,6 +134,7 @@ std::string digit_warning(std::span<const solved_step> steps) {
 
 std::vector<std::string> state_warnings(const run_result& r) {
   std::vector<std::string> lines = {r.end.status == path_status::solved ? digit_warning(r.record.steps) : "",
+                                    size_warning(r.what, r.record.steps),
                                     passage_warning(r.what, r.record.steps),
                                     concentration_warning(r.what, r.record.steps)};
   std::erase(lines, "");

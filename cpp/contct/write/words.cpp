@@ -77,7 +77,7 @@ std::string share_words(double x) {
 std::string pair_words(const problem& p, std::size_t pair) {
   const contact_pair& at = p.pairs[pair];
   const std::string other = at.other < 0 ? "" : " against " + place_words(p.geometry, at.other);
-  return fmt::format("pair {} ({}{}, {})", pair + 1, place_words(p.geometry, at.node), other,
+  return fmt::format("pair {} ({}{}, {})", pair + 1, entry_words(p, on::pairs, pair), other,
                      surface_name(at.surface));
 }
 

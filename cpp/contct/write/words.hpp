@@ -87,6 +87,9 @@ constexpr std::string_view end_reason(path_status status) {
 /// A warning, with a remedy, if a beam passes through a face between two pairs; otherwise empty.
 [[nodiscard]] std::string passage_warning(const problem& p, std::span<const solved_step> steps);
 
+/// A warning if a deflection or slope is too large for the theory of small displacements; otherwise empty.
+[[nodiscard]] std::string size_warning(const problem& p, std::span<const solved_step> steps);
+
 /// A warning if the largest stress or moment of a plate is at a point load or a [[contact]] pair; otherwise
 /// empty.
 [[nodiscard]] std::string concentration_warning(const problem& p, std::span<const solved_step> steps);
@@ -99,6 +102,8 @@ constexpr std::string_view end_reason(path_status status) {
 /// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
 /// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and the other extremes.
 [[nodiscard]] std::vector<std::string> largest_lines(const step_results& r, int width, bool all);
+/// The extremes of the parts that the problem watches, a line for each quantity.
+[[nodiscard]] std::vector<std::string> watch_lines(const step_results& r);
 /// The sums of loads, reactions and contact forces, and the results of each bed and hinge.
 [[nodiscard]] std::vector<std::string> sum_lines(const step_results& r);
 

@@ -51,11 +51,11 @@ const mostOf = (f) => (f.extremes.w ? largestOf(f.extremes.w) : { value: 0, ...(
 
 const looks = { o: "separated", c: "in contact", f: "at its face" };
 const lookWords = (p) => (p.look === "f" ? `at its face, ${p.closed ? "in contact" : "separated"}` : looks[p.look]);
-const pairWords = (p) => `Pair ${p.pair}, ${placed(p.name)}, face ${p.surface} at ${short(p.face)}, ${lookWords(p)}: ` +
+const pairWords = (p) => `Pair ${labelled(p.pair, p.label)}, ${placed(p.name)}, face ${p.surface} at ${short(p.face)}, ${lookWords(p)}: ` +
   (p.closed ? `force ${short(p.force)}` : `gap ${short(p.gap)}`);
-const supportWords = (f, s) => `Support at ${placed(s.name)}: ${ofMatrix ? "" : `${s.dof} `}` +
+const supportWords = (f, s) => `Support ${labelled(`at ${placed(s.name)}`, s.label)}: ${ofMatrix ? "" : `${s.dof} `}` +
   `${s.spring === null ? "fixed" : `on a spring of ${short(s.spring)}`}; reaction ${short(f.reactions[s.number])}`;
-const eventWords = (e) => `pair ${e.pair} ${e.change === "make" ? "makes" : "breaks"} contact (${placed(nameOf(e))}, ${e.surface})`;
+const eventWords = (e) => `pair ${labelled(e.pair, e.name)} ${e.change === "make" ? "makes" : "breaks"} contact (${placed(nameOf(e))}, ${e.surface})`;
 
 const allEventWords = (events, most = 8) => [...events.slice(0, most).map(eventWords), ...(events.length > most ? [`and ${events.length - most} more`] : [])].join("; ");
 
@@ -112,8 +112,8 @@ function canvas(holder, width, height, title) {
 }
 
 // On paper, pictures have a fixed width, at which their words are as large as the text of the page.
-let printing = false;
-const widthOf = (holder) => (printing ? 940 : Math.max(320, holder.clientWidth));
+let printing = false, widthOnPaper = 940;
+const widthOf = (holder) => (printing ? widthOnPaper : Math.max(320, holder.clientWidth));
 
 // The largest number not above x that is one of `leading` times a power of ten.
 function roundDown(x, leading = [1, 2, 5]) {
@@ -207,19 +207,27 @@ const hasForce = (p) => p.look === "c" || Math.abs(p.force) > 1e-6 * scene.force
 // The pairs whose numbers are written: all, those that are not of a bed, or those of them that have a force.
 const numberedOf = (pairs, own = pairs.filter((p) => !p.bed)) => [pairs, own, own.filter(hasForce)].find((some) => some.length <= 60) ?? [];
 
-function drawPairs(root, pairs, on) {
+// Of a plate's bed in colours, only pairs at the border of the contact are drawn, small.
+function bordersContact(f) {
+  const looks = new Map(f.pairs.filter((p) => p.bed).map((p) => [p.at, p.look]));
+  const across = structure.columns;
+  return (p) => !p.bed || [-1, 1, -across, across].some((d) => looks.has(p.at + d) && looks.get(p.at + d) !== p.look && (Math.abs(d) > 1 || Math.floor(p.at / across) === Math.floor((p.at + d) / across)));
+}
+
+function drawPairs(root, all, on) {
+  const pairs = all.filter(on.isShown);
   const marks = [];
-  const numbered = new Set(numberedOf(pairs));
-  const isDense = numbered.size < pairs.length;
+  const numbered = new Set(numberedOf(all));
+  const isDense = numbered.size < all.length;
   const few = [...numbered].filter(hasForce).length <= 12;
   for (const p of leastLoadedFirst(pairs)) {
     const [[x, y], t] = [on.spot(p), on.along(p)];
     if (p.otherAt >= 0 && p.otherAt !== p.at) root.append(line(...on.spot({ ...p, at: p.otherAt, u: p.otherU }), x, y, "thin"));
-    const isSmall = on.isSketch && p.bed && !numbered.has(p);
+    const isSmall = (on.isSketch || field) && p.bed && !numbered.has(p);
     const [ofNumber, ofForce] = t === null || isSmall ? [[x + 13, y - 12], [x + 13, y + 6]] : drawFace(root, p, [x, y], t, on);
     const words = rough(p.force);
-    if (numbered.has(p)) on.say(ofNumber[0], ofNumber[1] + 4, String(p.pair), isDense ? "value" : "axis-word", isDense && numbered.size <= 12 ? String(p.pair) : null);
-    if (numbered.has(p) && hasForce(p)) on.say(ofForce[0], ofForce[1] + 4, words, "value", few ? `${p.pair}: ${words}` : null);
+    if (numbered.has(p)) on.say(ofNumber[0], ofNumber[1] + 4, p.label ?? String(p.pair), isDense ? "value" : "axis-word", isDense && numbered.size <= 12 ? p.label ?? String(p.pair) : null);
+    if (numbered.has(p) && hasForce(p)) on.say(ofForce[0], ofForce[1] + 4, words, "value", few ? `${p.label ?? p.pair}: ${words}` : null);
     const mark = pairMark(p.look, x, y, isSmall ? 1.6 : !p.bed && hasBed() ? Math.max(6, on.r + 2) : on.r, p.closed);
     mark.append(svg("title", {}, pairWords(p)));
     marks.push(mark);
@@ -260,8 +268,9 @@ function drawSupports(root, f, on) {
     const [[x, y], t] = [on.spot(s), on.along(s)];
     root.append(titled(supportWords(f, s), t === null ? svg("rect", { x: x - 6, y: y - 6, width: 12, height: 12, class: "thin" }) : supportMark([x, y], t, s.spring)));
     const reaction = f.reactions[s.number];
-    if (t === null || reaction === 0 || drawnSupports.length > 40) continue;
-    on.say(x - 36 * t[0], y - 36 * t[1] + 4, rough(reaction), "value reaction-value");
+    if (t === null || drawnSupports.length > 40 || (reaction === 0 && !s.label)) continue;
+    const words = reaction === 0 ? s.label : s.label ? `${s.label}: ${rough(reaction)}` : rough(reaction);
+    on.say(x - 36 * t[0], y - 36 * t[1] + 4, words, "value reaction-value");
   }
 }
 
@@ -626,7 +635,7 @@ function marksOn(words, page, spots, f, isSketch) {
   const count = places.pairs.length;
   const apart = (scene.size * page.scale) / (isBeam() ? count : Math.sqrt(count));
   return {
-    isSketch, spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(valueAt(f, "w", x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
+    isSketch, isShown: !isSketch && field && hasBed() ? bordersContact(f) : () => true, spot: ({ at, x, between }) => (between ? [page.X(x), page.Y(valueAt(f, "w", x))] : spots[at]), along: ({ direction }) => onPage(direction)?.t ?? null,
     pixels: ({ direction }) => scene.times * page.scale * (onPage(direction)?.length ?? 0),
     limit: scene.times * scene.most * page.scale + 40, r: Math.max(1.6, Math.min(5, apart * 0.3)), half: Math.max(1, Math.min(14, apart * 0.36)),
     say: wordsInFreePlaces(words, page.width, page.bottom - (isBeam() ? 0 : 30), isBeam() ? 62 : 2),

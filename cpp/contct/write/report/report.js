@@ -106,13 +106,15 @@ function tableOf(title, names, rows, most = Infinity, sizeOf = null) {
 const inLength = (name) => inUnit(name, "w");
 const placeHead = () => (ofMatrix ? ["Dof"] : structure.kind === "plate" ? ["Node", inLength("x"), inLength("y")] : ["Node", inLength("x")]);
 const placeCells = (p) => (ofMatrix ? [p.name] : structure.kind === "plate" ? [String(p.name), p.x, p.y] : [String(p.name), p.x]);
+// The same of a support, with its name.
+const supportCells = (s) => [labelled(s.name, s.label), ...placeCells(s).slice(1)];
 
 // ---- the state, increments and calls ----
 
 function showPairs(f) {
   fill("pairs", "Pairs in this state", `State ${where(f)}. A separated pair has a gap, a pair in contact a force. A force is positive if it pushes the structure off the face; ` +
     "a negative force is tension.", ...tableOf("Pairs", ["Pair", ofMatrix ? "Dof" : "Node", "Surface", "Face", "State", "Gap", "Force"],
-    f.pairs.map((p) => [String(p.pair), String(p.name), p.surface, p.face, lookWords(p), p.gap, p.force]), 250));
+    f.pairs.map((p) => [labelled(p.pair, p.label), String(p.name), p.surface, p.face, lookWords(p), p.gap, p.force]), 250));
 }
 
 function showEvents() {
@@ -183,8 +185,9 @@ function endTables() {
   const most = (list = [], key, words) => (list.length === 0 ? null : [largestBy(list, key)].map((e) => ({ number: e[key], at: words(e) })));
   const kinds = ["force", "couple", ""].filter((kind) => places.supports.some((s) => kindOf(s) === kind));
   const ofKind = (all, kind) => all.filter((r) => kindOf(places.locate(r, r.dof)) === kind);
+  const headsOfLargest = ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "couple" ? "Reaction moment" : "Reaction", kind)), "Certificate"];
   const row = (s) => [stepName(s), s.fraction, ...quantities.map((name) => toldOf(s.extremes[name]).map((v, i) => ({ number: v.value, at: placeOf(v) + (i === 0 ? meshErrorOf(s.mesh, (of) => of[name]) : "") }))),
-    most([s.largest.pair ?? []].flat(), "force", (p) => `pair ${p.pair}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.largest.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${placed(nameOf(r))}`)),
+    most([s.largest.pair ?? []].flat(), "force", (p) => `pair ${labelled(p.pair, p.name)}, ${placed(nameOf(p))}`), ...kinds.map((kind) => most(ofKind(s.largest.reactions, kind), "value", (r) => `${ofMatrix ? "" : `${r.dof} at `}${labelled(placed(nameOf(r)), r.name)}`)),
     markOf(s.certificate)];
   const sums = steps.filter((s) => s.balance).map((s) => [stepName(s), s.balance.loads, s.balance.reactions, s.balance.contact]);
   const [ownPairs, bedPairs] = [places.pairs.filter((p) => !p.bed), places.pairs.filter((p) => p.bed)];
@@ -192,21 +195,44 @@ function endTables() {
   const motionOf = (d) => (kindOf(d) === "couple" ? "Rotations" : kindOf(d) || paired.has(d.u) ? inUnit("Displacements u", "w") : "Displacements of dofs of unknown direction");
   const onBeds = bedPairs.length > 0 ? endsOf(6) : [];
   if (onBeds.length < whole.length && bedPairs.length > 0) cuts.add(`Contact forces of beds: the tables have ${onBeds.length} of ${steps.length} steps, those with the largest values.`);
-  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), String(b.bed), b.force, ...[b.pressure.min, b.pressure.max].map((v, i) => [{ number: v.value, at: placeOf(v) + (i === 1 ? meshErrorOf(s.mesh, (of) => of.pressure) : "") }]), b.contact]));
+  const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), labelled(b.bed, b.name), b.force, ...[b.pressure.min, b.pressure.max].map((v, i) => [{ number: v.value, at: placeOf(v) + (i === 1 ? meshErrorOf(s.mesh, (of) => of.pressure) : "") }]), b.contact]));
+  const bedTable = ["Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds];
   const hinges = steps.flatMap((s) => (s.hinges || []).map((h) => [stepName(s), String(h.hinge), h.x, h.rotation, h.moment]));
-  return [
+  const watched = steps.flatMap((s) => watchedRows(s.watch, (v) => placeOf(v)).map((row) => [stepName(s), ...row]));
+  const governing = [
+    ...(startsFromZero() && result.envelope ? [] : [
+      ...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)),
+      ...tableOf(...bedTable), ...tableOf("Watched parts", ["Step", "Part", "Quantity", "Least", "Largest"], watched)]),
+    ...holdTable(endsOf(6)),
+    ...tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges, 40),
+  ];
+  return [governing, [
+    ...(governing.some((e) => e.textContent.startsWith("Largest values")) ? [] : [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)), ...tableOf(...bedTable)]),
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
-    ...tableOf("Largest values at the end of each step", ["Step", "Share", ...quantities.map(quantityHead), inUnit("Contact force", "force"), ...kinds.map((kind) => inUnit(kind === "couple" ? "Reaction moment" : "Reaction", kind)), "Certificate"], steps.map(row)),
-    ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds),
-    ...tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
       ownPairs.map(pairCells), (s, i) => forceOrGap(s.pairs[ownPairs[i].pair - 1])),
     ...besideEachOther(onBeds, `${inUnit("Contact forces of beds", "force")}${someOf(onBeds)}`, ["Pair", ...placeHead(), "Surface"],
       bedPairs.map(pairCells), (s, i) => s.pairs[bedPairs[i].pair - 1].force, 40),
     ...groupsOf(ofMatrix ? places.dofs.map((d, u) => ({ ...d, u })) : [], motionOf).flatMap((of) => besideEachOther(whole, motionOf(of[0]) + someOf(whole), ["Dof"], of.map((d) => [d.name]), (s, i) => s.displacement[of[i].u], 40)),
-    ...besideEachOther(whole, reactionsTitle + someOf(whole), [...placeHead(), "What"], places.supports.map((s) => [...placeCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value, mostReactions),
-  ];
+    ...besideEachOther(whole, reactionsTitle + someOf(whole), [...placeHead(), "What"], places.supports.map((s) => [...supportCells(s), whatHolds(s)]), (s, i) => s.reactions[i].value, mostReactions),
+  ]];
+}
+
+// The rows of watched parts: part, quantity, least and largest value.
+const watchedRows = (watch = [], words) => watch.flatMap(({ name, extremes }) => Object.entries(extremes)
+  .map(([key, { min, max }]) => [name, quantityHead(key), ...[min, max].map((v) => [{ number: v.value, at: words(v) }])]));
+
+// Supports, and the pairs of [[contact]], beside each other in these steps.
+function holdTable(steps, most = 24) {
+  const whole = steps.filter((s) => s.pairs);
+  const own = places.pairs.filter((p) => !p.bed);
+  const unbroken = (words) => words.replace(/ /g, "\u00a0");
+  const rows = [...places.supports.map((s, i) => [[unbroken(labelled(`support at ${placed(s.name)}`, s.label)), whatHolds(s)], (of) => of.reactions[i].value]),
+    ...own.map((p) => [[unbroken(labelled(`pair ${p.pair}, ${placed(p.name)} ${p.surface}`, p.label)), inUnit("force", "force")], (of) => forceOrGap(of.pairs[p.pair - 1])])];
+  const title = `Reactions and contact forces; for a separated pair the ${inUnit("gap", "w")}${whole.length < result.steps.length ? `, ${whole.length} of ${result.steps.length} steps` : ""}`;
+  const sizeOf = (r) => Math.max(...r.slice(2).map((v) => (Array.isArray(v) ? 0 : Math.abs(v))));
+  return whole.length === 0 ? [] : tableOf(title, ["Where", "What", ...whole.map((s) => `Step ${stepName(s)}`)], rows.map(([begin, read]) => [...begin, ...whole.map(read)]), most, sizeOf);
 }
 
 // The sums of loads, reactions and contact forces of a matrix along each axis.
@@ -218,7 +244,7 @@ function sumsByDirection(s) {
     .map((axis) => [stepName(s), "xyz"[axis - 1], sum(0, axis), places.supports.length > 0 ? sum(1, axis) : null, sum(2, axis)]);
 }
 
-const pairCells = (p) => [String(p.pair), ...placeCells(p), p.surface];
+const pairCells = (p) => [labelled(p.pair, p.label), ...placeCells(p), p.surface];
 const forceOrGap = (p) => (p.state === "separated" ? [{ number: p.gap, at: "gap" }] : p.force);
 
 // Tables with a column for the end of each step, six steps in each table.
@@ -230,24 +256,27 @@ function besideEachOther(steps, title, names, begins, read, most = Infinity) {
   return [...tableOf(title, [...names, ...beside.map((s) => `Step ${stepName(s)}`)], rows, most, sizeOf), ...besideEachOther(steps.slice(6), title, names, begins, read, most)];
 }
 
-function envelopeTables({ pairs, reactions, beds = [], states, curves, ...ranges }) {
+// The governing values of the envelope, and its other tables.
+function envelopeTables({ pairs, reactions, beds = [], watch = [], states, curves, ...ranges }) {
   const when = (v) => (startsFromZero() ? nameOfStep(v.step) : `step ${v.step}, increment ${v.increment}`);
   const bound = (v, at = when(v)) => [{ number: v.value ?? v.force_max, at }];
   const forces = (title, of, most, sizeOf) => tableOf(inUnit(title, "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
     pairs.flatMap((p, i) => (of(places.pairs[i]) ? [[...pairCells(places.pairs[i]), bound(p)]] : [])), most, sizeOf);
-  return states === 0 ? [] : [
+  return states === 0 ? [[], []] : [[
     ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. ",
       element("span", { class: "screen-only" }, "Point at a curve to see which step it comes from; click it to show the end of that step.")))] : []),
     ...tableOf(startsFromZero() ? "Least and largest of all combinations" : "Least and largest of all increments", ["Quantity", "Least", "Largest"],
       Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
-    ...tableOf("Beds: least and largest values", ["Bed", "Quantity", "Least", "Largest"], beds.flatMap(({ bed, ...numbers }) =>
-      Object.entries(numbers).map(([key, range]) => [String(bed), quantityHead(`bed_${key}`), bound(range.min), bound(range.max)]))),
+    ...tableOf("Beds: least and largest values", ["Bed", "Quantity", "Least", "Largest"], beds.flatMap(({ bed, name, ...numbers }) =>
+      Object.entries(numbers).map(([key, range]) => [labelled(bed, name), quantityHead(`bed_${key}`), bound(range.min), bound(range.max)]))),
+    ...tableOf("Watched parts: least and largest values", ["Part", "Quantity", "Least", "Largest"], watchedRows(watch, (v) => `${placeOf(v)}; ${when(v)}`)),
+  ], [
     ...forces("Largest contact force of each pair", (p) => !p.bed),
     ...forces("Largest contact force of each pair of a bed", (p) => p.bed, 40, (r) => Math.abs(r[r.length - 1][0].number)),
     ...tableOf(reactionsTitle, [...placeHead(), "What", "Least", "Largest"],
-      places.supports.map((s, i) => [...placeCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)]), mostReactions,
+      places.supports.map((s, i) => [...supportCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)]), mostReactions,
       (r) => Math.max(...r.slice(-2).map(([v]) => Math.abs(v.number)))),
-  ];
+  ]];
 }
 
 function drawEnvelope() {
@@ -306,15 +335,16 @@ const termWords = (of) => [...Object.entries(of[0].terms ?? {}), ...(of[0].train
 const inputTables = () => [
   ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows()),
   ...tableOf("Supports: fixed, or the stiffness of a spring", [...placeHead(), ...(ofMatrix ? [] : ["Dof"]), "Held"],
-    gathered(places.supports, (s) => `${s.dof} ${s.spring}`).map(([s, at]) => [...at, ...(ofMatrix ? [] : [s.dof]), s.spring === null ? "fixed" : inUnit(short(s.spring), springKind(s))])),
+    gathered(places.supports, (s) => `${s.dof} ${s.spring}`, 13, supportCells).map(([s, at]) => [...at, ...(ofMatrix ? [] : [s.dof]), s.spring === null ? "fixed" : inUnit(short(s.spring), springKind(s))])),
   ...tableOf("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
-    places.pairs.filter((p) => !p.bed).map((p) => [String(p.pair), ...placeCells(p), p.surface, p.face, p.stiffness, startWords(p)])),
+    gathered(places.pairs.filter((p) => !p.bed), (p) => [p.surface, p.face, p.stiffness, p.state, p.label].join(" "))
+      .map(([p, at, list]) => [labelled(numbersWords(list.map((q) => q.pair)), p.label), ...at, p.surface, p.face, p.stiffness, startWords(p)])),
   ...tableOf("Beds: a pair at each node, with the modulus times the node's tributary length or area as its stiffness", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
-    gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state].join(" "), 1)
-      .map(([p, at, list]) => [numbersWords(list.map((q) => q.pair)), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
+    gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state, p.label].join(" "), 1)
+      .map(([p, at, list]) => [labelled(numbersWords(list.map((q) => q.pair)), p.label), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
   ...tableOf("Cases: loads as in the problem file, without factors", ["Case", "What", "Where", "Value"], (result.cases ?? []).flatMap((c) => partsOfLoad(c).map((row) => [c.name, ...row.slice(0, 3)]))),
   ...tableOf("Combinations: cases with their factors", ["Step", "Terms"], runsOfTrains().filter(termWords).map((of) => [stepsName(of), termWords(of)])),
-  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], runsOfTrains().flatMap(loadRows)),
+  ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], runsOfTrains().filter((of) => !result.cases || of[0].train).flatMap(loadRows)),
 ];
 
 const modulus = (p) => p.stiffness / p.bed;
@@ -324,7 +354,7 @@ const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 const numbersWords = (numbers) => runsOf(numbers.map((n, i) => n - i)).map(([a, b]) => (a === b ? String(numbers[a]) : `${numbers[a]} to ${numbers[b]}`)).join(", ");
 
 // Merges `fewest` or more entries that differ only by place. A row is [first entry, cells of places, all entries].
-const gathered = (list, keyOf, fewest = 13) => groupsOf(list, keyOf).flatMap((of) => (ofMatrix || of.length < fewest ? of.map((one) => [one, placeCells(one), [one]])
+const gathered = (list, keyOf, fewest = 13, cells = placeCells) => groupsOf(list, keyOf).flatMap((of) => (ofMatrix || of.length < fewest ? of.map((one) => [one, cells(one), [one]])
   : [[of[0], [numbersWords(of.map((one) => one.name)), ...["x", "y"].slice(0, placeHead().length - 1).map((axis) => rangeWords(spread(of.map((one) => one[axis]))))], of]]));
 
 // The loads of steps. Those that all have are listed once; of the others, which move, each is listed with its places.
@@ -377,8 +407,8 @@ function verdicts() {
 }
 
 function showHead() {
-  const { file, date, units, words } = result;
-  const block = [["Problem file", file === "-" ? "standard input" : file],
+  const { file, date, units, words, project, author, revision } = result;
+  const block = [["Project", project], ["Author", author], ["Revision", revision], ["Problem file", file === "-" ? "standard input" : file],
     ["Units", units ? `${units.length}, ${units.force}` : "the problem file names no units"],
     ["Date of the run", date], ["Kernels", `${kernelNames().join(" and ")}, engine ${result.engine}`], ["Program", words.program.join(" · ")]];
   byId("title-block").replaceChildren(...block.filter(([, text]) => text).map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text))));
@@ -437,7 +467,7 @@ function showCuts() {
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
   const none = element("li", { class: "screen-only" }, `Nothing: every increment, ${unitOf()}, pair and call is on this page.`);
   byId("cuts").replaceChildren(...(cuts.size > 0 ? [...cuts].map((text) => element("li", {}, text)) : [none]), element("li", { class: "print-only" },
-    "Not on paper, but in the page's file: states within steps, the pairs of each state, increments after the first 60, the kernels' calls and sources, and unit 26."));
+    "Not on paper, but in the page's file: its appendix unless it is printed too, states within steps, the pairs of each state, increments after the first 60, the kernels' calls and sources, and unit 26."));
 }
 
 const pictureWords = {
@@ -514,7 +544,7 @@ function listen() {
   addEventListener("resize", () => { if (innerWidth !== width && result) show(current); width = innerWidth; });
   byId("save").addEventListener("click", savePicture);
   addEventListener("beforeprint", () => { printing = true; drawSheets(); show(frames.length - 1); });
-  addEventListener("afterprint", () => { printing = false; byId("envelope").after(byId("input")); show(current); });
+  addEventListener("afterprint", () => { printing = false; byId("ends").after(byId("input")); show(current); });
 }
 
 // Prepares the printed page: puts the input with a sketch first, and draws the ends of steps in each quantity.
@@ -527,16 +557,29 @@ function drawSheets() {
     return element("figure", { class: "print-only" }, holder, element("figcaption", {}, words));
   };
   const loaded = result.steps[result.steps.length - 1];
-  const final = frames[frames.length - 1];
   byId("system").replaceChildren(...(loaded ? [drawn({ ...frames[0], load: loaded.load }, `The undeformed structure with supports, pairs and the loads of step ${stepName(loaded)}: ${minus(loaded.load.words)}.`, true)] : []));
   const chosen = field;
-  const quantities = fields.length > 0 ? fields.filter(({ words }) => !/stress/.test(words)) : [undefined]; // stresses follow the moments
-  const steps = new Set([...endsOf(Math.max(1, Math.floor((result.steps.length > 12 ? 6 : 12) / quantities.length))).map((s) => s.step), final.step]);
-  const wanted = frames.filter((f) => f.end && steps.has(f.step)).flatMap((f) => quantities.map((of) => ({ f, of })));
-  const told = steps.size < result.steps.length ? [`On paper, the ends of ${steps.size} of ${result.steps.length} steps are drawn: those with the largest values, and the last one.`] : [];
-  byId("ends-drawn").replaceChildren(...told.map((text) => cuts.add(text) && element("p", { class: "print-only" }, text)), ...wanted.map(({ f, of }) => { field = of; return drawn(f, stateWords(f)); }));
-  field = chosen;
+  const steps = governingEnds();
+  const ends = frames.filter((f) => f.end && steps.has(f.step));
+  const governs = (of) => ends.reduce((a, b) => (Math.max(...atNodes(b, of.name).map(Math.abs)) > Math.max(...atNodes(a, of.name).map(Math.abs)) ? b : a));
+  const wanted = fields.length === 0 ? ends.map((f) => ({ f })) // stresses follow the moments
+    : ends.length === 0 ? [] : fields.filter(({ words }) => !/stress/.test(words)).map((of) => ({ f: governs(of), of }));
+  const told = steps.size < result.steps.length ? [`The ends of ${steps.size} of ${result.steps.length} steps are drawn: those with the largest values.`] : [];
+  byId("ends-drawn").classList.toggle("in-columns", fields.length > 0);
+  byId("ends-drawn").replaceChildren(...told.map((text) => cuts.add(text) && element("p", { class: "print-only" }, text)), ...wanted.map(({ f, of }) => {
+    [field, widthOnPaper] = [of, of ? 470 : 940];
+    return drawn(f, of ? `Step ${nameOfStep(f.step)}: ${of.words}.` : stateWords(f));
+  }));
+  [field, widthOnPaper] = [chosen, 940];
   showCuts();
+}
+
+// The steps in which a quantity is largest, at most three.
+function governingEnds(most = 3) {
+  const steps = result.steps.filter((s) => s.displacement);
+  const sizes = [...Object.keys(steps[0]?.extremes ?? {}).map((name) => (s) => Math.abs(largestOf(s.extremes[name]).value)), (s) => Math.abs(s.largest.pair?.force ?? 0)];
+  const governing = sizes.map((size) => steps.reduce((a, b) => (size(b) > size(a) * (1 + 1e-9) ? b : a)).step);
+  return new Set([...new Set(steps.length <= most ? steps.map((s) => s.step) : governing)].slice(0, most));
 }
 
 // The number of the state with the largest deflection.
@@ -556,8 +599,12 @@ function load(given, state = null) {
 }
 
 function showRest() {
-  fill("ends", "Results at the ends of steps", "", ...endTables());
-  fill("envelope", startsFromZero() ? "Envelope of the combinations" : "Envelope of the path", "", ...(result.envelope ? envelopeTables(result.envelope) : []));
+  const [governing, all] = endTables();
+  const [extremes, others] = result.envelope ? envelopeTables(result.envelope) : [[], []];
+  const ofCombinations = startsFromZero();
+  fill("ends", "Governing results", "", ...(ofCombinations ? extremes : []), ...governing);
+  fill("all-ends", "All results at the ends of steps", "", ...all);
+  fill("envelope", ofCombinations ? "Envelope of the combinations" : "Envelope of the path", "", ...(ofCombinations ? [] : extremes), ...others);
   drawEnvelope();
   fill("input", "Input", "", element("div", { id: "system" }), ...inputTables());
   showCalls();

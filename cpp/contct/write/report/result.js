@@ -32,6 +32,8 @@ const nameOfStep = (number) => stepName(result.steps.find((s) => s.step === numb
 const startsFromZero = () => result.steps.some((s) => s.start === "zero");
 
 const nameOf = (entry) => entry.node ?? entry.dof;
+// Adds the name that the problem file gives to a support, pair or bed.
+const labelled = (words, label) => (label ? `${words}, ${label}` : String(words));
 
 function dofsOf() {
   if (ofMatrix) return structure.dofs.map((d) => ({ name: d.dof, at: (d.at ?? 0) - 1, direction: d.direction ?? 0 }));
@@ -39,14 +41,15 @@ function dofsOf() {
   return structure.nodes.flatMap((n, at) => own.map(([dof, direction]) => ({ name: n.node, dof, at, direction })));
 }
 
-// All dofs, pairs and supports. `at`: the node, from 0; -1 if the dof has no position. `u`: the dof, from 0.
+// All dofs, pairs and supports. `name`: of the node or dof. `label`: the name in the problem file. `at`: the node, from 0;
+// -1 if the dof has no position. `u`: the dof, from 0.
 function placesOf() {
   const dofs = dofsOf();
   const numbers = new Map(dofs.map((d, u) => [ofMatrix ? d.name : `${d.name} ${d.dof}`, u]));
   const locate = (entry, dof) => {
     const u = numbers.get(ofMatrix ? entry.dof : `${entry.node} ${dof}`);
     const { x = null, y = null } = structure.nodes[dofs[u].at] || {};
-    return { ...entry, ...dofs[u], u, x, y };
+    return { ...entry, label: entry.name, ...dofs[u], u, x, y };
   };
   // The dof that carries the face of a pair, and the node of this dof; -1: none.
   const otherOf = ({ other }) => (other === undefined ? { otherU: -1, otherAt: -1 } : { otherU: numbers.get(other), otherAt: dofs[numbers.get(other)].at });
