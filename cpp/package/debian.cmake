@@ -9,35 +9,11 @@ if(NOT CONTCT_DATE)
 endif()
 set(CONTCT_MAINTAINER "The CONTCT project <contct@contct.invalid>" CACHE STRING
     "Name and mail address of who publishes the packages")
-find_program(CONTCT_GZIP gzip REQUIRED)
-find_program(CONTCT_PYTHON3 python3 REQUIRED)
+if(NOT COMMAND manual)
+  message(FATAL_ERROR "CONTCT_PACKAGES: gzip or python3 is not found")
+endif()
 find_program(CONTCT_DATE_COMMAND date REQUIRED)
-mark_as_advanced(CONTCT_GZIP CONTCT_PYTHON3 CONTCT_DATE_COMMAND)
-
-# compress(FILE INTO): gzip without a time stamp, so that the same sources give the same packages.
-set(compressed_files)
-function(compress file into)
-  add_custom_command(OUTPUT ${into} COMMAND ${CONTCT_GZIP} -9 -n < ${file} > ${into} DEPENDS ${file} VERBATIM)
-  list(APPEND compressed_files ${into})
-  set(compressed_files ${compressed_files} PARENT_SCOPE)
-endfunction()
-# manual(NAMES SECTION SUMMARY PAGE): makes a manual page from a page of reference/.
-function(manual names section summary page)
-  string(REGEX REPLACE ",.*" "" name ${names})
-  set(made ${CMAKE_CURRENT_BINARY_DIR}/${name}.${section})
-  set(source ${PROJECT_SOURCE_DIR}/reference/${page})
-  set(script ${PROJECT_SOURCE_DIR}/cpp/package/man_page.py)
-  add_custom_command(OUTPUT ${made} VERBATIM DEPENDS ${source} ${script}
-    COMMAND ${CONTCT_PYTHON3} ${script} ${names} ${section} ${summary} ${PROJECT_VERSION} ${CONTCT_DATE} ${source} > ${made})
-  compress(${made} ${made}.gz)
-  set(compressed_files ${compressed_files} PARENT_SCOPE)
-  install_program_files(${CMAKE_INSTALL_MANDIR}/man${section} ${made}.gz)
-endfunction()
-manual("contct, contct-replay" 1 "the 1989 contact subroutine in FORTRAN and C++, compared bit for bit" running.md)
-manual(contct-problem 5 "problem files of contct" problem-file.md)
-manual(contct-result 5 "result files of contct" result-file.md)
-file(CREATE_LINK contct.1.gz ${CMAKE_CURRENT_BINARY_DIR}/links/contct-replay.1.gz SYMBOLIC)
-install_program_files(${CMAKE_INSTALL_MANDIR}/man1 ${CMAKE_CURRENT_BINARY_DIR}/links/contct-replay.1.gz)
+mark_as_advanced(CONTCT_DATE_COMMAND)
 
 # date_as(FORMAT RESULT): sets RESULT to the date of this version.
 function(date_as format result)
@@ -61,7 +37,7 @@ file(CONFIGURE OUTPUT ${debian_changelog} @ONLY CONTENT
 ")
 compress(${debian_changelog} ${debian_changelog}.gz)
 compress(${PROJECT_SOURCE_DIR}/reference/CHANGELOG.md ${CMAKE_CURRENT_BINARY_DIR}/changelog.gz)
-add_custom_target(contct_compressed ALL DEPENDS ${compressed_files})
+add_custom_target(contct_changelogs ALL DEPENDS ${compressed_files})
 
 # package(COMPONENT NAME SECTION DESCRIPTION): sets the data of a package. The first line of DESCRIPTION is the summary.
 set(CPACK_COMPONENTS_ALL)

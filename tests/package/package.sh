@@ -9,9 +9,10 @@ right_facts() {
   said=$("$1") || fail "$said"
   echo "$said" | grep -x '[1-9][0-9]* facts, 0 wrong'
 }
-# block KIND: prints the block of this kind (sh, cmake, c, cpp, fortran) in "In your own program" of library.md of $source.
+# block KIND [HEADING]: prints the block of this kind (sh, cmake, c, cpp, fortran) of library.md of $source, by default that
+# under "In your own program".
 block() {
-  awk -v fence="\`\`\`$1" '/^## /{here = $0 == "## In your own program"} /^```/{inside = here && $0 == fence; next} inside' \
+  awk -v fence="\`\`\`$1" -v heading="## ${2:-In your own program}" '/^## /{here = $0 == heading} /^```/{inside = here && $0 == fence; next} inside' \
     "$source/reference/library.md"
 }
 
@@ -35,6 +36,9 @@ install() {
   done
   [ -z "$(find "$4" -path '*/bin/contct')" ] || [ -n "$(find "$4" -path "*/bash-completion/completions/contct" -size +0)" ] ||
     fail "bash-completion/completions/contct is not installed, or is empty"
+  for page in man1/contct.1 man1/contct-replay.1 man5/contct-problem.5 man5/contct-result.5; do
+    [ -z "$(find "$4" -path '*/bin/contct')" ] || gzip -t "$4/share/man/$page.gz" || fail "the manual page $page is not installed"
+  done
   echo "$(find "$4" -type f | wc -l) files, none of which names where it came from"
 }
 
@@ -137,6 +141,7 @@ page() {
       grep -qF -e "$line" "$here/${both#*:}" || fail "the page shows a line that ${both#*:} does not have: $line"
     done
   done
+  block cpp "A beam in one header" | diff - "$here/problem.cpp" || fail "the page and problem.cpp differ (above)"
 }
 
 # program BIN DATA VERSION: tests that the installed contct prints its version and verifies the installed problems.

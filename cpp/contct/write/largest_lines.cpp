@@ -52,7 +52,8 @@ std::vector<std::string> largest_lines(const step_results& r, int width, bool al
   const bool of_matrix = std::holds_alternative<assembled>(p.geometry.kind);
   const std::vector<value_range>& ranges = r.ranges();
   if (!ranges.empty()) add_range(of_matrix ? "u" : "w", ranges.front());
-  if (const value_range* const m = bending(p, ranges)) add_range(m->name, *m);
+  for (const value_range& v : ranges)  // of a plate mx, my and mxy
+    if (row_named(p, v.name).kind == quantity::moment) add_range(v.name, v);
   for (const value_range& v : ranges) {
     const quantity_row& row = row_named(p, v.name);
     const bool of_beam = std::holds_alternative<beam>(p.geometry.kind);

@@ -228,8 +228,8 @@ function holdTable(steps, most = 24) {
   const whole = steps.filter((s) => s.pairs);
   const own = places.pairs.filter((p) => !p.bed);
   const unbroken = (words) => words.replace(/ /g, "\u00a0");
-  const rows = [...places.supports.map((s, i) => [[unbroken(labelled(`support at ${placed(s.name)}`, s.label)), whatHolds(s)], (of) => of.reactions[i].value]),
-    ...own.map((p) => [[unbroken(labelled(`pair ${p.pair}, ${placed(p.name)} ${p.surface}`, p.label)), inUnit("force", "force")], (of) => forceOrGap(of.pairs[p.pair - 1])])];
+  const rows = [...places.supports.map((s, i) => [[labelled(unbroken(`support at ${placed(s.name)}`), s.label), whatHolds(s)], (of) => of.reactions[i].value]),
+    ...own.map((p) => [[labelled(unbroken(`pair ${p.pair}, ${placed(p.name)} ${p.surface}`), p.label), inUnit("force", "force")], (of) => forceOrGap(of.pairs[p.pair - 1])])];
   const title = `Reactions and contact forces; for a separated pair the ${inUnit("gap", "w")}${whole.length < result.steps.length ? `, ${whole.length} of ${result.steps.length} steps` : ""}`;
   const sizeOf = (r) => Math.max(...r.slice(2).map((v) => (Array.isArray(v) ? 0 : Math.abs(v))));
   return whole.length === 0 ? [] : tableOf(title, ["Where", "What", ...whole.map((s) => `Step ${stepName(s)}`)], rows.map(([begin, read]) => [...begin, ...whole.map(read)]), most, sizeOf);
