@@ -76,9 +76,12 @@ let takeBack = null; // receives the keys for undo if no element has the focus, 
 /** Listens to the keys for undo and redo in `holder`. `act` receives the name of the TextHistory's function. */
 function listenForUndo(holder, act) {
   const take = (event) => {
-    if (!undoes(event) && !redoes(event)) return;
+    takeBack = take;
+    if (event.defaultPrevented || (!undoes(event) && !redoes(event))) return;
     event.preventDefault();
+    const focused = [...holder.querySelectorAll(".handle")].indexOf(document.activeElement);
     act(undoes(event) ? "undo" : "redo");
+    holder.querySelectorAll(".handle")[focused]?.focus();
   };
   holder.addEventListener("keydown", take);
   holder.addEventListener("pointerdown", () => { takeBack = take; });

@@ -34,16 +34,25 @@ class Scene {
   /** Shows the words, the picture, the buttons and other elements. The picture is drawn again if its width changes. */
   showAll(buttons, ...others) {
     this.holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...buttons), ...others);
-    new ResizeObserver(() => this.draw()).observe(this.picture);
+    const items = () => [...this.picture.querySelectorAll("[tabindex]")];
+    new ResizeObserver(() => {
+      const focused = items().indexOf(document.activeElement);
+      this.draw();
+      items()[focused]?.focus();
+    }).observe(this.picture);
   }
 }
 
 class ContactScene extends Scene {
   /** `text`: a problem file with a beam. `load`: the key of the point load that is dragged; `most`: its largest size.
-      `beside`: equivalent code for each line of the listing. */
-  constructor(holder, { text, load = "step[1].point[1]", most = 1, kernels = ["fortran", "cpp"], listing = "", beside = null, question = "" }) {
+      `units`: the units of force and length, for labels. `beside`: equivalent code for each line of the listing. */
+  constructor(holder, { text, load = "step[1].point[1]", most = 1, units = ["", ""], kernels = ["fortran", "cpp"], listing = "", beside = null, question = "" }) {
     super(holder);
-    Object.assign(this, { load, most, kernels, beside, question });
+    const [force, length] = units.map((unit) => (x) => `${rough(Math.abs(x))} ${unit}`.trim());
+    Object.assign(this, { load, most, kernels, beside, question, inForce: force, inLength: length, grid: roundDown(most / 40) });
+    this.field = element("input", { type: "number", min: "0", max: String(most), step: String(this.grid), "aria-label": `Load, from 0 to ${force(most)}` });
+    this.field.addEventListener("change", () => this.push(this.node, -Number(this.field.value), false));
+    this.fieldLabel = element("label", {}, "Load ", this.field, ` ${units[0]}`);
     this.history = new TextHistory(text);
     this.listing = listing.split("\n").slice(0, -1).map((words) => element("li", {}, words));
     this.build();
@@ -57,6 +66,8 @@ class ContactScene extends Scene {
     this.buttons = {
       step: button("Step", () => this.step(), { "data-act": "step" }),
       into: button("Step into", () => this.stepInto(), { "data-act": "into" }),
+      pair: button("Next pair", () => this.nextPair(), { "data-act": "pair" }),
+      back: button("Step back", () => this.stepBack(), { "data-act": "back" }),
       ignore: button("Ignore s_min", () => this.ignore(), { "data-act": "ignore", "aria-pressed": "false" }),
       start: button("From the start", () => this.start(), { "data-act": "start" }),
       undo: button("Undo", () => this.restore(this.history.undo()), { "data-act": "undo" }),
@@ -65,7 +76,7 @@ class ContactScene extends Scene {
     this.values = element("dl", { class: "values" });
     this.lines = element("ol", { class: "listing", tabindex: "0", role: "region", "aria-label": "The listing" }, ...this.listing);
     this.inside = element("div", { class: "inside", hidden: "" }, this.values, this.lines);
-    this.showAll(Object.values(this.buttons), this.inside);
+    this.showAll([...Object.values(this.buttons), this.fieldLabel], this.inside);
     listenForUndo(this.holder, (way) => this.restore(this.history[way]()));
   }
 
@@ -98,6 +109,9 @@ class ContactScene extends Scene {
     const [now, next] = [this.frames[k], this.frames[k + 1]];
     return next && next.s > 0 ? now.u.map((w, i) => w + (next.u[i] - w) / next.s) : null;
   }
+
+  /** The pairs whose statuses increment `k` + 1 changes. */
+  toggledOf(k) { return (this.frames[k + 1]?.events ?? []).map((e) => e.pair); }
 
   number(name) { return this.numbers.find((n) => n.key === `${this.load}.${name}`); }
   get force() { return this.number("w").value; }
@@ -134,6 +148,25 @@ class ContactScene extends Scene {
     if (this.through) return this.ignore();
     if (this.at + 1 >= this.linesOf(this.k).length) return this.step();
     this.at += 1;
+    this.draw();
+  }
+
+  /** Moves to the first line that is about another pair. */
+  nextPair() {
+    if (this.shown === "end" || !this.overlay || this.through) return this.stepInto();
+    const lines = this.linesOf(this.k);
+    const next = lines.findIndex((l, i) => i > this.at && l.pair !== lines[this.at]?.pair);
+    if (next >= 0) this.at = next - 1;
+    else this.at = lines.length - 1;
+    this.stepInto();
+  }
+
+  /** Moves to the line before, or to the increment before. */
+  stepBack() {
+    if (this.moving || this.shown === "end") return;
+    if (this.through) return this.ignore();
+    if (this.at < 0) return this.show("path", Math.max(0, this.k - 1));
+    this.at -= 1;
     this.draw();
   }
 
@@ -209,37 +242,43 @@ class ContactScene extends Scene {
         const [force, from] = [this.force, this.nodes[this.node]];
         let follows = false;
         return (dx, dy) => {
-          this.push(nearestTo(from + dx / this.page.scale, this.nodes), force - (dy * this.most) / 150, follows);
+          this.push(nearestTo(from + dx / this.page.scale, this.nodes), this.onGrid(force - (dy * this.most) / 150), follows);
           follows = true;
         };
       },
-      step: ([across, down]) => this.push(Math.max(0, Math.min(this.nodes.length - 1, this.node + across)), this.force - (down * this.most) / 40, false),
+      step: ([across, down], far) => this.push(Math.max(0, Math.min(this.nodes.length - 1, this.node + across)), this.onGrid(this.force - down * this.grid * (far ? 5 : 1)), false),
     }));
   }
 
+  onGrid(force) { return Number((Math.round(force / this.grid) * this.grid).toPrecision(6)); }
+
   // ---- the picture ----
 
-  /** Sets the height of the picture by the beam under the largest load without stops. The height is the same for all
-      loads, so that the beam moves with the finger. */
+  /** Sets the vertical scale by the beam under the largest load without stops. The scale is the same for all loads, so
+      that the beam moves with the finger. */
   frameOnce() {
     if (this.deep) return;
     const largest = resultOf(withNumbers(this.history.text, this.numbers, { [`${this.load}.w`]: -this.most }), this.kernels);
     const [first] = largest.steps[0].increments;
     const reach = (first.displacement ?? largest.steps[0].displacement).map((w) => Math.abs(w) / first.s).filter((_, i) => i % 2 === 0);
     this.deep = Math.max(...this.pairs.map((p) => 1.5 * Math.abs(p.face)), ...reach);
+    this.rest = Math.min(...largest.steps[0].displacement.filter((_, i) => i % 2 === 0), ...this.pairs.map((p) => p.face));
   }
 
   draw() {
     const width = widthOf(this.picture);
-    const [left, right, top, height] = [34, 24, 140, 470];
+    const [left, right, top, room] = width < 480 ? [36, 48, 92, 72] : [60, 60, 124, 240];
     const [x0, x1] = [this.nodes[0], this.nodes[this.nodes.length - 1]];
     const scale = (width - left - right) / (x1 - x0);
-    const times = (height - top - 90) / this.deep;
-    this.page = { width, left, right, top, height, scale, times, X: (x) => left + (x - x0) * scale, Y: (w) => top - w * times };
+    const times = room / this.deep;
     const frame = this.frames[this.k];
     const u = this.moving ? this.moving.u : this.through || frame.u;
+    // The canvas ends below what is drawn: the stops, the beam, and the beam at D + d*.
+    const lowest = Math.min(this.rest, ...[u, (this.overlay && this.ghostOf(this.k)) || u].flatMap((of) => of.filter((_, i) => i % 2 === 0)));
+    const height = Math.round(top - lowest * times + (this.overlay ? 54 + 18 * this.pairs.length : 58));
+    this.page = { width, left, right, top, height, scale, times, X: (x) => left + (x - x0) * scale, Y: (w) => top - w * times };
     const root = canvas(this.picture, width, height, this.question);
-    root.append(line(left, top, width - right, top, "was"));
+    root.append(line(left, top, width - right, top, "was"), axisWord(8, 18, `vertical ${timesWords(times / scale)}`, "start"));
     this.drawSupports(root);
     this.pairs.forEach((p, i) => this.drawStop(root, p, u[2 * p.at], frame.closed[i] && !this.through));
     if (this.overlay && !this.through) this.drawGhost(root, frame.u);
@@ -264,52 +303,70 @@ class ContactScene extends Scene {
   /** Draws a stop. In contact, its top is at the beam, because its spring is compressed. */
   drawStop(root, p, w, closed) {
     const { X, Y, times } = this.page;
-    const [x, y, foot] = [X(this.nodes[p.at]), Y(closed ? w : p.face), Y(p.face) - p.side * 26];
+    const [x, y, foot] = [X(this.nodes[p.at]), Y(closed ? w : p.face), Y(p.face) - p.side * 40];
     const through = this.through && p.side * (p.face - w) * times < -0.5;
-    const turns = [0.2, 0.35, 0.5, 0.65, 0.8].map((t, i) => `L${x + (i % 2 ? 6 : -6)} ${y + (foot - y) * t}`).join("");
-    root.append(titled(`pair ${p.pair}: face ${p.surface} at ${short(p.face)}`, shape(`M${x} ${y}${turns}L${x} ${foot}`, "spring", { fill: "none" }),
-      line(x - 16, y, x + 16, y, `face-line${through ? " through" : ""}`), line(x - 12, foot, x + 12, foot, "thin")));
-    root.append(axisWord(x + 14, foot - 4, String(p.pair)));
+    const at = (t, across) => `L${(x + across).toFixed(1)} ${(y + (foot - y) * t).toFixed(1)}`;
+    const coil = Array.from({ length: 9 }, (_, i) => at(0.14 + 0.09 * i, i % 2 ? 8 : -8)).join("");
+    root.append(titled(`pair ${p.pair}: face ${p.surface} at ${short(p.face)}`, shape(`M${x} ${y}${at(0.1, 0)}${coil}${at(0.9, 0)}${at(1, 0)}`, "coil"),
+      line(x - 16, y, x + 16, y, `face-line${through ? " through" : ""}`), line(x - 14, foot, x + 14, foot, "face-line"),
+      ...[-10, -3, 4, 11].map((k) => line(x + k, foot, x + k - 5, foot - p.side * 6, "hatch"))));
+    root.append(axisWord(x + 20, foot + 2, String(p.pair), "start"));
   }
 
+  /** Draws the contact force as an arrow whose tip is at the beam, on the left of the spring. */
   drawForce(root, p, w, force) {
-    if (!(force > 0)) return;
-    const [x, y] = [this.page.X(this.nodes[p.at]), this.page.Y(p.face) + 30];
-    const length = 14 + (46 * force) / this.most;
-    root.append(arrow(x, y + length, 0, -length, "force"), label(x + 8, y + length, rough(force), { class: "value halo" }));
+    if (!(force > 1e-9 * this.most)) return; // not a rounding error
+    const [x, y] = [this.page.X(this.nodes[p.at]) - 20, this.page.Y(w) - 3 * p.side];
+    const length = p.side * (12 + (30 * force) / this.most);
+    root.append(arrow(x, y - length, 0, length, "force"), label(x - 7, y - length / 2 + 8, this.inForce(force), { class: "value halo", "text-anchor": "end" }));
   }
 
-  /** Draws the beam at the end of d*, and from each pair a line to its place there, with a mark at its face. */
+  /** Draws the beam at D + d*, with a bracket for d*, and from each pair a line to its place there. A pair that would
+      reach its face on the way has a mark there, in gold if the increment changes its status. */
   drawGhost(root, u) {
     const ghost = this.ghostOf(this.k);
     const { X, Y } = this.page;
     if (!ghost) return;
     root.append(path(shapeOf(this.nodes, ghost).map(([x, w]) => [X(x), Y(w)]), "ghost"));
+    const toggled = this.toggledOf(this.k);
+    this.drawBracket(root, u, ghost);
     for (const p of this.told[this.k].pairs) {
       const at = this.pairs[p.pair - 1];
       const x = X(this.nodes[at.at]);
-      const meets = p.s > 0 && p.s <= 1 && p.d_star !== 0;
+      const meets = p.s > 0 && p.s < 1;
       const chosen = this.chosen()?.pair === p.pair;
       root.append(line(x, Y(u[2 * at.at]), x, Y(ghost[2 * at.at]), `ray${meets ? " meets" : ""}${chosen ? " chosen" : ""}`));
-      if (meets) root.append(svg("circle", { cx: x, cy: Y(at.face), r: 5, class: p.s === this.told[this.k].s ? "dot gold" : "dot" }));
+      if (meets) root.append(svg("circle", { cx: x, cy: Y(at.face), r: 5, class: toggled.includes(p.pair) ? "dot gold" : "dot" }));
     }
+  }
+
+  /** Draws a bracket from D to D + d* at the pair that is explained, or else at the load. */
+  drawBracket(root, u, ghost) {
+    const { X, Y } = this.page;
+    const at = this.chosen() ? this.pairs[this.chosen().pair - 1].at : this.node;
+    const [x, from, to] = [X(this.nodes[at]) + 20, Y(u[2 * at]), Y(ghost[2 * at])];
+    if (Math.abs(to - from) < 4) return;
+    root.append(titled("d*", shape(`M${x - 6} ${from}H${x}V${to}h-6`, "bracket")), label(x + 6, (from + to) / 2 + 4, "d*", { class: "value halo" }));
   }
 
   chosen() { return this.at < 0 ? null : this.linesOf(this.k)[this.at].pair; }
 
-  /** Draws all s on a line from 0 to 1. The leftmost is s_min. */
+  /** Draws all s on a line from 0 to 1. The leftmost is s_min; pairs that are toggled are gold, as on page 12. Near dots
+      are above each other. */
   drawShares(root) {
     const { left, width, right, height } = this.page;
     const [y, told] = [height - 34, this.told[this.k]];
     const S = (s) => left + s * (width - left - right);
-    const say = wordsInFreePlaces(root, width, height + 20);
     root.append(line(S(0), y, S(1), y, "zero"), ...[0, 1].map((s) => line(S(s), y - 5, S(s), y + 5, "zero")),
       axisWord(S(0), y + 22, "0", "start"), axisWord(S(1), y + 22, "1: all the load", "end"));
     const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
-    for (const [n, p] of [...meeting].sort((a, b) => a.s - b.s).entries()) {
-      const gold = p.s === told.s;
-      const words = `pair ${p.pair}: s = ${p.s}${gold ? ", the smallest: s_min" : ""}`;
-      const dot = svg("circle", { cx: S(p.s), cy: y, r: gold ? 8 : 6, class: gold ? "dot gold" : "dot", tabindex: "0", role: "button", "aria-label": words, "data-s": String(p.s) }, svg("title", {}, words));
+    const sorted = [...meeting].sort((a, b) => a.s - b.s);
+    const [toggled, winner] = [this.toggledOf(this.k), sorted.find((p) => p.s === told.s)];
+    for (const [n, p] of sorted.entries()) {
+      const gold = toggled.includes(p.pair);
+      const words = `pair ${p.pair}: s = ${p.s}${p === winner ? ", the smallest: s_min" : ""}${gold ? ", toggled" : ""}`;
+      const up = 18 * sorted.slice(0, n).filter((other) => S(p.s) - S(other.s) < 14).length;
+      const dot = svg("circle", { cx: S(p.s), cy: y - up, r: gold ? 8 : 6, class: gold ? "dot gold" : "dot", tabindex: "0", role: "button", "aria-label": words, "data-s": String(p.s) }, svg("title", {}, words));
       const open = () => {
         this.at = this.linesOf(this.k).findIndex((l) => l.pair?.pair === p.pair);
         this.draw();
@@ -318,17 +375,21 @@ class ContactScene extends Scene {
       dot.addEventListener("click", open);
       dot.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); open(); } });
       root.append(dot);
-      say(S(p.s), y - 14, gold ? `s_min = ${rough(p.s)}` : `${p.pair}: ${rough(p.s)}`, gold ? "value" : "axis-word");
+      const short = `${p.pair}: ${p === winner ? "s_min = " : ""}${rough(p.s)}`;
+      const above = y - 8 - 18 * (sorted.length - n);
+      root.append(line(S(p.s), y - up - 8, S(p.s), above, "was"), label(S(p.s) + (S(p.s) > width / 2 ? -6 : 6), above + 4, short, { class: `${gold ? "value" : "axis-word"} halo`, "text-anchor": S(p.s) > width / 2 ? "end" : "start" }));
     }
   }
 
   drawLoad(root, u) {
     const { X, Y } = this.page;
     const [x, tip] = [X(this.nodes[this.node]), Y(u[2 * this.node]) - 4];
-    const length = 48 + (44 * Math.abs(this.force)) / this.most;
-    const size = this.shown === "path" ? ` · ${rough(100 * this.frames[this.k].share)} %` : "";
-    const inside = Math.min(x, this.page.width - (size ? 44 : 24));
-    root.append(arrow(x, tip - length, 0, length, "load-arrow"), label(inside, tip - length - 8, `${rough(Math.abs(this.force))}${size}`, { "text-anchor": "middle", class: "value halo" }));
+    const length = (this.page.top - 32) * (0.55 + (0.45 * Math.abs(this.force)) / this.most);
+    const size = this.shown === "path" ? ` · ${rough(this.through ? 100 : 100 * this.frames[this.k].share)} %` : "";
+    const words = `${this.inForce(this.force)}${size}`;
+    const half = 4 + 4.4 * words.length;
+    const inside = Math.max(half, Math.min(x, this.page.width - half));
+    root.append(arrow(x, tip - length, 0, length, "load-arrow"), label(inside, tip - length - 8, words, { "text-anchor": "middle", class: "value halo" }));
     this.addHandle(root, x, tip - length);
   }
 
@@ -343,23 +404,25 @@ class ContactScene extends Scene {
     else if (this.shown === "end") words = this.force === 0 ? this.question : this.endWords(frame);
     else if (this.overlay) {
       const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
-      const winner = told.pairs.find((p) => p.s === told.s);
+      const next = this.frames[this.k + 1].events ?? [];
+      const stops = next.map((e) => e.pair).join(" and ").replace(/ and (?=.* and )/g, ", ");
+      const how = [...new Set(next.map((e) => (e.change === "make" ? "met" : "left")))].join(" or ");
       const after = (frame.events ?? []).map((e) => `The beam ${e.change === "make" ? "meets" : "leaves"} stop ${e.pair}. `).join("");
-      words = `${after}The dashed beam is d*, the response to all of the remaining load. ` + (meeting.length === 0 ? "No stop is met or left before the full load: s_min = 1."
-        : `Stop ${winner.pair} is met first, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`);
+      words = `${after}The dashed beam is at D + d*; d* is the response to all of the remaining load. ` + (meeting.length === 0 ? "No stop is met or left before the full load: s_min = 1."
+        : `${next.length > 1 ? `Stops ${stops} are` : `Stop ${stops} is`} ${how} next, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`);
     } else words = this.endWords(frame);
     if (this.words.textContent !== words) this.words.textContent = words;
   }
 
   endWords(frame) {
     const closed = this.pairs.filter((_, i) => frame.closed[i]);
-    return `Under ${rough(Math.abs(this.force))} the beam is ${rough(Math.abs(frame.u[2 * this.node]))} down at the load; ` +
-      (closed.length === 0 ? "it touches no stop." : `it presses on ${closed.map((p) => `stop ${p.pair} with ${rough(frame.force[p.pair - 1])}`).join(", ")}.`);
+    return `Under ${this.inForce(this.force)} the beam is ${this.inLength(frame.u[2 * this.node])} down at the load; ` +
+      (closed.length === 0 ? "it touches no stop." : `it presses on ${closed.map((p) => `stop ${p.pair} with ${this.inForce(frame.force[p.pair - 1])}`).join(", ")}.`);
   }
 
   throughWords(u) {
     const deepest = this.pairs.map((p) => ({ p, by: -p.side * (p.face - u[2 * p.at]) })).sort((a, b) => b.by - a.by)[0];
-    return deepest && deepest.by > 0 ? `Without s_min the beam goes through stop ${deepest.p.pair}, ${rough(deepest.by)} beyond its face. s_min prevents this.`
+    return deepest && deepest.by > 0 ? `Without s_min the beam goes through stop ${deepest.p.pair}, ${this.inLength(deepest.by)} beyond its face. s_min prevents this.`
       : "Without s_min nothing is different here: no stop is in the way.";
   }
 
@@ -368,9 +431,12 @@ class ContactScene extends Scene {
     const lines = this.overlay ? this.linesOf(this.k) : [];
     const now = lines[this.at];
     this.inside.hidden = !now;
+    this.holder.classList.toggle("stepping", Boolean(now));
     for (const item of this.listing) item.classList.remove("ran");
     for (const [name, made] of Object.entries(this.buttons)) made.disabled = (name === "undo" && this.history.at === 0) || (name === "redo" && this.history.at + 1 === this.history.texts.length);
     this.buttons.ignore.setAttribute("aria-pressed", String(this.through !== null));
+    this.buttons.back.disabled = this.shown === "end" || (this.at < 0 && this.k === 0);
+    if (document.activeElement !== this.field) this.field.value = String(Math.abs(this.force));
     if (!now) return;
     const item = this.listing[now.line - 1];
     item.classList.add("ran");
@@ -378,10 +444,12 @@ class ContactScene extends Scene {
     const { pair } = now;
     const setBy = pair?.s_chk !== undefined ? 36 : pair?.d_star === 0 ? 32 : 38; // the line that sets the final SS
     const known = pair ? [["GAP", pair.gap, 30], ["DTEST", pair.d_star, 31], ["SSCHK", pair.s_chk, 35], ["SS", pair.s, setBy], ["DIFF", pair.diff, 51]].filter(([, value, from]) => value !== undefined && value !== null && now.line >= from) : [];
-    const smin = now.line >= 42 ? [["SMIN", this.told[this.k].s]] : [];
+    const smin = now.line >= 42 ? [["SMIN", this.told[this.k].s, 42]] : [];
+    const here = [...known, ...smin].find(([, , from]) => from === now.line);
+    item.dataset.value = here ? `${here[0]} = ${digits(here[1], 6)}` : "";
     const code = this.beside?.[now.line];
     this.values.replaceChildren(element("dt", {}, pair ? `I = ${pair.pair}` : ""), element("dd", {}, `Line ${now.line}: ${now.words}`),
-      ...[...known, ...smin].flatMap(([name, value]) => [element("dt", {}, name), element("dd", { "data-value": String(value) }, minus(String(value)))]),
+      ...[...known, ...smin].flatMap(([name, value]) => [element("dt", {}, name), element("dd", { "data-value": String(value), title: String(value) }, digits(value, 6))]),
       ...(code ? [element("dt", {}, "In C++"), element("dd", {}, element("code", {}, code))] : []));
   }
 }

@@ -398,10 +398,106 @@ def lesson_ignores():
     press_button("start")
     press_button("ignore")
     rests()
+    check("100 %" in value("document.querySelector('#three-stops svg').textContent"), "and the arrow carries all of the load")
     check("goes through stop" in told() and value("document.querySelectorAll('#three-stops .through').length") >= 2, f"without s_min the beam goes through stops: {told()}")
     press_button("ignore")
     rests()
     check("s_min = " in told() and value("document.querySelector('#three-stops .through') === null"), "and comes back")
+
+
+def lesson_labels():
+    """Checks that the lesson draws what its words and labels say."""
+    value("scenes[0].push(12, -1.6, false), scenes[0].start()")
+    bracket = [float(y) for y in re.findall(r"M[\d.]+ ([\d.]+)H[\d.]+V([\d.]+)", value("document.querySelector('#three-stops .bracket').getAttribute('d')"))[0]]
+    far = value("[0, scenes[0].ghostOf(0)[24]].map((w) => scenes[0].page.Y(w))")
+    check(max(abs(a - b) for a, b in zip(bracket, far)) < 0.01 and "dashed beam is at D + d*" in told(), f"the bracket is d*, from D to the dashed beam: {bracket}, {far}")
+    for node, first in ((12, 3), (8, 1)):
+        value(f"scenes[0].push({node}, -1.5, false), scenes[0].start()")
+        explained = natively("explain", scene("history.text"))["increments"][0]
+        check(min(explained["pairs"], key=lambda p: p["s"])["pair"] == first and f"Stop {first} is met next" in told(), f"under a load at node {node + 1} stop {first} is met first: {told()}")
+    value("scenes[0].push(12, -0.1, false), scenes[0].start()")
+    check("s_min = 1" in told() and value("document.querySelector('#three-stops .gold') === null"), "without an event nothing is gold")
+    check([43, 45] == value("scenes[0].linesOf(0).map((l) => l.line).slice(-2)"), "without an event the listing writes and returns")
+    value("scenes[0].push(12, -1.6, false)")
+
+
+CUT = """[...scenes[0].picture.querySelectorAll('text')].filter((t) => { const [b, s] = [t, t.ownerSVGElement].map((e) => e.getBoundingClientRect());
+  return b.left < s.left || b.right > s.right || b.top < s.top || b.bottom > s.bottom; }).map((t) => t.textContent)"""
+
+
+def open_scene(page, width):
+    browser.open(COURSE / f"{page}.html", width=width, height=844)
+    value("document.querySelector('[data-scene]').scrollIntoView()")
+    browser.wait_for("document.querySelector('[data-lives]') !== null")
+
+
+def pictures_are_whole():
+    """Checks at both widths that no label of a scene is cut off, that forces are at the beam, and that a stepper sees all."""
+    for width in (1200, 390):
+        for page in ("01-picture", "04-algorithm", "11-a-tie"):
+            open_scene(page, width)
+            cut = []
+            for node in range(value("scenes[0].nodes.length")):
+                value(f"scenes[0].push({node}, -scenes[0].most, false)")
+                for k in range(value("scenes[0].frames.length")):
+                    cut += value(CUT) + value(f"(scenes[0].show('path', {k}), {CUT})")
+            check(not cut, f"{page}, {width} px: cut labels: {cut[:4]}")
+        open_scene("01-picture", width)
+        value("scenes[0].push(2, -60, false)")
+        tip, beam = value("[scenes[0].picture.querySelector('.force path:last-child').getBBox().y, scenes[0].page.Y(scenes[0].frames[2].u[4])]")
+        check(abs(tip - beam) < 5 and "41.86 kN" in value("scenes[0].picture.textContent"), f"{width} px: the arrow of a contact force ends at the beam: {tip}, {beam}")
+        scale = value("scenes[0].page.times / scenes[0].page.scale")
+        check(f"vertical × {float(f'{scale:.3g}'):g}" in value("scenes[0].picture.textContent"), f"{width} px: the vertical scale is told: {scale}")
+        open_scene("04-algorithm", width)
+        value("scenes[0].push(12, -1.5, false), scenes[0].start()")
+        presses = 0
+        while value("scenes[0].k === 0 && scenes[0].moving === null") and presses < 30:
+            click("[data-act=pair]")
+            presses += 1
+        check(presses <= 8, f"one call of three pairs takes {presses} presses of Next pair; allowed: 8")
+        browser.wait_for("scenes[0].moving === null", 10)
+        value("scenes[0].start()")
+        for _ in range(4):
+            click("[data-act=into]")
+        click("[data-act=back]")
+        check(value("scenes[0].at") == 2, "a step back goes to the line before")
+        value("scenes[0].holder.scrollIntoView()")
+        tall = value("(() => { const of = (q) => document.querySelector(q).getBoundingClientRect(); return Math.max(of('.listing').bottom, of('.scene .controls').bottom) - of('.told').top; })()")
+        check(tall <= (600 if width > 390 else 760), f"{width} px: words, picture, values, listing and buttons take {tall:.0f} px")
+        check(value("scenes[0].picture.clientHeight") <= (480 if width > 390 else 265), f"{width} px: the picture's height is {value('scenes[0].picture.clientHeight')} px")
+
+
+def loads_are_exact():
+    """Checks that the field, the keys and the mouse reach a load that a page names, and that the keys take changes back."""
+    open_scene("03-by-hand", 1200)
+    value("(() => { const f = document.querySelector('.scene input'); f.value = '50'; f.dispatchEvent(new Event('change')); })()")
+    check(value("scenes[0].force") == -50, f"the field sets the load: {value('scenes[0].force')}")
+    drag("document.querySelector('.scene .handle')", 0, -31)
+    dragged = value("scenes[0].force")
+    value("document.querySelector('.scene .handle').focus()")
+    for _ in range(int(50 + dragged)):
+        browser.press("ArrowDown")
+    check(dragged == round(dragged) != -50 and value("scenes[0].force") == -50, f"mouse and keys give whole loads: {dragged}, {value('scenes[0].force')}")
+    for k in (1, 2):
+        browser.press("z", control=True)
+        check(value("scenes[0].force") == -50 + k and value("document.activeElement.classList.contains('handle')"), f"Ctrl+Z number {k} takes one key back: {value('scenes[0].force')}")
+    click("[data-act=undo]")
+    value("document.querySelector('[data-act=undo]').focus()")
+    browser.press("z", control=True)
+    check(value("scenes[0].force") == -46, f"after a click Ctrl+Z takes one step back: {value('scenes[0].force')}")
+    check(value("getComputedStyle(document.querySelector('[aria-pressed]')).color") != value("getComputedStyle(document.body).getPropertyValue('--bad')"), "a pressed button is not red")
+
+
+def dots_of_a_tie():
+    """Checks that the dots of pairs that are toggled together are gold, and that each can be seen."""
+    browser.open(COURSE / "11-a-tie.html")
+    browser.wait_for("document.querySelector('[data-lives]') !== null")
+    value("scenes[0].push(8, -3, false), scenes[0].start()")
+    dots = value("[...document.querySelectorAll('[data-s]')].map((d) => [d.cx.baseVal.value, d.cy.baseVal.value, d.classList.contains('gold')])")
+    apart = min(abs(a[0] - b[0]) + abs(a[1] - b[1]) for i, a in enumerate(dots) for b in dots[:i])
+    toggled = value("scenes[0].frames[1].events.map((e) => e.pair)")
+    check(toggled == [1, 3] and sum(gold for _, _, gold in dots) == 2 and apart >= 16, f"the dots of a tie are both gold, and seen beside each other: {dots}")
+    check("Stops 1 and 3 are met next" in value("document.querySelector('.told').textContent"), "and the words name both")
 
 
 def lesson_by_keyboard():
@@ -600,13 +696,13 @@ try:
         for kernels in KERNELS if not problem.with_suffix(".mtx").exists() else ():  # the page cannot read a second file
             compare_run(str(problem.relative_to(ROOT)), kernels)
     for part in (replay_golden_set, errors_have_their_places, lesson_on_a_phone, lesson_opens_on_the_question, lesson_steps, lesson_steps_into, lesson_ignores,
-                 lesson_by_keyboard, lesson_of_two_rules, opens_on_a_problem, takes_back, menu, dragging, messages, plates, pressed_stops, events_by_keyboard,
+                 lesson_labels, lesson_by_keyboard, lesson_of_two_rules, opens_on_a_problem, takes_back, menu, dragging, messages, plates, pressed_stops, events_by_keyboard,
                  story, links, report):
         part()
     for width in (1300, 400):
         for dark in (False, True):
             shape(width, dark)
-    for part in (long_beam, course_pages, beside_the_listing, judge_of_kernels):
+    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, dots_of_a_tie, beside_the_listing, judge_of_kernels):
         part()
     check(not browser.errors, f"the page reports no error: {browser.errors[:3]}")
     outside = [r for r in browser.requests if not r.startswith(("file://", "data:", "about:", "blob:"))]

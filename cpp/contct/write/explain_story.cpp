@@ -143,6 +143,7 @@ std::vector<sentence> winner_story(const explained_call& c) {
   if (c.winner < 0)
     return {{listing::if_no_events,
              "SMIN is still 1: no pair has an event. All of the residual load can be applied."},
+            {listing::write_20, "WRITE: unit 26 receives the line of FORMAT 20."},
             {listing::no_events_return, "RETURN. No pair is toggled."}};
   return {{listing::if_no_events,
            fmt::format("SMIN = {}, not 1. Pair {} wins.", number(c.smin), c.winner + 1), "(9)"},
