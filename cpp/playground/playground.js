@@ -4,7 +4,7 @@
 "use strict";
 
 const given = JSON.parse(byId("given").textContent);
-const patient = 40000; // dofs times steps; a larger run waits for the button
+let patient = 4000; // dofs times steps; a larger problem runs in a worker
 const editor = byId("text");
 let textsBefore = null; // the TextHistory for undo
 
@@ -14,6 +14,7 @@ let dragging = null; // { moved } during a drag
 let busy = false;   // true while a result is drawn for the first time
 let later = 0;      // timer of the work that waits for a pause
 let milliseconds = 0; // time from a text to its picture
+let endRun = () => {}; // ends the worker's run
 
 // ---- the program ----
 
@@ -68,19 +69,46 @@ function complain(error) {
 }
 
 function tell(messages) {
-  byId("message").replaceChildren(...messages.slice(0, 6).map((words) => element("p", { class: "quiet" }, words)));
+  const here = (words) => words.replace(/: contct run \S+ --kernels corrected/, ": choose it in the menu Kernels").replace("--kernels corrected", "the corrected rule in the menu Kernels");
+  byId("message").replaceChildren(...messages.slice(0, 6).map((words) => element("p", { class: "quiet" }, here(words))));
+}
+
+const size = () => model.dofs * model.steps.length;
+const isLarge = () => size() > patient;
+
+/** Asks functions of the program in a worker: [[name, option, ..], ..]. Until the answers arrive, the page shows the
+    time and a button that ends the run. */
+function askAside(questions, act) {
+  endRun();
+  const code = `${byId("module").textContent}\nlet program = null; ${answerOf}
+    onmessage = async ({ data }) => { program = await contct_module(); postMessage(data.map((texts) => JSON.parse(answerOf(...texts)))); };`;
+  const place = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+  const [worker, began, said] = [new Worker(place), performance.now(), element("span")];
+  const show = () => { said.textContent = `Running: ${model.dofs} dofs, ${Math.round((performance.now() - began) / 1000)} s. `; };
+  const clock = setInterval(show, 500);
+  endRun = () => { worker.terminate(); clearInterval(clock); URL.revokeObjectURL(place); endRun = () => {}; };
+  show();
+  byId("message").replaceChildren(said, button("Cancel", () => { endRun(); said.parentNode.replaceChildren(button("Run again", () => recompute())); }, { "data-act": "cancel" }));
+  worker.onmessage = ({ data }) => { endRun(); act(...data); };
+  worker.postMessage(questions.map(([name, options]) => [name, editor.value, JSON.stringify({ file: "problem.toml", kernels: kernelsAsked(), ...options })]));
 }
 
 /** Runs the text and shows the path at `state`. Slow parts wait for a pause; see afterPause. */
-function recompute({ asked = false, state = current } = {}) {
+function recompute({ state = current } = {}) {
   const began = performance.now();
   clearTimeout(later);
+  endRun();
   const checked = ask("check", editor.value, { places: true });
   if (checked.error) return complain(checked.error);
   model = checked.result;
   mark(0, 0, "");
-  if (!asked && model.dofs * model.steps.length > patient) return waitForButton();
-  const answer = askPath("run", { states: true });
+  if (!isLarge()) return take(askPath("run", { states: true }), state, began);
+  withdrawVerdict("the problem is large, and its run has not ended");
+  askAside([["run", { states: true }], ["run", { page: true }]], (answer, page) => take(answer, state, began, page));
+}
+
+/** Shows the answer to a run. `page`: the answer with the whole report, if it is known. */
+function take(answer, state, began, page = null) {
   if (answer.error) return complain(answer.error);
   tell(answer.messages);
   byId("right").classList.remove("stale");
@@ -89,20 +117,16 @@ function recompute({ asked = false, state = current } = {}) {
   busy = false;
   showPairMenu();
   milliseconds = performance.now() - began;
+  if (!page && milliseconds > 1000) patient = Math.min(patient, size() - 1);
   byId("time").textContent = `Recomputed in ${digits(milliseconds, 3)} ms.`;
-  later = setTimeout(afterPause, Math.max(250, 8 * milliseconds));
-}
-
-function waitForButton() {
-  withdrawVerdict("the problem is large; press its button to run it");
-  byId("message").replaceChildren(button(`Run: ${model.dofs} dofs, ${model.steps.length} steps`, () => recompute({ asked: true })));
+  later = setTimeout(() => afterPause(page), page ? 0 : Math.max(250, 8 * milliseconds));
 }
 
 /** The parts that take longer than a frame: the explanation by the listing, and the additional parts of the report. */
-function afterPause() {
+function afterPause(page) {
   if (dragging) return;
   explainState(frames[current]);
-  const answer = askPath("run", { page: true });
+  const answer = page ?? askPath("run", { page: true });
   if (answer.error) return;
   const [drawn, seen] = [frames.length, where(frames[current])];
   read(JSON.parse(new DOMParser().parseFromString(answer.page, "text/html").getElementById("data").textContent));
@@ -219,8 +243,14 @@ function explainState(f) {
   const quietly = (words) => story.replaceChildren(element("p", { class: "quiet" }, words));
   if (f.step === 0 || f.number === 0 || f.pairs.length === 0) return quietly("CONTCT is not called in this state.");
   if (byId("kernels").value === "corrected") return quietly("The listing has no lines for the corrected rule. Choose FORTRAN and C++ to see the lines that run.");
-  const answer = askPath("explain", { step: f.step, increment: f.number });
-  if (answer.error) return quietly(answer.error.message);
+  const question = ["explain", { step: f.step, increment: f.number }];
+  if (isLarge()) return story.replaceChildren(button("Explain this increment", () => askAside([question], (answer) => { tell([]); tellStory(f, answer); })));
+  tellStory(f, askPath(...question));
+}
+
+function tellStory(f, answer) {
+  const story = byId("story");
+  if (answer.error) return story.replaceChildren(element("p", { class: "quiet" }, answer.error.message));
   const [told] = answer.result.increments;
   const pair = told.pairs.find((p) => p.pair === f.pairs[chosen].pair);
   const lines = [...(pair ? pair.story : []), ...told.story];
@@ -291,6 +321,7 @@ function openOwn() {
   byId("own").hidden = false;
   byId("open-own").setAttribute("aria-expanded", "true");
   recompute({ state: Infinity });
+  byId("own").scrollIntoView();
 }
 
 async function start() {

@@ -204,8 +204,19 @@ def messages():
     type_text(right)
     check(value("document.querySelector('#message .bad') === null") and not of("right", "classList.contains('stale')"), "a text that is right again is taken again")
     type_text("[beam]\nlength = 1\nelements = 60000\nEI = 1\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\nuniform = -1\n")
-    check("Run" in of("message"), "a large problem waits for a button")
+    check(of("message").startswith("Running: 120002 dofs, 0 s"), f"a large problem shows that it runs: {of('message')}")
     check(verdict().startswith("No verdict") and "certified" not in verdict(), "and the verdict of the problem before is withdrawn")
+    browser.wait_for("/ [1-9] s/.test(document.getElementById('message').textContent)", 20)
+    click("[data-act=cancel]")
+    check(of("message") == "Run again", "and can be cancelled")
+    type_text(right.replace("elements = 16", "elements = 3200").replace("node      = 5", "x = 2.0").replace("node      = 13", "x = 6.0").replace("node      = 9", "x = 4.0").replace("nodes = [1, 17]", "nodes = [1, 3201]"))
+    check("Running: 6402 dofs" in of("message"), f"another one runs: {of('message')}")
+    browser.wait_for("frames.length > 5 && structure.nodes.length === 3201 && document.querySelector('#story button') !== null", 60)
+    click("#story button")
+    browser.wait_for("document.querySelectorAll('#story p').length > 1 || document.querySelector('#story .quiet') !== null", 60)
+    check(not of("right", "classList.contains('stale')") and of("message") == "", "and is shown at its end, with its explanation")
+    choose("menu", "divergences/near-tie")
+    check("the menu Kernels" in of("message") and "--kernels" not in of("message"), f"a hint names what the page has: {of('message')}")
 
 
 def plates():
@@ -301,6 +312,12 @@ def shape(width, dark):
     if width < 896:
         above = value("document.querySelector('#picture svg').getBoundingClientRect().top - document.getElementById('own').getBoundingClientRect().top")
         check(above < 700, f"on a phone the picture of one's own problem is first: {above:.0f} px below its menu; allowed: 700")
+        tops = value("['structure', 'left', 'verdict'].map((i) => document.getElementById(i).getBoundingClientRect().top)")
+        check(tops == sorted(tops), f"then comes the text, then the report: {tops}")
+    check(value("Math.abs(document.getElementById('own').getBoundingClientRect().top) < 60"), "the problem that is opened is in view")
+    browser.send("Emulation.setEmulatedMedia", media="print")
+    check(value("document.getElementById('marks').scrollHeight <= document.getElementById('marks').clientHeight + 1 && document.getElementById('marks').textContent.trim() === editor.value.trim()"), "on paper the problem's text is whole")
+    browser.send("Emulation.setEmulatedMedia", media="")
     browser.picture(work / f"playground-{width}-{'dark' if dark else 'light'}.png")
     roles = {"button", "slider", "combobox", "textbox", "image"}
     controls = [n for n in browser.send("Accessibility.getFullAXTree")["nodes"] if n.get("role", {}).get("value") in roles and not n.get("ignored")]
