@@ -1,8 +1,10 @@
 """Makes the pages in which the compiled program runs: the playground, contct.html, and one page for each Markdown file
-of the course. In the course, pictures become scenes that can be dragged, and page 12 gets the judge of kernels.
+of the course and of reference/. In the course, pictures become scenes that can be dragged, and page 12 gets the judge
+of kernels.
 
 usage: python3 pages.py ROOT MODULE OUT
 MODULE is Emscripten's contct.js; OUT is the folder of contct.html. The course is written to a folder next to OUT."""
+import html
 import json
 import pathlib
 import re
@@ -10,7 +12,7 @@ import sys
 import textwrap
 import tomllib
 
-root, module, out = (pathlib.Path(a) for a in sys.argv[1:])
+root, module, out = (pathlib.Path(a).resolve() for a in sys.argv[1:])
 sys.path.insert(0, str(root / "reference/course/port"))
 import hint  # noqa: E402
 
@@ -85,32 +87,76 @@ def write_playground():
         "script": together("result.js", "picture.js", "report.js", "program.js", "scene.js", "two_rules.js", "playground.js")}))
 
 
-def page_of(markdown_file, converter):
-    """A page of the course. The scene NAME replaces a picture with the title "scene: NAME"."""
+def name_of(file):
+    """The name of the page of a Markdown file or notebook of reference/."""
+    inside = file.relative_to(course) if file.is_relative_to(course) else file.relative_to(root / "reference") if file.parent != root else pathlib.Path("..", file.name)
+    name = "-".join(inside.with_suffix("").parts)
+    return {"README": "index" if file.is_relative_to(course) else "reference", "..-README": "project"}.get(name, name) + ".html"
+
+
+def markdown_of(file):
+    if file.suffix == ".md":
+        return read(file)
+    kinds = {"markdown": "{}", "code": "```python\n{}\n```"}
+    return "\n\n".join(kinds[cell["cell_type"]].format("".join(cell["source"])) for cell in json.loads(read(file))["cells"])
+
+
+def linked(m, file, names):
+    """A link or picture of a page: to another page, or to a file of the tree."""
+    target, mark, place = m[2].partition("#")
+    to = (file.parent / target).resolve()
+    return f'{m[1]}="{names.get(to) or pathlib.Path("../..", to.relative_to(root)).as_posix()}{mark}{place}"'
+
+
+def numbered(m):
+    """A block with lines of the listing gets their numbers."""
+    lines, all_lines = html.unescape(m[1]).splitlines(), read(root / "fortran/contct.f").splitlines()
+    first = next((i for i in range(len(all_lines)) if len(lines) > 1 and all_lines[i:i + len(lines)] == lines), None)
+    return m[0] if first is None else f'<pre class="numbered" style="counter-reset: line {first}"><code>{"".join(f"<span>{line}</span>{chr(10)}" for line in m[1].splitlines())}</code></pre>'
+
+
+def around(file, order, names, titles):
+    """The head and the foot of a page: its place in the course, and the pages before and after it."""
+    if file not in order:
+        return '<nav><a href="index.html">The course</a></nav>', ""
+    at = order.index(file)
+    link = lambda i, words: f'<a rel="{words}" href="{names[order[i]]}">{words}: {titles[order[i]]}</a>' if 0 <= i < len(order) else ""
+    return (f'<nav><a href="index.html">Contents</a> <progress max="{len(order)}" value="{at + 1}"></progress> {at + 1} of {len(order)}</nav>',
+            f'<nav class="ends">{link(at - 1, "previous")}{link(at + 1, "next")}</nav>')
+
+
+def page_of(file, converter, order, names, titles):
+    """A page of the course. The scene NAME replaces a picture with the title "scene: NAME". Commands are behind a switch."""
     converter.reset()
-    body = converter.convert(read(markdown_file))
+    text = re.sub(r"^\[Contents\].*\n", "", markdown_of(file), count=1, flags=re.M) if file in order else markdown_of(file)
+    body = converter.convert(text)
     known = scenes()
 
     def place(m):
         if m[2] not in known:
-            raise SystemExit(f"{markdown_file}: found a scene \"{m[2]}\"; allowed: {', '.join(known)}")
+            raise SystemExit(f"{file}: found a scene \"{m[2]}\"; allowed: {', '.join(known)}")
         return f'<figure data-scene="{m[2]}">{m[1]}</figure>'
 
     body = re.sub(r'<p>(<img [^>]*title="scene: ([\w-]+)"[^>]*>)</p>', place, body)
     body = re.sub(r'<p>(<img [^>]*title="judge: port"[^>]*>)</p>', r'<div data-port>\1</div>', body)
-    body = re.sub(r'href="([\w-]+)\.md', r'href="\1.html', body)
-    body = re.sub(r'(href|src)="(?!https?:|#|[\w-]+\.html)([^"]+)"', lambda m: f'{m[1]}="../../reference/course/{m[2]}"', body)
-    return filled(read(here / "course.html"), {
-        "style": together("report.css", "playground.css", "course.css"), "title": re.search(r"^# (.*)", read(markdown_file), re.M)[1], "body": body.replace("README.html", "index.html")})
+    body = re.sub(r'(<pre><code class="language-sh">.*?</pre>)', r'<details class="commands"><summary>Run it yourself</summary>\1</details>', body, flags=re.S)
+    body = re.sub(r'<pre><code class="language-text">(.*?)</code></pre>', numbered, body, flags=re.S)
+    body = re.sub(r'(href|src)="(?!https?:|#)([^"]+)"', lambda m: linked(m, file, names), body)
+    head, foot = around(file, order, names, titles)
+    return filled(read(here / "course.html"), {"style": together("report.css", "playground.css", "course.css"), "title": titles[file], "body": f"{head}\n{body}\n{foot}"})
 
 
 def write_course():
     import markdown
     folder = out.parent / "course"
     folder.mkdir(exist_ok=True)
-    converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc"])
-    for page in sorted(course.glob("*.md")):
-        write_whole(folder / ("index.html" if page.stem == "README" else f"{page.stem}.html"), page_of(page, converter))
+    converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc", "md_in_html"])
+    files = [root / "README.md", *sorted((root / "reference").rglob("*.md")), *course.glob("*.ipynb")]
+    names = {file: name_of(file) for file in files}
+    titles = {file: re.search(r"^# (.*)", markdown_of(file), re.M)[1] for file in files}
+    order = [course / target for target in re.findall(r"^\|[^|]*\[[^\]]*\]\(([^)]+)\)", read(course / "README.md"), re.M)]
+    for file in files:
+        write_whole(folder / names[file], page_of(file, converter, order, names, titles))
     scripts = together("result.js", "picture.js", "program.js", "scene.js", "two_rules.js", "port.js", "course.js")
     write_whole(folder / "course.js", f"const given = {given(beside=beside(), **judged())};\n{read(module)}\n{scripts}")
 

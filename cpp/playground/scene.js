@@ -267,7 +267,7 @@ class ContactScene extends Scene {
 
   draw() {
     const width = widthOf(this.picture);
-    const [left, right, top, room] = width < 480 ? [36, 48, 92, 72] : [60, 60, 124, 240];
+    const [left, right, top, room] = width < 480 ? [36, 48, 82, 72] : [60, 60, 124, 240];
     const [x0, x1] = [this.nodes[0], this.nodes[this.nodes.length - 1]];
     const scale = (width - left - right) / (x1 - x0);
     const times = room / this.deep;
@@ -275,7 +275,7 @@ class ContactScene extends Scene {
     const u = this.moving ? this.moving.u : this.through || frame.u;
     // The canvas ends below what is drawn: the stops, the beam, and the beam at D + d*.
     const lowest = Math.min(this.rest, ...[u, (this.overlay && this.ghostOf(this.k)) || u].flatMap((of) => of.filter((_, i) => i % 2 === 0)));
-    const height = Math.round(top - lowest * times + (this.overlay ? 54 + 18 * this.pairs.length : 58));
+    const height = Math.round(top - lowest * times + (this.overlay ? (width < 480 ? 70 : 54) + 18 * this.pairs.length : 58));
     this.page = { width, left, right, top, height, scale, times, X: (x) => left + (x - x0) * scale, Y: (w) => top - w * times };
     const root = canvas(this.picture, width, height, this.question);
     root.append(line(left, top, width - right, top, "was"), axisWord(8, 18, `vertical ${timesWords(times / scale)}`, "start"));
@@ -409,7 +409,8 @@ class ContactScene extends Scene {
       const how = [...new Set(next.map((e) => (e.change === "make" ? "met" : "left")))].join(" or ");
       const after = (frame.events ?? []).map((e) => `The beam ${e.change === "make" ? "meets" : "leaves"} stop ${e.pair}. `).join("");
       words = `${after}The dashed beam is at D + d*; d* is the response to all of the remaining load. ` + (meeting.length === 0 ? "No stop is met or left before the full load: s_min = 1."
-        : `${next.length > 1 ? `Stops ${stops} are` : `Stop ${stops} is`} ${how} next, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`);
+        : `${next.length > 1 ? `Stops ${stops} are` : `Stop ${stops} is`} ${how} next, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`) +
+        (next.length > 1 ? ` Their s differ by ${rough(Math.max(...next.map((e) => Math.abs(told.pairs[e.pair - 1].s - told.s))))}.` : "");
     } else words = this.endWords(frame);
     if (this.words.textContent !== words) this.words.textContent = words;
   }

@@ -626,7 +626,8 @@ def scene_is_the_programs(at, name):
 
 
 def course_pages():
-    """Checks that every page of the course can be read at once, that its scenes have the program's numbers, and its pictures."""
+    """Checks that every page of the course can be read at once, that its scenes have the program's numbers, and its
+    pictures; that no command is cut off, that links lead to pages, and that all of it is on paper."""
     for markdown in sorted((ROOT / "reference/course").glob("*.md")):
         name = "index" if markdown.stem == "README" else markdown.stem
         file, source = COURSE / f"{name}.html", markdown.read_text(encoding="utf-8")
@@ -643,6 +644,47 @@ def course_pages():
         counted["scenes"] += len(scenes)
         check("](pictures/" in source or not re.match(r"\d\d-", name), f"{name}: has a picture")
         check(value(FITS), f"{name}: nothing sticks out")
+        paragraphs = source.split("\n\n")
+        asks = any("?" in words and picture.startswith("![") for words, picture in zip(paragraphs, paragraphs[1:]))
+        check(not asks or all_of(".answer", "0"), f"{name}: what the page asks has an answer")
+        check(not all_of("a[href$='.md'], a[href$='.ipynb']", "e.href"), f"{name}: every link to a page leads to HTML")
+        browser.send("Emulation.setEmulatedMedia", media="print")
+        cut = value("[...document.querySelectorAll('pre')].filter((p) => p.scrollWidth > p.clientWidth || p.clientHeight === 0).length + [...document.querySelectorAll('details > :not(summary)')].filter((e) => !e.checkVisibility({ contentVisibilityAuto: true })).length")
+        browser.send("Emulation.setEmulatedMedia", media="")
+        check(cut == 0, f"{name}: on paper {cut} blocks are cut or hidden")
+        for width in (1200, 390):
+            browser.send("Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=False)
+            value("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
+            cut = value(f"[...document.querySelectorAll('pre')].filter((p) => p.scrollWidth > p.clientWidth && ({width} > 400 || p.querySelector('.language-sh'))).map((p) => p.textContent.slice(0, 40))")
+            check(not cut, f"{name}, {width} px: blocks that are cut off: {cut}")
+
+
+def shell_of_the_course():
+    """Checks that a reader can go through the course from page to page, and that numbers are judged."""
+    browser.open(COURSE / "01-picture.html")
+    seen = ["01-picture.html"]
+    while (after := value("document.querySelector('nav.ends [rel=next]')?.getAttribute('href')")) and len(seen) < 30:
+        browser.open(COURSE / after)
+        seen.append(after)
+        check(value("document.querySelector('progress').value") == len(seen), f"{after}: shows the progress")
+    rows = re.findall(r"^\|[^|]*\]\(([^)]+)\)", (ROOT / "reference/course/README.md").read_text(encoding="utf-8"), re.M)
+    check(len(seen) == len(rows) >= 18, f"next leads through {len(seen)} pages; the course has {len(rows)}")
+    open_scene("05-listing", 1200)
+    numbers = all_of("pre.numbered", "[Number(e.style.counterReset.split(' ')[1]) + 1, e.querySelector('span').textContent.trim()]")
+    listing = [line.strip() for line in (ROOT / "fortran/contct.f").read_text().splitlines()]
+    check(len(numbers) >= 4 and all(listing[n - 1] == text for n, text in numbers), f"the listings of page 5 have the numbers of contct.f: {numbers}")
+    for page, right, wrong, script in (("01-picture", "15", "10", "[15, 16].map((f) => (scenes[0].push(2, -f, false), scenes[0].frames[scenes[0].last].force[0] > 0)).join() === 'false,true'"),
+                                       ("02-problem", "0.002", "0.004", "(scenes[0].push(2, -7.5, false), Math.abs(scenes[0].frames[1].u[4] + 0.002) < 1e-12)"),
+                                       ("11-a-tie", "2", "1", "(scenes[0].push(8, -3, false), scenes[0].frames[1].events.length === 2)")):
+        open_scene(page, 1200)
+        guess = lambda number: value(f"(() => {{ const f = document.querySelector('.guess input'); f.value = '{number}'; f.dispatchEvent(new Event('change')); return f.parentNode.textContent + document.querySelector('details[data-is]').open; }})()")
+        check("Not yet" in guess(wrong) and guess(wrong).endswith("false"), f"{page}: {wrong} is refused, and the answer stays closed")
+        check("Right." in guess(right) and guess(right).endswith("true") and value(script), f"{page}: {right} is accepted, and is what the scene shows")
+    open_scene("08-equality", 1200)
+    value("scenes[0].push(8, -3, false), scenes[0].start()")
+    said = float(value("document.querySelector('.told').textContent").split("differ by ")[1].rstrip(".").replace("−", "-"))
+    printed = float(re.search(r"differ by ([\d.e-]+\d)", (ROOT / "reference/course/08-equality.md").read_text(encoding="utf-8"))[1])
+    check(abs(said / printed - 1) < 0.02, f"page 8 prints the difference that the scene computes: {said}, {printed}")
 
 
 def beside_the_listing():
@@ -719,7 +761,7 @@ try:
     for width in (1300, 400):
         for dark in (False, True):
             shape(width, dark)
-    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, dots_of_a_tie, beside_the_listing, judge_of_kernels):
+    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, shell_of_the_course, dots_of_a_tie, beside_the_listing, judge_of_kernels):
         part()
     check(not browser.errors, f"the page reports no error: {browser.errors[:3]}")
     outside = [r for r in browser.requests if not r.startswith(("file://", "data:", "about:", "blob:"))]
