@@ -15,6 +15,7 @@ import tomllib
 root, module, out = (pathlib.Path(a).resolve() for a in sys.argv[1:])
 sys.path.insert(0, str(root / "reference/course/port"))
 import hint  # noqa: E402
+import stages  # noqa: E402
 
 here, report, course = root / "cpp/playground", root / "cpp/contct/write/report", root / "reference/course"
 
@@ -56,15 +57,32 @@ def beside():
     return {line: "\n".join(textwrap.dedent(b["text"]).strip() for b in part["cpp"] if b["file"].endswith("contct.hpp")) for part in parts for line in part["listing"]}
 
 
+def calls_of_stages(calls):
+    """For each stage of the port, the golden calls that are right from this stage on."""
+    begins = [len(hint.STAGES)] * len(calls)
+    for stage in range(len(hint.STAGES), 0, -1):
+        names = {"__name__": "kernel"}
+        exec(stages.kernel_after(stage), names)
+        for i, c in enumerate(calls):
+            try:
+                answer = names["contct"](c["indof"], c["ndofpn"], {n: (d, d_star) for n, d, d_star in c["dofs"]}, c["pairs"])
+            except (KeyError, ZeroDivisionError):
+                answer = None
+            if begins[i] == stage + 1 - (stage == len(hint.STAGES)) and hint.first_difference(answer, c["answer"]) is None:
+                begins[i] = stage
+    return [[i for i, begin in enumerate(begins) if begin == stage] for stage in range(1, len(hint.STAGES) + 1)]
+
+
 def judged():
-    """The data of the judge on page 12: the golden calls with their answers, and the hints. NaN and infinity are texts,
-    because JSON has no such numbers."""
+    """The data of the judge on page 12: the golden calls with their answers, the stages and the hints. NaN and infinity
+    are texts, because JSON has no such numbers."""
     real = lambda x: x if abs(x) < float("inf") else str(x)
+    golden = hint.golden_calls(root)
     calls = [{"name": c["name"], "note": c["note"], "indof": c["indof"], "ndofpn": c["ndofpn"], "ndof": c["ndof"],
               "dofs": [[n, real(d), real(d_star)] for n, d, d_star in c["dofs"]], "pairs": [[*p[:3], real(p[3])] for p in c["pairs"]],
-              "smin": real(c["answer"][0]), "ss": [real(s) for s in c["answer"][1]], "isep": c["answer"][2]} for c in hint.golden_calls(root)]
+              "smin": real(c["answer"][0]), "ss": [real(s) for s in c["answer"][1]], "isep": c["answer"][2]} for c in golden]
     return {"golden": calls, "hints": hint.read_table(), "where": hint.WHERE,
-            "stages": [{"digests": s["digests"], "next": after["adds"]} for s, after in zip(hint.STAGES, hint.STAGES[1:])]}
+            "stages": [{"adds": s["adds"], "digests": s["digests"], "calls": of} for s, of in zip(hint.STAGES, calls_of_stages(golden))]}
 
 
 def given(**more):

@@ -1,6 +1,6 @@
 // The judge of page 12: a kernel in JavaScript, typed into a box, answers the golden calls. The judge draws the first
 // call with a wrong answer, and compares all answers with the answers of known faults, as
-// reference/course/port/hint.py does.
+// reference/course/port/hint.py does. The kernel can also be run in the beam of page 9.
 "use strict";
 
 const emptyKernel = `// dd, dtest, cc, ss, id, isep, isurf: arrays that begin with 0. Nodes and dofs are numbered from 1.
@@ -12,9 +12,11 @@ function contct(dd, dtest, cc, ss, id, isep, isurf, nc, indof, ndofpn) {
 const unset = -7; // the value of SS before a call
 const patience = 3000; // ms
 
-/** In the worker: the answers of a kernel's source to calls. `tell` receives the number of each call before it. */
-function answerAll(source, calls, tell) {
-  const kernel = new Function(`${source}\nreturn contct;`)();
+/** An error in words, with the line of the source at which it arose. */
+const errorWords = (error) => `${error}${/:(\d+):\d+/.test(error.stack) ? ` (line ${/:(\d+):\d+/.exec(error.stack)[1]})` : ""}`;
+
+/** In the worker: the answers of a kernel to calls. `tell` receives the number of each call before it. */
+function answerAll(kernel, { calls }, tell) {
   return calls.map((c, number) => {
     tell(number);
     const [dd, dtest] = [1, 2].map((k) => {
@@ -25,27 +27,50 @@ function answerAll(source, calls, tell) {
     const [id, isep, isurf] = [0, 1, 2].map((k) => Int32Array.from(c.pairs, (p) => p[k]));
     const ss = new Float64Array(c.pairs.length).fill(-7); // unset
     try {
-      const smin = Number(kernel(dd, dtest, Float64Array.from(c.pairs, (p) => p[3]), ss, id, isep, isurf, c.pairs.length, c.indof, c.ndofpn));
-      return { smin, ss: [...ss], isep: [...isep] };
+      const smin = kernel(dd, dtest, Float64Array.from(c.pairs, (p) => p[3]), ss, id, isep, isurf, c.pairs.length, c.indof, c.ndofpn);
+      return { smin: Number(smin), ss: [...ss], isep: [...isep], silent: smin === undefined };
     } catch (error) {
-      return { error: String(error) };
+      return { error: errorWords(error) };
     }
   });
 }
 
-/** The answers of a kernel's source, or an error. A worker that exceeds `patience` is stopped. */
-function answersOf(source, calls) {
-  const code = `onmessage = (e) => { try { postMessage({ answers: (${answerAll})(e.data.source, e.data.calls, (number) => postMessage({ number })) }); }
-    catch (error) { postMessage({ error: String(error) }); } };`;
+/** In the worker: the displacements of the beam of page 9 at the end of each step, by the paper's loop with a kernel.
+    `responses`: the displacements under a unit load at the tip, with no, one and both springs. */
+function runBeam(kernel, { faces, loads, responses }) {
+  const [d, isep] = [new Float64Array(6), Int32Array.of(1, 1)];
+  let [applied, increments] = [0, 0];
+  return loads.map((load) => {
+    for (let left = load - applied, smin = 0; smin !== 1; left *= 1 - smin) {
+      const star = Float64Array.from(responses[isep.filter((status) => status === -1).length], (w) => w * left);
+      smin = Number(kernel(d.slice(), star.slice(), Float64Array.from(faces), new Float64Array(2).fill(-7), Int32Array.of(3, 3), isep, Int32Array.of(-1, -1), 2, 1, 2));
+      if (!(smin > 0 && smin <= 1)) throw `SMIN is ${smin}; allowed: above 0, at most 1.`;
+      if (++increments > 40) throw "a step does not end within 40 increments.";
+      star.forEach((w, i) => { d[i] += smin * w; });
+    }
+    applied = load;
+    return [...d];
+  });
+}
+
+/** What `work`, answerAll or runBeam, returns for a kernel's source, or an error. The source begins the worker's code, so
+    that lines of errors are those of the source. A worker that exceeds `patience` is stopped. */
+function answersOf(source, work, given) {
+  const code = `${source}\n;{ const errorWords = ${errorWords}; onmessage = (e) => { try { postMessage({ answers: (${work})(contct, e.data, (number) => postMessage({ number })) }); }
+    catch (error) { postMessage({ error: errorWords(error) }); } }; }`;
   const place = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
   const worker = new Worker(place);
   return new Promise((done) => {
     let number = 0;
     const end = (what) => { clearTimeout(clock); worker.terminate(); URL.revokeObjectURL(place); done(what); };
-    const clock = setTimeout(() => end({ error: `The kernel does not answer call ${calls[number].name} in ${patience / 1000} seconds: is there a loop that does not end?` }), patience);
+    const clock = setTimeout(() => end({ error: `The kernel does not answer ${given.calls ? `call ${given.calls[number].name}` : "in the beam"} in ${patience / 1000} seconds: is there a loop that does not end?` }), patience);
     worker.onmessage = (e) => { if (e.data.number === undefined) end(e.data); else number = e.data.number; };
-    worker.onerror = (e) => end({ error: e.message });
-    worker.postMessage({ source, calls });
+    worker.onerror = (e) => {
+      e.preventDefault();
+      const place = e.lineno > source.split("\n").length ? "at the end: is a bracket missing?" : `in line ${e.lineno}`;
+      end({ error: `${e.message.replace("Uncaught ", "")} (${place})` });
+    };
+    worker.postMessage(given);
   });
 }
 
@@ -89,8 +114,8 @@ function hintOf(digest, first, quantity, right) {
   const known = Object.values(given.hints);
   const same = known.filter((h) => h.digest === digest);
   if (same.length > 0) return ["All answers are those of this fault:", ...same.map((h) => h.says)];
-  const stage = given.stages.find((s) => s.digests.includes(digest));
-  if (stage) return ["No fault: the answers match an unfinished port. Next:", stage.next];
+  const stage = given.stages.findIndex((s) => s.digests.includes(digest));
+  if (stage >= 0) return ["No fault: the answers match an unfinished port. Next:", given.stages[stage + 1].adds];
   const alike = known.filter((h) => h.first === first && right > 0);
   return alike.length > 0 ? ["The first wrong answer matches these faults:", ...alike.slice(0, 3).map((h) => h.says)] : ["No known fault gives this answer.", given.where[quantity]];
 }
@@ -104,20 +129,42 @@ class KernelJudge extends Scene {
     const real = (x) => (typeof x === "string" ? Number(x.replace("inf", "Infinity")) : x);
     this.calls = given.golden.map((c) => ({ ...c, dofs: c.dofs.map((d) => d.map(real)), pairs: c.pairs.map((p) => p.map(real)), smin: real(c.smin), ss: c.ss.map(real) }));
     this.source = element("textarea", { spellcheck: "false", rows: "16", "aria-label": "A kernel in JavaScript" });
-    this.source.value = emptyKernel;
+    this.source.value = localStorage.getItem("kernel") ?? emptyKernel;
+    this.source.addEventListener("input", () => localStorage.setItem("kernel", this.source.value));
     this.button = button("Judge", () => this.judge());
+    const again = button("Empty kernel", () => { this.source.value = emptyKernel; this.source.dispatchEvent(new Event("input")); });
+    this.lights = given.stages.map((stage, k) => element("li", { title: stage.adds }, String(k + 1)));
+    [this.inputs, this.beam] = [element("div", { class: "scroll" }), element("div")];
+    const listing = element("ol", { class: "listing", tabindex: "0", role: "region", "aria-label": "The listing" }, ...given.listing.split("\n").slice(0, -1).map((words) => element("li", {}, words)));
     holder.classList.add("port");
-    holder.replaceChildren(this.source, element("div", { class: "controls" }, this.button), this.words, this.picture);
+    holder.replaceChildren(element("div", { class: "desk" }, this.source, listing), element("div", { class: "controls" }, this.button, button("Run it in the beam", () => this.bend()), again),
+      element("ol", { class: "lights", "aria-label": "Stages that are right" }, ...this.lights), this.words, this.inputs, this.picture, this.beam);
+    listing.scrollTop = listing.children[25].offsetTop;
     holder.dataset.lives = "yes";
+  }
+
+  /** Runs the kernel in the beam of page 9, and draws the beam beside the correct one. */
+  async bend() {
+    const fixed = "[beam]\nx = [0.0, 1.0, 2.0]\nEI = 1.0e4\n[[support]]\nnode = 1\nfix = [\"w\", \"theta\"]\n[[step]]\npoint = [ { node = 3, w = 1.0 } ]\n";
+    program ??= await contct_module();
+    const responses = [0, 1, 2].map((springs) => resultOf(springs ? `${fixed}[[support]]\nnode = 3\nspring = { w = ${5e4 * springs}.0 }\n` : fixed, ["fortran"]).steps[0].displacement);
+    const { answers, error } = await answersOf(this.source.value, runBeam, { faces: [-0.004, -0.00401], loads: [-60, 0], responses });
+    this.beam.replaceChildren();
+    if (error) return this.beam.append(element("p", { class: "bad" }, `Your kernel does not bring the beam to the end: ${error}`));
+    this.bent = new TwoRules(this.beam, { ...given.scenes["bent-beam"], slide: null, mine: answers, who: "your kernel" });
+    this.bent.show(Math.abs(answers[1].at(-2) - this.bent.right.steps[1].displacement.at(-2)) > 1e-12 ? 2 : 1);
   }
 
   async judge(source = this.source.value) {
     this.source.value = source;
     this.button.disabled = true;
     this.say("Judging.");
-    const { answers, error } = await answersOf(source, this.calls);
+    const { answers, error } = await answersOf(source, answerAll, { calls: this.calls });
     this.button.disabled = false;
     this.picture.replaceChildren();
+    this.inputs.replaceChildren();
+    const isRight = (i) => !error && !firstDifference(answers[i], this.calls[i]);
+    this.lights.forEach((light, k) => light.classList.toggle("lit", given.stages[k].calls.every(isRight)));
     if (error) return this.say(`No golden call was judged. ${error}`);
     const wrong = answers.map((a, i) => [this.calls[i], a, firstDifference(a, this.calls[i])]).filter(([, , difference]) => difference);
     const count = `${answers.length - wrong.length} of ${answers.length} golden calls are right to the bit.`;
@@ -125,8 +172,20 @@ class KernelJudge extends Scene {
     const [call, answer, found] = wrong[0];
     const value = found.bits === "" ? answer.error : `${found.quantity}${found.pair ? `(${found.pair})` : ""} is ${found.value}; right: ${found.right}.`;
     this.say(count, `First wrong: ${call.name}${call.note ? `: ${call.note}` : ""}. ${value}`,
-      ...hintOf(digestOf(answers), `${call.name} ${found.quantity} ${found.pair} ${found.bits}`, found.quantity, answers.length - wrong.length));
+      ...(answer.silent && found.quantity === "SMIN" ? ["Your function returns nothing: it has to return SMIN."] : hintOf(digestOf(answers), `${call.name} ${found.quantity} ${found.pair} ${found.bits}`, found.quantity, answers.length - wrong.length)));
+    this.showInputs(call, answer);
     if (!answer.error) this.draw(call, answer);
+  }
+
+  /** Shows the inputs of a call, and the right and the given answers, as a table of its pairs. */
+  showInputs(call, { ss = [], isep = [] }) {
+    const cell = (words) => element("td", {}, typeof words === "number" ? digits(words, 6) : words ?? "");
+    const rows = call.pairs.slice(0, 20).map(([id, status, n, c], i) => {
+      const [, d, star] = call.dofs.find(([dof]) => dof === (id - 1) * call.ndofpn + call.indof) ?? [];
+      return element("tr", {}, ...[i + 1, d, star, c, n, status, call.ss[i], ss[i], call.isep[i], isep[i]].map(cell));
+    });
+    const heads = ["pair", "D", "d*", "c", "n", "status", "s", "your s", "new status", "yours"].map((words) => element("th", {}, words));
+    this.inputs.replaceChildren(element("table", {}, element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...rows)));
   }
 
   say(...sentences) { this.words.replaceChildren(...sentences.map((s) => element("p", {}, s))); }

@@ -51,11 +51,31 @@ def check_stages(folder, language):
     check(fuzzed.returncode == 0, f"{language}, the last stage is equal in a fuzz run: exit {fuzzed.returncode}")
 
 
+# Likely faults of a port: entries of hints.toml, and edits of the complete kernel in Python.
+LIKELY = {"port-gap-with-n": [("gap = face - d", "gap = isurf * (face - d)")],
+          "port-gap-with-n-and-sign": [("gap = face - d", "gap = isurf * (face - d)"), ("abs(gap)", "gap")],
+          "port-without-epsmul": [("abs(s - smin) / smin < 0.390625e-02", "s == smin")]}
+
+
+def check_likely_faults(folder):
+    for key, edits in LIKELY.items():
+        source = stages.kernel_after(10)
+        for old, new in edits:
+            check(source.count(old) == 1, f"{key}: found {source.count(old)} times: {old}")
+            source = source.replace(old, new)
+        (folder / "likely.py").write_text(source)
+        answers = hint.answers_of(built(folder / "likely.py"), CALLS)
+        found, first = hint.findings(CALLS, answers)
+        check({**found, "says": TABLE.get(key, {}).get("says")} == TABLE.get(key), f"{key}: found {found}; hints.toml has {TABLE.get(key)}")
+        check(hint.hints(found, first[1][0], TABLE)[1] == [TABLE.get(key, {}).get("says")], f"{key}: its hint")
+
+
 with tempfile.TemporaryDirectory() as name:
+    check_likely_faults(Path(name))
     for language in LANGUAGES:
         file = Path(name, f"{language}-0.{language}")
         file.write_text(stages.kernel_after(0, language))
         found = judged(built(file))
         check(found[:3] == (0, 0, 1), f"the empty kernel {file.name} answers {found[0]} calls and passes {found[1]} traces; allowed: 0")
         check_stages(Path(name), language)
-check.end(60)
+check.end(70)

@@ -713,7 +713,7 @@ FAULTS = [("smin-quotient-dropped", " - smin) / smin", " - smin)"), ("epsmul-le"
 def judged(source):
     """Returns the text of page 12 about a kernel that is typed into its box."""
     value(f"document.querySelector('[data-port] textarea').value = {json.dumps(source)}")
-    value("document.querySelector('[data-port] button').click()")
+    value("document.querySelector('[data-port] textarea').dispatchEvent(new Event('input')), document.querySelector('[data-port] button').click()")
     browser.wait_for("!document.querySelector('[data-port] button').disabled", 20)
     return value("document.querySelector('[data-port] .told').innerText")
 
@@ -742,7 +742,64 @@ def judge_of_kernels():
     said = judged(right.replace("isep[i] === 1 ? -1 : 1", "-isep[i]").replace(FAULTS[1][1], "ss[i] === smin || diff < 0"))
     check(f"{stages[7]['right']['calls']} of 223 " in said and said.rstrip().endswith(stages[8]["adds"]), f"an unfinished kernel is told what comes next: {said}")
     check("SyntaxError" in judged("function contct( {") and "no is not defined" in judged(right.replace("let smin = 1;", "no();")), "what JavaScript refuses is told")
+    check("line 2" in judged("function contct() {\n  let = = 1;\n}") and "at the end" in judged("function contct() {\n"), "with its line")
+    check("(line 2)" in judged(right.replace("let smin = 1;", "no();")), "an error of a run, too")
     check(judged(right).startswith("223 of 223 "), "the judge goes on after all of that")
+
+
+def workshop():
+    """Checks the lights, the inputs, the likely faults, the beam and the memory of page 12."""
+    table, stages = toml("course/hints.toml"), toml("course/port/stages.toml")["stage"]
+    right = (ROOT / "tests/playground/kernel.js").read_text(encoding="utf-8")
+    browser.open(COURSE / "12-port-it.html", width=1200)
+    browser.wait_for("document.querySelector('[data-port] textarea') !== null")
+    top = value("document.querySelector('[data-port]').getBoundingClientRect().top")
+    check(top < 700, f"the workshop is at the head of its page: {top:.0f} px")
+    calls = value("given.stages.map((s) => s.calls.length)")
+    total = [sum(calls[:k]) for k in range(1, 11)]
+    check(len(calls) == 10 and total[-1] == 223 and all(a <= s["right"]["calls"] for a, s in zip(total, stages)), f"each golden call has its light: {total}")
+    lit = lambda source: (judged(source), all_of(".lights li", "e.classList.contains('lit')"))[1]
+    check(lit(right) == [True] * 10, "a right kernel lights all ten")
+    check(lit(right.replace("isep[i] === 1 ? -1 : 1", "-isep[i]")) == [True] * 9 + [False], "a kernel of stage 9 lights nine")
+    check(not any(lit("function contct() { return 0; }")), "a kernel of stage 0 lights none")
+    for name, edits in (("port-gap-with-n", [("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])")]), ("port-without-epsmul", [("diff < 1 / 256", "ss[i] === smin")]),
+                        ("port-gap-with-n-and-sign", [("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])"), ("Math.abs(gap)", "gap")])):
+        source = right
+        for edit in edits:
+            source = source.replace(*edit)
+        said = judged(source)
+        check(said.rstrip().endswith(table[name]["says"]), f"the likely fault {name} is told by its hint: {said}")
+    shown = all_of("[data-port] tbody tr:first-child td")
+    call = value("given.golden.find((c) => c.name === 'inconsistent-start 1')")
+    check([float(x.replace("−", "-")) for x in shown[1:6]] == [call["dofs"][0][1], call["dofs"][0][2], call["pairs"][0][3], call["pairs"][0][2], call["pairs"][0][1]],
+          f"D, d*, c, n and the status of the failing call are shown: {shown}")
+    check("returns nothing" in judged(right.replace("\n  return smin;\n", "\n")), "a missing return is told")
+    browser.open(COURSE / "12-port-it.html")
+    browser.wait_for("document.querySelector('[data-port] textarea') !== null")
+    check("Math.abs(gap)" in value("document.querySelector('[data-port] textarea').value"), "a kernel outlives a reload")
+    tip = natively("run", (ROOT / "reference/problems/divergences/near-tie.toml").read_text(encoding="utf-8"))["steps"]
+    for source, ends in ((right, [s["displacement"][-2] for s in tip]), (right.replace("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])"), [-60 * 8 / 3e4, 0])):
+        judged(source)
+        value("scenes[0].bend()")
+        bent = value("scenes[0].bent.old.steps.map((s) => s.displacement.at(-2))")
+        check(max(abs(a - b) for a, b in zip(bent, ends)) < 1e-12 and value("document.querySelector('[data-port] .member') !== null"), f"the kernel bends the beam: {bent}, {ends}")
+    judged(right.replace("let smin = 1;", "return 2;"))
+    value("scenes[0].bend()")
+    check("SMIN is 2; allowed" in value("scenes[0].beam.textContent"), "a kernel that cannot carry the beam is told why")
+
+
+def cliff_of_the_tolerance():
+    """Checks that the slider of page 9 finds the height at which the listing's tolerance ends, 4 mm / 256."""
+    open_scene("09-wrong", 1200)
+    stays = {}
+    for mm in (0.005, 0.015, 0.016, 0.1):
+        value(f"scenes[0].range.value = '{mm}', scenes[0].range.dispatchEvent(new Event('input'))")
+        stays[mm] = value("Number(scenes[0].plot.querySelector('.gold').dataset.stays)")
+        told_tip = value("Number(scenes[0].words.querySelector('b').dataset.value)")
+        check(abs(stays[mm] - 1000 * abs(told_tip)) < 1e-9, f"the plot shows what the words say: {stays[mm]}, {told_tip}")
+    for mm in (0.005, 0.015):
+        check(abs(stays[mm] - mm * 5e4 * 8 / 3e4) < 1e-9, f"lower by {mm} mm, {stays[mm]} mm stay: k times the height, times L^3 / (3 EI)")
+    check(max(stays[0.016], stays[0.1]) < 1e-9 and 0.015 < 4 / 256 < 0.016, f"beyond 4 mm / 256 nothing stays: {stays}")
 
 
 SCENES = json.loads((ROOT / "reference/course/scenes/scenes.json").read_text(encoding="utf-8"))
@@ -761,7 +818,7 @@ try:
     for width in (1300, 400):
         for dark in (False, True):
             shape(width, dark)
-    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, shell_of_the_course, dots_of_a_tie, beside_the_listing, judge_of_kernels):
+    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, shell_of_the_course, dots_of_a_tie, beside_the_listing, cliff_of_the_tolerance, judge_of_kernels, workshop):
         part()
     check(not browser.errors, f"the page reports no error: {browser.errors[:3]}")
     outside = [r for r in browser.requests if not r.startswith(("file://", "data:", "about:", "blob:"))]
