@@ -5,7 +5,7 @@
 class TwoRules extends Scene {
   /** `names`: a description of each step. `kernels`: kernels of the 1989 rule. `units`: of force and length. `slide`: a
       face that a slider lowers, and by how much. `mine`: displacements at the end of each step by another kernel, `who`. */
-  constructor(holder, { text, names, kernels = ["fortran", "cpp"], units = ["", ""], slide = null, mine = null, who = "the rule of 1989" }) {
+  constructor(holder, { text, names, kernels = ["fortran", "cpp"], units = ["", ""], slide = null, mine = null, who = "the 1989 rule" }) {
     super(holder);
     Object.assign(this, { text, kernels, units, slide, mine, who, steps: ["no load yet", ...names], at: 0, seen: new Map() });
     this.solve(text);
