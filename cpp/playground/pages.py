@@ -58,8 +58,8 @@ def beside():
 
 
 def calls_of_stages(calls):
-    """For each stage of the port, the golden calls that are right from this stage on."""
-    begins = [len(hint.STAGES)] * len(calls)
+    """Returns for each stage of the port the golden calls that its kernel and those of all later stages answer right."""
+    begins = [len(hint.STAGES) + 1] * len(calls)
     for stage in range(len(hint.STAGES), 0, -1):
         names = {"__name__": "kernel"}
         exec(stages.kernel_after(stage), names)
@@ -68,7 +68,7 @@ def calls_of_stages(calls):
                 answer = names["contct"](c["indof"], c["ndofpn"], {n: (d, d_star) for n, d, d_star in c["dofs"]}, c["pairs"])
             except (KeyError, ZeroDivisionError):
                 answer = None
-            if begins[i] == stage + 1 - (stage == len(hint.STAGES)) and hint.first_difference(answer, c["answer"]) is None:
+            if begins[i] == stage + 1 and hint.first_difference(answer, c["answer"]) is None:
                 begins[i] = stage
     return [[i for i, begin in enumerate(begins) if begin == stage] for stage in range(1, len(hint.STAGES) + 1)]
 
@@ -120,14 +120,14 @@ def markdown_of(file):
 
 
 def linked(m, file, names):
-    """A link or picture of a page: to another page, or to a file of the tree."""
+    """The address of a link or picture of `file`: another page, or a file of the tree."""
     target, mark, place = m[2].partition("#")
     to = (file.parent / target).resolve()
     return f'{m[1]}="{names.get(to) or pathlib.Path("../..", to.relative_to(root)).as_posix()}{mark}{place}"'
 
 
 def numbered(m):
-    """A block with lines of the listing gets their numbers."""
+    """A block of the page; with the numbers of its lines if they are lines of the listing."""
     lines, all_lines = html.unescape(m[1]).splitlines(), read(root / "fortran/contct.f").splitlines()
     first = next((i for i in range(len(all_lines)) if len(lines) > 1 and all_lines[i:i + len(lines)] == lines), None)
     return m[0] if first is None else f'<pre class="numbered" style="counter-reset: line {first}"><code>{"".join(f"<span>{line}</span>{chr(10)}" for line in m[1].splitlines())}</code></pre>'
