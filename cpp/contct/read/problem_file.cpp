@@ -100,8 +100,8 @@ class problem_reader {
 
   /// Reads the key "name" of a table with `count` places: one name for all, or one for each. Refuses a name
   /// that another place or table of the same kind has. [count]; empty texts if the table has no name.
-  [[nodiscard]] std::vector<std::string> read_names(const toml_value& t, std::size_t count,
-                                                    const std::vector<std::string>& others) const {
+  [[nodiscard]] static std::vector<std::string> read_names(const toml_value& t, std::size_t count,
+                                                           const std::vector<std::string>& others) {
     if (!t.has("name")) return std::vector<std::string>(count);
     const std::string allowed = fmt::format("text, or a list of {}", counted(count, "text"));
     std::vector<std::string> names;

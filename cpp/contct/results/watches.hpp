@@ -12,8 +12,8 @@ namespace contct {
 /// The least and largest value of a quantity in a part, from 0. `where` is the node's place; of a bed, the
 /// place with that pressure.
 struct watched_range {
-  std::size_t part;
-  const quantity_row* row;
+  std::size_t part = 0;
+  const quantity_row* row = nullptr;
   placed_value least, most;
 };
 
