@@ -639,8 +639,8 @@ def run(problem: Any, *, kernels: Optional[Kernels] = None, engine: Optional[str
         pairs: Iterable[Any] = (), loads: Any = None, supports: Any = (), labels: Optional[Sequence[str]] = None,
         free_motions: Optional[int] = None, folder: Folder = None, allow_outside: bool = False) -> Result:
     """Follow the path of a problem: `contct run`. `problem` is the name of a problem file (ending in `.toml`, or a Path),
-    its text, a dict with the same keys, or a stiffness matrix: a square array, or an object with `tocoo()` such as a
-    SciPy sparse matrix.
+    its text, a dict with the same keys, or a stiffness matrix: a list of rows, a square array, or an object with `tocoo()`
+    such as a SciPy sparse matrix.
 
     With a matrix, rows and dofs are numbered from 0, or named by `labels`. `loads` has a number for each dof, or is a
     dict of them. `pairs` has tuples (dof, surface, face, stiffness) or dicts with the keys of [[contact]]: surface "below"
@@ -753,20 +753,23 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
 
 
 def _is_matrix(given: Any) -> bool:
-    return hasattr(given, "tocoo") or getattr(given, "ndim", 0) == 2
+    return hasattr(given, "tocoo") or getattr(given, "ndim", 0) == 2 or (
+        isinstance(given, list) and given != [] and all(isinstance(row, list) for row in given))
 
 
 def _symmetric_entries(matrix: Any) -> list[tuple[int, int, float]]:
     """The entries (row, column, value) of the lower triangle, from 0. Entries at the same place are added."""
     entries: dict[tuple[int, int], float] = {}
-    if matrix.shape[0] != matrix.shape[1]:
-        raise InputError(f"matrix: found {matrix.shape[0]} rows and {matrix.shape[1]} columns; allowed: a square matrix")
-    if hasattr(matrix, "tocoo"):
+    rows = [] if hasattr(matrix, "tocoo") else matrix if isinstance(matrix, list) else matrix.tolist()
+    count, widths = len(rows) or matrix.shape[0], {len(row) for row in rows} or {matrix.shape[1]}
+    if widths != {count}:
+        raise InputError(f"matrix: found {count} rows and {min(widths - {count})} columns; allowed: a square matrix")
+    if not rows:
         coo = matrix.tocoo()
         for row, column, value in zip(coo.row.tolist(), coo.col.tolist(), coo.data.tolist()):
             entries[row, column] = entries.get((row, column), 0.0) + value
     else:
-        entries = {(i, j): value for i, row in enumerate(matrix.tolist()) for j, value in enumerate(row) if value != 0}
+        entries = {(i, j): value for i, row in enumerate(rows) for j, value in enumerate(row) if value != 0}
     largest = max((abs(value) for value in entries.values()), default=0.0)
     for (row, column), value in entries.items():
         across = entries.get((column, row), 0.0)
@@ -782,7 +785,7 @@ _PAIR = ("dof", "surface", "face", "stiffness")
 def _matrix_problem(matrix: Any, pairs: Iterable[Any], loads: Any, supports: Any, labels: Optional[Sequence[str]],
                     folder: Path, free_motions: Optional[int]) -> dict[str, Any]:
     """Write a matrix and its labels to `folder`, and return a problem that names these files."""
-    entries, size = _symmetric_entries(matrix), matrix.shape[0]
+    entries, size = _symmetric_entries(matrix), len(matrix) if isinstance(matrix, list) else matrix.shape[0]
     names = [str(name) for name in labels] if labels is not None else [str(row) for row in range(size)]
     if len(names) != size:
         raise InputError(f"labels: found {_count(len(names), 'label')}; allowed: {size}, one for each dof")

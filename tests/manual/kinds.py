@@ -47,6 +47,9 @@ KINDS = {
     "combinations": PLAIN + ENDS + STOP + SUMS,
     "combinations of a plate": THICK + EDGE + UNDER + SUMS,
     "train": PLAIN + ENDS + STOP + CASES + TRAIN,
+    "train at many places": PLAIN + ENDS + STOP + CASES + TRAIN.replace("by = 1", "by = 0.05"),
+    "names": 'project = "P"\nauthor = "A"\nrevision = "1"\n' + UNITS + PLAIN + ENDS + 'name = ["A", "B"]\n' + STOP + 'name = "S"\n' + BED + 'name = "soil"\n' + SUMS
+    + '[[watch]]\nname = "left"\nto = 2\n[[watch]]\nname = "ends"\nnames = ["A", "B", "S", "soil"]\n',
     "units": UNITS + PLAIN + ENDS + STOP + BED + EVEN,
     "mechanism": PLAIN + STOP + EVEN,
     "mechanisms of combinations": PLAIN + BED + SUMS,

@@ -135,10 +135,18 @@ def test_contct_run_solves_a_matrix_in_memory_with_pairs_as_tuples_or_dicts():
     assert contct.run(CHAIN, loads={"c": -3.0}, labels=["a", "b", "c"]).steps[0].w[2] == pytest.approx(-0.009, rel=1e-12)
 
 
+ROWS = [[2000.0, -1000.0, 0.0], [-1000.0, 2000.0, -1000.0], [0.0, -1000.0, 1000.0]]
+
+
+def test_a_list_of_rows_is_a_matrix():
+    assert list(contct.run(ROWS, pairs=STOP, loads=LOADS).steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
+    for wrong in (ROWS[:2], [ROWS[0], ROWS[1], ROWS[2][:2]]):
+        assert "allowed: a square matrix" in str(refusal(wrong, contct.run, pairs=STOP, loads=LOADS))
+
+
 def test_a_square_array_is_a_matrix():
     numpy = pytest.importorskip("numpy")
-    found = contct.run(numpy.array([[2000.0, -1000.0, 0.0], [-1000.0, 2000.0, -1000.0], [0.0, -1000.0, 1000.0]]), pairs=STOP, loads=LOADS)
-    assert list(found.steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
+    assert list(contct.run(numpy.array(ROWS), pairs=STOP, loads=LOADS).steps[0].displacement) == pytest.approx(RIGHT, rel=1e-12)
 
 
 @pytest.mark.parametrize("changed, words", [
