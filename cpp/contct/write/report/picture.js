@@ -207,11 +207,15 @@ const hasForce = (p) => p.look === "c" || Math.abs(p.force) > 1e-6 * scene.force
 // The pairs whose numbers are written: all, those that are not of a bed, or those of them that have a force.
 const numberedOf = (pairs, own = pairs.filter((p) => !p.bed)) => [pairs, own, own.filter(hasForce)].find((some) => some.length <= 60) ?? [];
 
-// Of a plate's bed in colours, only pairs at the border of the contact are drawn, small.
+// Inside a plate's bed in colours, only pairs at the border of the contact are drawn, small.
 function bordersContact(f) {
   const looks = new Map(f.pairs.filter((p) => p.bed).map((p) => [p.at, p.look]));
   const across = structure.columns;
-  return (p) => !p.bed || [-1, 1, -across, across].some((d) => looks.has(p.at + d) && looks.get(p.at + d) !== p.look && (Math.abs(d) > 1 || Math.floor(p.at / across) === Math.floor((p.at + d) / across)));
+  return (p) => {
+    const beside = [-1, 1].map((d) => p.at + d).filter((at) => Math.floor(at / across) === Math.floor(p.at / across));
+    const around = [...beside, p.at - across, p.at + across].filter((at) => looks.has(at));
+    return !p.bed || around.length < 3 || around.some((at) => looks.get(at) !== p.look);
+  };
 }
 
 function drawPairs(root, all, on) {
