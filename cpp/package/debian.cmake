@@ -69,7 +69,7 @@ prove error bounds, and read problem files and write results.
 C and C++ programs need no Fortran compiler. The Fortran module is gfortran's.")
 # The packages of all libraries that contct's libraries link or that contct-config.cmake searches.
 string(REGEX MATCH "^[0-9]+" gfortran ${CMAKE_Fortran_COMPILER_VERSION})
-set(needed libgfortran-${gfortran}-dev liblapack-dev libblas-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev)
+set(needed libgfortran-${gfortran}-dev liblapack-dev libblas-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libboost-dev)
 if(CONTCT_HAS_CHOLMOD)
   list(APPEND needed libsuitesparse-dev)
 endif()
