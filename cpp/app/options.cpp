@@ -213,11 +213,13 @@ void declare_run(option_parser& p, CLI::App* c) {
   CLI::Option* const final_only = c->add_flag("--final-only", o.final_only,
                                               "Do not follow the path: find only the reference solution at "
                                               "the end of each step, and its certificate");
-  c->add_option(
-       "--compare", o.compare,
-       "Where there are more than 20 combinations: compare the 1989 rule with the answer in 20 of them, "
-       "the governing ones first, or in all [20]")
-      ->check(CLI::IsMember({"20", "all"}));
+  CLI::Option* const compare = c->add_option(
+      "--compare", o.compare,
+      "Where there are more than 20 combinations: compare the 1989 rule with the answer in 20 of them, "
+      "the governing ones first, or in all [20]");
+  compare->check(CLI::IsMember({"20", "all"}));
+  for (const char* of_other_rules : {"--kernels", "--free-run"})
+    compare->excludes(c->get_option(of_other_rules));
   c->add_flag("--strict", o.strict, "Exit with status 3 if a final state is not certified");
   c->add_flag("--detail", o.detail,
               "Print every event, and after each step all pairs, reactions, and moments and shears at the "

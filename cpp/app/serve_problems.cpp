@@ -164,10 +164,10 @@ char* contct_run(const char* text, const char* options) {
     const linear_structure structure = structure_of(p);
     run run(p, structure, wanted);
     run.go(to);
-    if (r.flag("refine")) run.refine();
     run.find_mesh_errors();
     if (status_of(run.result.end.status) == exit_status::bad_input)
       throw std::invalid_argument(wanted.file + ": " + end_words(p, run.result.end));
+    if (r.flag("refine")) run.refine();
     write_outputs(run);
     a.exit = run.exit();
     if (const lockstep* const calls = run.result.compared_calls(); calls != nullptr && calls->first())

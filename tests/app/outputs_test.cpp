@@ -270,3 +270,45 @@ TEST_CASE("a plate of 100 by 100 elements takes under 462 MB, and a beam of 100,
   for (const auto& pair : steps[0]["pairs"]) CHECK(pair["state"] == "contact");
   for (const auto& pair : steps[1]["pairs"]) CHECK(pair["state"] == "separated");
 }
+
+TEST_CASE("The names of supports, pairs and beds are in every output of contct run") {
+  const workplace here;
+  here.write(
+      "named.toml",
+      "project = 'Hall 3'\n[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = "
+      "'w'\n"
+      "name = ['north', 'south']\n[[contact]]\nx = 6\nsurface = 'below'\nface = -0.001\nstiffness = "
+      "1e4\nname = "
+      "'stop'\n[[bed]]\nfrom = 1\nto = 4\nmodulus = 100\nface = 0\nname = 'soil'\n[[step]]\nuniform = -10\n");
+  here.check("run named.toml --detail --csv t.csv --json t.json --html t.html", 0,
+             {"make 1: stop, node 7 below", "pair 1, stop, node 7 below", "bed 1, soil", "south"});
+  const std::vector<std::string> names = {"north", "south", "stop", "soil"};
+  for (const auto& [file, all] : {std::pair("t.supports.csv", names),
+                                  {"t.pairs.csv", {"stop", "soil"}},
+                                  {"t.json", names},
+                                  {"t.html", names}})
+    for (const std::string& name : all) {
+      INFO(file << " " << name);
+      CHECK(count(here.read(file), name) > 0);
+    }
+  CHECK(count(here.read("t.html"), "Hall 3") > 0);
+  here.check("explain named.toml", 0, {"stop, node 7"});
+}
+
+TEST_CASE("In combinations in which the 1989 rule was not followed, no increment says that it is the same") {
+  const workplace here;
+  here.write("places.toml",
+             "[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = "
+             "'w'\n[[contact]]\nx = 6\n"
+             "surface = 'below'\nface = -0.001\nstiffness = 1e5\n[[train]]\nname = 'axle'\naxles = [ { at = "
+             "0, w = -10 } "
+             "]\nfrom = 0.5\nto = 11.5\nby = 0.25\n");
+  const std::string some = here.contct("run places.toml --detail").out;
+  CHECK(count(some, "  same  ") > 0);
+  CHECK(count(some, "  -  ") > 0);
+  CHECK(count(some, "  ended  ") == 0);
+  const std::string whole = here.contct("run places.toml --detail --compare all").out;
+  CHECK(count(whole, "  same  ") == count(some, "  same  ") + count(some, "  -  "));
+  for (const std::string other : {"--kernels cpp", "--free-run", "--final-only"})
+    here.check("run places.toml --compare all " + other, 2, {}, {"--compare"});
+}

@@ -224,12 +224,18 @@ std::string_view name_of_entry(const problem& p, on where, std::size_t i) {
                                                          : std::string_view();
 }
 
-std::string entry_words(const problem& p, on where, std::size_t i) {
-  const list_row& list = list_of(where);
+std::string name_before(const problem& p, on where, std::size_t i) {
   const std::string name = on_one_line(name_of_entry(p, where, i));
-  if (list.node == nullptr)
-    return fmt::format("{} {}{}{}", list.entry, i + 1, name.empty() ? "" : ", ", name);
-  return name + (name.empty() ? "" : ", ") + place_words(p.geometry, list.node(p, i));
+  return name + (name.empty() ? "" : ", ");
+}
+
+std::string entry_words(const problem& p, on where, std::size_t i) {
+  return name_before(p, where, i) + place_words(p.geometry, list_of(where).node(p, i));
+}
+
+std::string numbered_words(const problem& p, on where, std::size_t i) {
+  const std::string name = on_one_line(name_of_entry(p, where, i));
+  return fmt::format("{} {}{}{}", list_of(where).entry, i + 1, name.empty() ? "" : ", ", name);
 }
 
 std::string_view key_in_list(const quantity_row& row) {

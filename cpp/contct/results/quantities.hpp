@@ -28,9 +28,12 @@ struct list_row {
 
 /// The name that the file gives to an entry, from 0, or to the bed of a pair; empty: none.
 [[nodiscard]] std::string_view name_of_entry(const problem& p, on where, std::size_t i);
-/// The place of an entry at a node, with its name: "node 7", "S4, node 7"; otherwise "bed 1", "bed 1,
-/// ballast".
+/// The name of an entry before other words: "S4, "; empty without a name.
+[[nodiscard]] std::string name_before(const problem& p, on where, std::size_t i);
+/// The place of an entry at a node, with its name: "node 7", "S4, node 7".
 [[nodiscard]] std::string entry_words(const problem& p, on where, std::size_t i);
+/// The number of an entry, with its name: "bed 1", "bed 1, ballast".
+[[nodiscard]] std::string numbered_words(const problem& p, on where, std::size_t i);
 
 /// The lists whose entries every mesh has.
 inline constexpr on lists_of_entries[] = {on::supports, on::pairs, on::beds, on::hinges, on::structure};

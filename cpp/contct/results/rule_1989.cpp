@@ -105,10 +105,7 @@ struct end_comparison {
 };
 
 std::string place_on(const problem& p, on list, std::size_t i, std::size_t of_element) {
-  if (list == on::pairs) {
-    const std::string name = on_one_line(name_of_entry(p, list, i));
-    return fmt::format("pair {}{}{}", i + 1, name.empty() ? "" : ", ", name);
-  }
+  if (list == on::pairs) return numbered_words(p, list, i);
   if (list == on::element_ends) return fmt::format("element {}", i / of_element + 1);
   return "the support at " + entry_words(p, on::supports, i);
 }
@@ -166,7 +163,8 @@ void compare_states(const run_result& answer, rule_1989& r) {
     state_difference d = compared(nullptr);
     if (d.is_wrong()) {
       if (!rounding) rounding.emplace(answer.what);
-      for (; &r.record.steps[added] <= its; ++added) rounding->add(r.record.steps[added]);
+      for (; added <= static_cast<std::size_t>(its - r.record.steps.data()); ++added)
+        rounding->add(r.record.steps[added]);
       d = compared(&*rounding);
       d.but_for_rounding = !d.is_wrong();
     }

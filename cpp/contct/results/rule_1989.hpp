@@ -25,6 +25,7 @@ struct other_event {
 struct row_of_1989 {
   std::vector<other_event> otherwise = {};  ///< the events that differ
   bool reached = true;                      ///< false: the 1989 path ended before this increment
+  bool followed = true;                     ///< false: the 1989 rule was not followed in this combination
 };
 
 /// The number in which the end of a step by the 1989 rule differs most from the answer, beyond the error of

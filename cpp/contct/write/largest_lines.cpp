@@ -104,7 +104,7 @@ std::vector<std::string> sum_lines(const step_results& r) {
   if (!sums.empty()) lines.push_back(fmt::format("{:<14}{}", "sums", joined(sums, ", ")));
   for (std::size_t i = 0; const bed_reading& b : beds_in(r))
     lines.push_back(fmt::format("{:<13} force {}, pressure {:.6g} to {}, largest at {}; {} in contact",
-                                entry_words(p, on::beds, i++), number(b.force, unit::force),
+                                numbered_words(p, on::beds, i++), number(b.force, unit::force),
                                 b.pressure.least.value, number(b.pressure.most.value, unit::pressure),
                                 place_words(p.geometry, b.pressure.most), number(b.contact, unit::extent)));
   for (std::size_t i = 0; i < list_of(on::hinges).count(p); ++i) {

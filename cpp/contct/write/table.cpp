@@ -177,9 +177,9 @@ class table_printer {
   [[nodiscard]] row_of_1989 beside(std::size_t step, std::size_t first, std::size_t count) const {
     row_of_1989 all;
     if (!run_.beside) return all;
-    if (run_.beside->rows[step].empty()) all.reached = false;
-    for (const row_of_1989& row :
-         std::span(run_.beside->rows[step]).subspan(first, run_.beside->rows[step].empty() ? 0 : count)) {
+    const std::vector<row_of_1989>& rows = run_.beside->rows[step];
+    all.followed = !rows.empty();
+    for (const row_of_1989& row : std::span(rows).subspan(first, all.followed ? count : 0)) {
       all.otherwise.insert(all.otherwise.end(), row.otherwise.begin(), row.otherwise.end());
       all.reached = all.reached && row.reached;
     }
@@ -188,7 +188,8 @@ class table_printer {
 
   /// The text of a row in the column "1989" or "kernels", padded if painted; empty without such a column.
   [[nodiscard]] std::string cell(bool equal, const row_of_1989& other) const {
-    if (run_.beside) return !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
+    if (run_.beside)
+      return !other.followed ? "-" : !other.reached ? "ended" : other.otherwise.empty() ? "same" : "other";
     if (!run_.compared) return "";
     return equal ? painted(terminal_, paint::good, "equal") + "  "
                  : painted(terminal_, paint::bad, "DIFFER") + " ";
@@ -244,7 +245,9 @@ class table_printer {
                "s: share of the remaining load that the increment applies"};
     if (snapped_) words.emplace_back("snap: a rigid-body motion at constant load");
     if (headed_ && run_.compared) words.emplace_back("kernels: whether their bits are equal");
-    if (headed_ && run_.beside) words.emplace_back("1989: whether that rule has the same events");
+    if (headed_ && run_.beside)
+      words.emplace_back("1989: whether that rule has the same events" +
+                         std::string(run_.beside->only.empty() ? "" : "; - where it was not followed"));
     if (run_.record.steps.empty()) return words;
     words.emplace_back("digits: correct in every number");
     const auto rows = quantities_of(problem_, on::element_ends);
@@ -310,22 +313,19 @@ class table_printer {
     for (const envelope::listed& list : e.lists) {
       const quantity_row* const row = list.row;
       const auto& at = list.at;
-      const auto named = [&](std::size_t i) {
-        const std::string name = on_one_line(name_of_entry(problem_, row->where, i));
-        return name + (name.empty() ? "" : ", ");
-      };
       if (row->where == on::pairs) {
         const auto force = std::ranges::max_element(at, {}, [](const auto& r) { return r.most.value; });
         const auto pair = static_cast<std::size_t>(force - at.begin());
         if (force->most.value > 0.0)
           add("largest contact", at_node(force->most.value, problem_.pairs[pair].node), force->most.step,
-              row->in, fmt::format("pair {}, {}", pair + 1, named(pair)));
+              row->in, fmt::format("pair {}, {}", pair + 1, name_before(problem_, on::pairs, pair)));
       } else if (row->where == on::supports && row->in == unit::force) {
         for (const int side : {-1, 1}) {
           const auto of = [&](std::size_t i) { return side < 0 ? at[i].least : at[i].most; };
           if (const auto i = extreme_support(problem_, side, [&of](std::size_t k) { return of(k).value; }))
             add(side < 0 ? "least reaction" : "largest reaction",
-                at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, row->in, named(*i));
+                at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, row->in,
+                name_before(problem_, on::supports, *i));
         }
       } else if (row->where == on::beds) {
         for (std::size_t bed = 0; bed < at.size(); ++bed)
@@ -333,7 +333,7 @@ class table_printer {
                {std::pair("least", &at[bed].least), std::pair("largest", &at[bed].most)})
             lines += fmt::format("{:<17} {:<19} {:<22} {}\n", fmt::format("{} {}", word, key_in_list(*row)),
                                  fmt::format("{:.6g}{}", found->value + 0.0, unit_words(problem_, row->in)),
-                                 entry_words(problem_, on::beds, bed),
+                                 numbered_words(problem_, on::beds, bed),
                                  on_one_line(problem_.steps[found->step - 1].name));
       }
     }

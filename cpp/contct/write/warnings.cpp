@@ -85,32 +85,31 @@ std::string size_warning(const problem& p, std::span<const solved_step> steps) {
   const auto* const on = std::get_if<plate>(&p.geometry.kind);
   const place first = place_of_node(p.geometry, 0);
   const place last = place_of_node(p.geometry, nodes(p.geometry) - 1);
-  // A plate of unknown thickness is compared with its shorter side, as a beam with its length.
+  const bool has_thickness = on != nullptr && on->thickness > 0.0;
   const double length = on == nullptr ? last.x - first.x : std::min(last.x - first.x, last.y - first.y);
-  const bool is_thick = on != nullptr && on->thickness > 0.0;
-  const double allowed = is_thick ? on->thickness / 2 : length / 10;
+  const double large = has_thickness ? on->thickness / 2 : length / 10;
   double w = 0.0;
   double slope = 0.0;
-  int step = 0;
+  int step = 0;  // that with the largest of both, as shares of what is large
   for (const solved_step& s : steps) {
-    const double before = std::max(w / allowed, slope / large_slope);
+    const double before = std::max(w / large, slope / large_slope);
     const auto stride = static_cast<std::size_t>(dofs_per_node(p.geometry));
     for (std::size_t dof = 0; dof < s.displacement.size(); ++dof) {
       double& most = dof % stride == 0 ? w : slope;
       most = std::max(most, std::abs(s.displacement[dof]));
     }
-    if (std::max(w / allowed, slope / large_slope) > before) step = s.step;
+    if (std::max(w / large, slope / large_slope) > before) step = s.step;
   }
-  if (w <= allowed && slope <= large_slope) return "";
-  return fmt::format("{}: {}; results assume small displacements, {} and slopes up to {}",
-                     step_words(p, step),
-                     w > allowed ? fmt::format("a deflection of {:.3g}{}", w, unit_words(p, unit::length))
-                                 : fmt::format("a slope of {:.3g}", slope),
-                     is_thick ? fmt::format("deflections up to half the thickness, {:.3g}{},", allowed,
-                                            unit_words(p, unit::length))
-                              : fmt::format("deflections up to a tenth of the length, {:.3g}{},", allowed,
-                                            unit_words(p, unit::length)),
-                     large_slope);
+  if (w <= large && slope <= large_slope) return "";
+  const std::string in = unit_words(p, unit::length);
+  const std::string found =
+      w > large ? fmt::format("deflection of {:.3g}{}", w, in) : fmt::format("slope of {:.3g}", slope);
+  const std::string_view of = has_thickness   ? "half the thickness"
+                              : on == nullptr ? "a tenth of the length"
+                                              : "a tenth of the shorter side";
+  return fmt::format(
+      "{}: a {}; results assume small displacements: deflections up to {}, {:.3g}{}, and slopes up to {}",
+      step_words(p, step), found, of, large, in, large_slope);
 }
 
 std::string digit_warning(std::span<const solved_step> steps) {

@@ -102,7 +102,7 @@ constexpr std::string_view end_reason(path_status status) {
 /// The largest deflection, moment, contact force and reaction with their places, one line each, of at most
 /// `width` columns if `width` is 60 or more. `all`: also shears, moved faces, and the other extremes.
 [[nodiscard]] std::vector<std::string> largest_lines(const step_results& r, int width, bool all);
-/// The extremes of the parts that the problem watches, a line for each quantity.
+/// The extremes of the parts that the problem watches, a line for each.
 [[nodiscard]] std::vector<std::string> watch_lines(const step_results& r);
 /// The sums of loads, reactions and contact forces, and the results of each bed and hinge.
 [[nodiscard]] std::vector<std::string> sum_lines(const step_results& r);

@@ -199,15 +199,16 @@ function endTables() {
   const bedTable = ["Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds];
   const hinges = steps.flatMap((s) => (s.hinges || []).map((h) => [stepName(s), String(h.hinge), h.x, h.rotation, h.moment]));
   const watched = steps.flatMap((s) => watchedRows(s.watch, (v) => placeOf(v)).map((row) => [stepName(s), ...row]));
+  const byEnvelope = startsFromZero() && result.envelope;  // combinations: their extremes are the governing results
   const governing = [
-    ...(startsFromZero() && result.envelope ? [] : [
+    ...(byEnvelope ? [] : [
       ...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)),
       ...tableOf(...bedTable), ...tableOf("Watched parts", ["Step", "Part", "Quantity", "Least", "Largest"], watched)]),
     ...holdTable(endsOf(6)),
     ...tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges, 40),
   ];
   return [governing, [
-    ...(governing.some((e) => e.textContent.startsWith("Largest values")) ? [] : [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)), ...tableOf(...bedTable)]),
+    ...(!byEnvelope ? [] : [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)), ...tableOf(...bedTable)]),
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
