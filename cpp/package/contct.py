@@ -9,6 +9,7 @@ reference/python.md has examples; the help of each function has its options.
 from __future__ import annotations
 
 import array
+import contextlib
 import copy
 import ctypes
 import ctypes.util
@@ -650,20 +651,21 @@ def run(problem: Any, *, kernels: Optional[Kernels] = None, engine: Optional[str
 
     `kernels` are names, or one text with commas; None selects both rules. `engine` is one of `about().engines`.
     `final_only` computes only the ends of the steps; `envelope` and `states` add the extremes over all increments and
-    the state after each; `refine` adds `refined`, the changes by half the element size; `max_increments` is the limit of increments (0: the default). With `strict`, NotSolved is raised unless all
-    steps are solved and certified and the kernels are equal. `folder` is the folder of files that a text or a dict
-    names. Raises InputError for a bad problem or option."""
+    the state after each; `refine` adds `refined`, the changes by half the element size; `max_increments` is the limit of
+    increments (0: the default). With `strict`, NotSolved is raised unless all steps are solved and certified and the
+    kernels are equal. `folder` is the folder of files that a text or a dict names. Raises InputError for a bad problem or
+    option."""
     matrix = _is_matrix(problem)
-    if not matrix and (pairs or loads is not None or supports or labels is not None or free_motions is not None):
-        raise InputError("run: found pairs, loads, supports, labels or free_motions with a problem, which has its own; allowed: "
-                         "these only with a matrix")
+    if not matrix:
+        _refuse_of_matrix("run", pairs, loads, supports, labels, free_motions)
     files = tempfile.TemporaryDirectory() if matrix else None
     if files is not None:
         problem, folder = _matrix_problem(problem, pairs, loads, supports, labels, Path(files.name), free_motions), files.name
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     options = {"kernels": None if final_only or kernels is None else _kernel_list(kernels), "engine": engine, "final_only": final_only or None,
                "envelope": envelope or None, "states": states or None, "refine": refine or None, "max_increments": max_increments or None}
-    answer = _ask(_library.contct_run, source, options)
+    with _without_folder(matrix):
+        answer = _ask(_library.contct_run, source, options)
     result = Result(answer, None if final_only else (source, options))
     result._files = files  # kept for pages and texts, which run the problem again
     if strict and not (result.exit == 0 and result.certified):
@@ -730,18 +732,13 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
     `error` and `certificate` of each state, and no increments; its `answer` is the equilibrium.
     """
     if _is_matrix(problem):
-        with tempfile.TemporaryDirectory() as files:
+        with tempfile.TemporaryDirectory() as files, _without_folder():
             written = _matrix_problem(problem, pairs, loads, supports, labels, Path(files), free_motions)
             lists = None if closed is None else [list(closed)]
-            try:
-                found = certify(written, [displacement], closed=lists, folder=files)
-                _ = found.answer  # made while the files exist
-                return found
-            except InputError as error:
-                raise InputError(error.message, error.file and Path(error.file).name, error.line, error.column) from None
-    if pairs or loads is not None or supports or labels is not None or free_motions is not None:
-        raise InputError("certify: found pairs, loads, supports, labels or free_motions with a problem, which has its own; allowed: "
-                         "these only with a matrix")
+            found = certify(written, [displacement], closed=lists, folder=files)
+            _ = found.answer  # made while the files exist
+            return found
+    _refuse_of_matrix("certify", pairs, loads, supports, labels, free_motions)
     source = _source(problem, ".toml", "problem", folder, allow_outside)
     states = displacement.tolist() if hasattr(displacement, "tolist") else list(displacement)
     states = [state.tolist() if hasattr(state, "tolist") else state for state in states]
@@ -750,6 +747,23 @@ def certify(problem: Any, displacement: Any, *, closed: Optional[Iterable[Any]] 
     options = {"displacement": [[_finite(x, i, j) for j, x in enumerate(state, 1)] for i, state in enumerate(states, 1)],
                "closed": None if closed is None else [[operator.index(pair) for pair in of_state] for of_state in closed]}
     return Result(_ask(_library.contct_certify, source, options), right=source)
+
+
+@contextlib.contextmanager
+def _without_folder(active: bool = True) -> Iterator[None]:
+    """Errors in the files of a matrix do not name their temporary folder."""
+    try:
+        yield
+    except InputError as error:
+        if not active:
+            raise
+        raise InputError(error.message, error.file and Path(error.file).name, error.line, error.column) from None
+
+
+def _refuse_of_matrix(function: str, pairs: Any, loads: Any, supports: Any, labels: Any, free_motions: Any) -> None:
+    if pairs or loads is not None or supports or labels is not None or free_motions is not None:
+        raise InputError(f"{function}: found pairs, loads, supports, labels or free_motions with a problem, which has its own; "
+                         "allowed: these only with a matrix")
 
 
 def _is_matrix(given: Any) -> bool:
