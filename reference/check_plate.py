@@ -69,10 +69,11 @@ class Plate:
         xx, yy, xy = (2, 0), (0, 2), (1, 1)
         return self.D * (of(xx, xx) + of(yy, yy) + self.nu * (of(xx, yy) + of(yy, xx)) + 2 * (1 - self.nu) * of(xy, xy))
 
-    def load(self, q, _, x=(F(0), F(1)), y=(F(0), F(1))):
-        """Returns the consistent forces of the pressure q[0] on the part x by y, given in shares of the sides."""
+    def load(self, q, _, x=(F(0), F(1)), y=(F(0), F(1)), slope=(0, 0)):
+        """Returns the consistent forces of q[0] per area on the part x by y, given in shares of the sides: a pressure, or a moment on a slope."""
         part = [[(b**(i + 1) - a**(i + 1)) for i in range(4)] for a, b in (x, y)]
-        work = [q[0] * part[0][i] * part[1][j] * self.integral(i, j) for i, j in MONOMIALS]
+        of = [(at(p, slope, 1, 1), p[0] - slope[0], p[1] - slope[1]) for p in MONOMIALS]
+        work = [q[0] * c * part[0][i] * part[1][j] * self.integral(i, j) if c else F(0) for c, i, j in of]
         return [dot(work, column) for column in zip(*self.shapes)]
 
     def values(self, u, _):

@@ -211,7 +211,7 @@ class Problem:
             return self.combined(step)
         f, settled, own = [F(0)] * self.n, {}, [[F(0)] * (len(dofs) + 3) for _, dofs, _ in self.elements]
         self.acting = {}
-        only(step, {"name", "point", "settlement", "move"} | ({"uniform", "self_weight"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else set()))
+        only(step, {"name", "point", "settlement", "move"} | ({"uniform", "self_weight"} if self.elements else set()) | ({"curvature"} if len(self.lines) == 1 else {"moment"} if self.elements else set()))
 
         def add(e, work, kind="uniform", values=(), shares=(F(0), F(1))):
             own[e] = [a + b for a, b in zip(own[e], work)]
@@ -236,6 +236,12 @@ class Problem:
         for part in step.get("curvature", []):
             for e, shares in self.parts(only(part, {"value", "from", "to"})):
                 add(e, self.elements[e][0].bent(real(part["value"]), *shares[0]), "curvature", [real(part["value"])], shares[0])
+        for part in step.get("moment", []):
+            need(only(part, {"wx", "wy", "from", "to"}).keys() & {"wx", "wy"}, "a moment on no slope")
+            on = [(self.elements[e][0], e, shares) for e, shares in self.parts(part)]
+            area = sum(element.a * (x[1] - x[0]) * element.b * (y[1] - y[0]) for element, _, (x, y) in on)
+            for (element, e, shares), (key, slope) in product(on, (("wx", (1, 0)), ("wy", (0, 1)))):
+                add(e, element.load([real(part.get(key, 0)) / area], None, *shares, slope))
         points = step.get("point", [])
         for part, x in ((part, x) for part in points if len(self.lines) == 1 for x in listed(part.get("x", []))):
             if find(self.lines[0], x) is None:

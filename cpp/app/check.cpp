@@ -50,14 +50,16 @@ std::string bed_words(const problem& p, const bed& b) {
 constexpr std::size_t most_combinations_told = 20;
 
 std::string load_words(const load& l) {
-  const auto placed = [&l](std::initializer_list<load_kind> kinds) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        l.placed, [&](const placed_load& p) { return std::ranges::find(kinds, p.what) != kinds.end(); }));
+  const auto placed = [&l](load_kind kind, bool at_point = false) {
+    return static_cast<std::size_t>(std::ranges::count_if(l.placed, [&](const placed_load& p) {
+      return at_point ? p.is_at_point() : p.what == kind && !p.is_at_point();
+    }));
   };
   const std::vector<std::pair<std::size_t, const char*>> parts = {
-      {l.distributed.size() + placed({load_kind::force}), "distributed load"},
-      {l.points.size() + placed({load_kind::point, load_kind::moment}), "point load"},
-      {placed({load_kind::curvature}), "imposed curvature"},
+      {l.distributed.size() + placed(load_kind::force), "distributed load"},
+      {l.points.size() + placed(load_kind::point, true), "point load"},
+      {placed(load_kind::moment), "spread moment"},
+      {placed(load_kind::curvature), "imposed curvature"},
       {l.settlements.size(), "settlement"},
       {l.moves.size(), "moved face"}};
   std::vector<std::string> words;

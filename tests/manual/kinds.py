@@ -38,7 +38,7 @@ KINDS = {
     "plate by thickness": THICK + EDGE + EVEN,
     "plate on a bed": THICK + BED + EVEN,
     "plate with loads of every kind": THICK + EDGE + UNDER + "[[step]]\nuniform = [ { value = -2, from = [0.1, 0.2], to = [1.3, 0.7] } ]\n"
-    "point = [ { node = 5, w = 1, wx = 1, wy = 1 } ]\nsettlement = [ { node = 1, wx = 1e-3, wy = 1e-3 }, { node = 2, w = 1e-3 } ]\nmove = [ { node = 5, w = 0.01 } ]\n",
+    "point = [ { node = 5, w = 1, wx = 1, wy = 1 } ]\nmoment = [ { wx = 2, wy = -1, to = [0.6, 0.8] } ]\nsettlement = [ { node = 1, wx = 1e-3, wy = 1e-3 }, { node = 2, w = 1e-3 } ]\nmove = [ { node = 5, w = 0.01 } ]\n",
     "matrix": MATRIX + OF_DOF + PULL,
     "matrix with coordinates": MATRIX + 'coordinates = "k.xyz"\n' + OF_DOF + PULL,
     "pair between two dofs": MATRIX + OF_DOF.replace("surface", 'other = "2.2"\nsurface') + PULL,

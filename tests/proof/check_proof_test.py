@@ -353,7 +353,8 @@ def bedded(count):
         settles = f"settlement = [ {{ x = 0, w = -0.02 }} ]\nmove = [ {{ x = 0, w = {chance.choice((-0.004, 0.01))} }} ]\n" if "fix" in held else ""
         texts.append(f"[beam]\nlength = 4\n{mesh}\nEI = 12\n{bed}[[bed]]\nmodulus = 15\nface = 0\nto = {b}\n[[support]]\nx = [0, 4]\n{held}\n[[step]]\n{settles or 'uniform = -0.1'}\n[[step]]\n{settles}\nuniform = -1.5\npoint = [ {{ x = {c}, w = -1 }} ]\n" if i % 4 else
                      f"[plate]\nsize = [4, 2]\nelements = [3, 2]\nD = 12\nnu = 0.3\n[[bed]]\nfrom = [{a}, 0]\nto = [{b}, {d / 2:.3f}]\nmodulus = 20\nface = 0\n"
-                     "[[support]]\nnode = 12\nspring = { w = 40 }\n[[support]]\nnode = 1\nspring = { w = 40, wx = 3, wy = 2 }\n[[step]]\nuniform = -1.5\n")
+                     "[[support]]\nnode = 12\nspring = { w = 40 }\n[[support]]\nnode = 1\nspring = { w = 40, wx = 3, wy = 2 }\n[[step]]\nuniform = -1.5\n"
+                     f"moment = [ {{ from = [{c}, {c / 4:.3f}], to = [{d}, {d / 2:.3f}], wx = 0.4, wy = -0.7 }} ]\n")
     return texts
 
 

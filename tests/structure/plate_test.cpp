@@ -337,6 +337,28 @@ TEST_CASE("A pressure on any rectangle of a plate does exact work on cubic polyn
   CHECK((r.force == 0.64 && r.moments.at(0) == 0.32 && r.moments.at(1) == 0.416));
 }
 
+TEST_CASE(
+    "A moment over a rectangle of a plate does the work of the mean slope, for every cubic deflection") {
+  // The mean of the n-th power along a side.
+  const auto mean = [](double from, double to, int n) {
+    return (std::pow(to, n + 1) - std::pow(from, n + 1)) / (n + 1) / (to - from);
+  };
+  for (const std::array<double, 2>& total : {std::array{3.0, 0.0}, {0.0, -2.0}, {3.0, -2.0}}) {
+    const load l{{}, {}, {}, {}, "", {{load_kind::moment, -0.3, 1.3, {total[0], total[1]}, {0.25, 1.05}}}};
+    for (int m = 0; m <= 3; ++m)
+      for (int n = 0; n <= 3; ++n) {
+        if (m + n > 3 && (m != 3 || n != 1) && (m != 1 || n != 3)) continue;
+        CAPTURE(m, n);
+        const double along_x = m == 0 ? 0 : m * mean(-0.3, 1.3, m - 1) * mean(0.25, 1.05, n);
+        const double along_y = n == 0 ? 0 : n * mean(-0.3, 1.3, m) * mean(0.25, 1.05, n - 1);
+        CHECK(work_on(uneven_plate(), l, m, n) ==
+              Approx(total[0] * along_x + total[1] * along_y).epsilon(1e-13).margin(1e-13));
+      }
+    const resultant r = resultant_of(uneven_plate(), l);
+    CHECK((r.force == 0 && r.moments.at(0) == total[0] && r.moments.at(1) == total[1]));
+  }
+}
+
 TEST_CASE("A pressure on elements of a plate has its resultant, and equals one on a rectangle to the bit") {
   const plate p = uneven_plate();
   struct {

@@ -45,6 +45,7 @@ class step_reader {
     constexpr load_key rows[] = {{"load", matrices, &step_reader::read_vector},
                                  {"uniform", beams | plates, &step_reader::read_uniform},
                                  {"point", all_structures, &step_reader::read_points},
+                                 {"moment", plates, &step_reader::read_moments},
                                  {"curvature", beams, &step_reader::read_curvatures},
                                  {"settlement", all_structures, &step_reader::read_settlements},
                                  {"move", all_structures, &step_reader::read_moves},
@@ -174,6 +175,16 @@ class step_reader {
     for (const toml_value& t : all.tables()) {
       t.allow_only({"value", "from", "to"});
       l.placed.push_back(read_part(t, load_kind::curvature, {t["value"].real(any_real)}));
+    }
+  }
+
+  /// Reads the moments over areas of a plate.
+  void read_moments(const toml_value& all, load& l) const {
+    for (const toml_value& t : all.tables()) {
+      t.allow_only({"wx", "wy", "from", "to"});
+      if (!t.has("wx") && !t.has("wy")) t.refuse("a moment without wx or wy", "at least one of them");
+      const auto total = [&t](const char* slope) { return t.has(slope) ? t[slope].real(any_real) : 0.0; };
+      l.placed.push_back(read_part(t, load_kind::moment, {total("wx"), total("wy")}));
     }
   }
 

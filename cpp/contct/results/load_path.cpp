@@ -28,11 +28,16 @@ struct load_words {
 };
 
 load_words words_for(const model& m, const placed_load& p) {
-  const double value = values_of(p)[0];
-  if (p.what == load_kind::point || p.what == load_kind::moment)
-    return {p.what == load_kind::point ? "w " : "theta ", value, fmt::format(" at x = {:.6g}", p.from.x)};
+  const std::vector<double> values = values_of(p);
+  if (p.is_at_point())
+    return {p.what == load_kind::point ? "w " : "theta ", values[0], fmt::format(" at x = {:.6g}", p.from.x)};
   const bool of_plate = std::holds_alternative<plate>(m.kind);
-  return {p.what == load_kind::force ? "uniform " : "curvature ", value,
+  const bool turns = p.what == load_kind::moment;
+  const std::size_t larger = turns && std::abs(values[1]) > std::abs(values[0]) ? 1 : 0;
+  return {turns                        ? fmt::format("{} ", dof_names(m)[larger + 1])
+          : p.what == load_kind::force ? "uniform "
+                                       : "curvature ",
+          values[larger],
           of_plate ? fmt::format(" from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", p.from.x, p.across[0].x,
                                  p.to.x, p.across[1].x)
                    : fmt::format(" from {:.6g} to {:.6g}", p.from.x, p.to.x)};

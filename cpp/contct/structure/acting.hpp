@@ -35,8 +35,10 @@ struct loaded_part {
 struct acting {
   load_kind what = load_kind::force;
   loaded_part x;
-  loaded_part y;           ///< interval 0 for a beam
-  rational_vector values;  ///< of a force along a beam: coefficients in x; otherwise one number
+  loaded_part y;  ///< interval 0 for a beam
+  /// Of a force along a beam: coefficients in x; of a moment on a plate: its totals, which do work on wx and
+  /// wy; otherwise one number.
+  rational_vector values;
 };
 
 /// The distributed and placed loads of `l`, a part for each run of consecutive elements in a row. `x`, `y`:

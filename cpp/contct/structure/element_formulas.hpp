@@ -340,15 +340,33 @@ std::array<Number, 4> shape_integrals(int xi_k, const Number& from, const Number
           power[4] + power[3] - power[2] - power[1]};
 }
 
-/// Work, on the element's shape functions, of a unit pressure on the part from xi[0] to xi[1] and eta[0] to
-/// eta[1], all within -1 and 1.
+/// The integrals of the derivatives of the same factors.
+template <class Number>
+std::array<Number, 4> shape_differences(int xi_k, const Number& from, const Number& to) {
+  const auto at = [](const Number& u) {
+    return std::array<Number, 4>{u * (3 - u * u), u, u * (u * u - 1), u * (u * u + u - 1)};
+  };
+  std::array<Number, 4> change = at(to * xi_k);
+  const std::array<Number, 4> before = at(from * xi_k);
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= before[i];
+  return change;
+}
+
+/// Work, on the element's shape functions, on the part from xi[0] to xi[1] and eta[0] to eta[1], all within
+/// -1 and 1: of a unit pressure for `slope` 0; of a unit moment per area on wx for 1, on wy for 2.
 template <class Number>
 std::array<Number, 12> plate_unit_load_on(const Number& a, const Number& b, const std::array<Number, 2>& xi,
-                                          const std::array<Number, 2>& eta) {
+                                          const std::array<Number, 2>& eta, int slope = 0) {
+  const auto factors = [](bool derived, int corner, const std::array<Number, 2>& part, const Number& half) {
+    if (!derived) return shape_integrals(corner, part[0], part[1]);
+    std::array<Number, 4> all = shape_differences(corner, part[0], part[1]);
+    for (Number& f : all) f = f / half;
+    return all;
+  };
   std::array<Number, 12> f{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto u = shape_integrals(corners[k].xi, xi[0], xi[1]);
-    const auto v = shape_integrals(corners[k].eta, eta[0], eta[1]);
+    const auto u = factors(slope == 1, corners[k].xi, xi, a);
+    const auto v = factors(slope == 2, corners[k].eta, eta, b);
     f[3 * k] = a * b * (u[0] * v[1] - u[1] * v[2]) / 8;
     f[3 * k + 1] = corners[k].xi * a * a * b * u[3] * v[1] / 8;
     f[3 * k + 2] = corners[k].eta * b * b * a * u[1] * v[3] / 8;

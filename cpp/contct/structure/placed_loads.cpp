@@ -175,24 +175,31 @@ std::vector<rational> cuts_of(const std::vector<element_load>& all) {
   return cuts;
 }
 
-/// Adds the pressure of a rectangle to the elements that it covers: if it covers a whole element, the
-/// pressure to `whole`; otherwise the work on the shape functions of the element to `part`.
+/// Adds the pressure of a rectangle, or the moment on it, to the elements that it covers: a pressure on a
+/// whole element to `whole`; otherwise the work on the shape functions of the element to `part`.
 void add_rectangle(const acting& a, const line<rational>& along_x, const line<rational>& along_y,
                    std::vector<rational>& whole, std::map<int, std::array<rational, 12>>& part) {
   const auto from_middle = [](const std::array<rational, 2>& shares) {
     return std::array<rational, 2>{2 * shares[0] - 1, 2 * shares[1] - 1};
   };
+  const bool turns = a.what == load_kind::moment;
+  const auto [x, y] = std::array{a.x.ends(along_x), a.y.ends(along_y)};
+  const rational area = turns ? (x[1] - x[0]) * (y[1] - y[0]) : rational(1);
   for (int j = a.y.first; j <= a.y.last; ++j) {
     for (int i = a.x.first; i <= a.x.last; ++i) {
       const int e = j * along_x.intervals() + i;
-      if (a.x.covers(i) && a.y.covers(j)) {
+      if (!turns && a.x.covers(i) && a.y.covers(j)) {
         whole[e] += a.values[0];
         continue;
       }
-      const auto unit = formulas::plate_unit_load_on<rational>(
-          along_x.length(i) / 2, along_y.length(j) / 2, from_middle(a.x.in(i)), from_middle(a.y.in(j)));
       std::array<rational, 12>& sum = part[e];
-      for (std::size_t k = 0; k < 12; ++k) sum[k] += a.values[0] * unit[k];
+      for (std::size_t n = 0; n < a.values.size(); ++n) {
+        if (a.values[n] == 0) continue;
+        const auto unit = formulas::plate_unit_load_on<rational>(
+            along_x.length(i) / 2, along_y.length(j) / 2, from_middle(a.x.in(i)), from_middle(a.y.in(j)),
+            turns ? static_cast<int>(n) + 1 : 0);
+        for (std::size_t k = 0; k < 12; ++k) sum[k] += a.values[n] / area * unit[k];
+      }
     }
   }
 }

@@ -199,7 +199,10 @@ struct rigid_truth::shape : rigid_shape<rational> {
     const line<rational>& x = along_x.points();
     for (const acting& a : acting_on(x, along_y ? &along_y->points() : nullptr, l)) {
       const auto [from, to] = a.x.ends(x);
-      if (along_y) {
+      if (along_y && a.what == load_kind::moment) {
+        for (std::size_t i = 0; i < a.values.size(); ++i)
+          add(work, row_of(static_cast<int>(i) + 1), a.values[i]);  // a motion has the same slopes everywhere
+      } else if (along_y) {
         add_rectangle(a.values[0], {from, to}, a.y.ends(along_y->points()), work);
       } else if (a.what == load_kind::force) {
         add_strip(a.values, from, to, work);

@@ -44,8 +44,8 @@ struct distributed_load {
   bool is_self_weight = false;
 };
 
-/// The kind of a placed load: a force per length or area, a force at a point, a moment at a point, or an
-/// imposed curvature of a beam, as by a temperature gradient.
+/// The kind of a placed load: a force per length or area, a force at a point, a moment at a point of a beam
+/// or spread over a rectangle of a plate, or an imposed curvature of a beam, as by a temperature gradient.
 enum class load_kind { force, point, moment, curvature };
 
 /// An exact place along a line: its point `point`, from 0; if this is -1, the sum of the decimals `x` and
@@ -64,10 +64,14 @@ struct line_place {
 /// A load that need not follow the mesh.
 struct placed_load {
   load_kind what = load_kind::force;
-  line_place from, to;                 ///< along x, from < to; equal for a point between nodes
-  std::vector<double> polynomial;      ///< for a force along a beam as in distributed_load; or one number
+  line_place from, to;  ///< along x, from < to; equal for a point between nodes
+  /// For a force along a beam as in distributed_load; for a moment on a plate its totals, which do work on wx
+  /// and wy; otherwise one number.
+  std::vector<double> polynomial;
   std::array<line_place, 2> across{};  ///< a plate's rectangle: from and to along y
   double factor = 1.0;                 ///< multiplies `polynomial`, as decimals
+
+  [[nodiscard]] bool is_at_point() const { return from == to; }
 };
 
 /// `polynomial` times `factor`, in doubles.

@@ -209,12 +209,16 @@ void put_values(json& entry, const std::vector<double>& polynomial) {
 /// Adds a load between nodes to the lists of loads in `out`, in the form of the problem file.
 void put_placed(json& out, const model& m, const placed_load& p) {
   const std::vector<double> values = values_of(p);
-  if (p.what == load_kind::point || p.what == load_kind::moment) {
+  if (p.is_at_point()) {
     out["point"].push_back({{"x", p.from.x}, {dof_names(m)[p.what == load_kind::point ? 0 : 1], values[0]}});
     return;
   }
-  json& entry = out[p.what == load_kind::force ? "uniform" : "curvature"].emplace_back();
-  put_values(entry, values);
+  const bool turns = p.what == load_kind::moment;
+  json& entry = out[turns ? "moments" : p.what == load_kind::force ? "uniform" : "curvature"].emplace_back();
+  if (turns)
+    entry = {{"wx", values[0]}, {"wy", values[1]}};
+  else
+    put_values(entry, values);
   const bool of_plate = std::holds_alternative<plate>(m.kind);
   entry["from"] = of_plate ? json({p.from.x, p.across[0].x}) : json(p.from.x);
   entry["to"] = of_plate ? json({p.to.x, p.across[1].x}) : json(p.to.x);

@@ -71,10 +71,14 @@ class Machine:
         if z3.is_true(claim) or z3.is_false(claim):
             return z3.is_true(claim)
         if claim.get_id() not in s.known:
+            if any(z3.is_false(model.eval(claim, True)) for model in s.models):
+                return False
             self.questions += 1
             answer = self.solver.check(*s.path, z3.simplify(z3.Not(claim)))
             if answer == z3.unknown:
                 raise self.undecided(s, "Z3 gave no answer")
+            if answer == z3.sat:
+                s.models = [*s.models[-3:], self.solver.model()]
             s.known[claim.get_id()] = claim, answer == z3.unsat
         return s.known[claim.get_id()][1]
 
@@ -91,6 +95,7 @@ class Machine:
                 answer = found
         if answer is None and others:
             s.path += lemmas
+            s.models = []
         if answer is None:
             answer = True if self.holds(s, claim) else False if self.holds(s, z3.Not(claim)) else None
         if answer is None:
@@ -127,10 +132,13 @@ class Machine:
         """The region of an address, and the offset from its first byte: a constant, except in arrays."""
         address = z3.simplify(address)
         for term in address.children() if address.decl().kind() == z3.Z3_OP_BADD else [address]:
-            name, offset = str(term), z3.simplify(address - term)
+            name = term.decl().name() if z3.is_const(term) else ""
+            if name not in BASE:
+                continue
+            offset = z3.simplify(address - term)
             if name in ARRAYS:
                 return name, offset
-            if name in CELLS and z3.is_bv_value(offset):
+            if z3.is_bv_value(offset):
                 if name == "STACK" and offset.as_signed_long() < -FRAME:
                     raise self.undecided(s, f"more than {FRAME} bytes of the stack are used")
                 return name, offset.as_signed_long()
@@ -347,7 +355,7 @@ class Machine:
 
     def _go(self, s: State, target: z3.BitVecRef) -> list[State]:
         """Jump to an address of the file, return to the caller, or call the run-time library."""
-        name = str(target)
+        name = target.decl().name()
         if name.startswith("extern "):
             runtime.call(self, s, name.removeprefix("extern "))
             return self._go(s, self.pop(s))

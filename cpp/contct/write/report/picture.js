@@ -465,16 +465,17 @@ function rectanglesOf({ elements, from, to }) {
   return found;
 }
 
-// Outlines the distributed loads on a plate. The sum of the loads on a rectangle is written in it, or at the edge of the
-// plate if the rectangle is the whole plate.
+// Outlines the distributed loads, and the moments over areas, on a plate. The sum of the loads on a rectangle is written
+// in it, or at the edge of the plate if the rectangle is the whole plate.
 function drawAreaLoads(root, f, spots, say) {
-  const groups = groupsOf((f.load.uniform || []).flatMap((part) => rectanglesOf(part).map((at) => ({ at, value: part.value }))), ({ at }) => String(at));
+  const ofMoments = (f.load.moments || []).flatMap((m) => ["wx", "wy"].filter((dof) => m[dof]).map((dof) => ({ at: [m.from, m.to], value: m[dof], dof })));
+  const groups = groupsOf([...(f.load.uniform || []).flatMap((part) => rectanglesOf(part).map((at) => ({ at, value: part.value }))), ...ofMoments], ({ at, dof }) => `${at} ${dof}`);
   const plate = String(rectanglesOf({ elements: "all" })[0]);
-  for (const [at, sum] of groups.map((parts) => [parts[0].at, parts.reduce((total, { value }) => total + value, 0)])) {
+  for (const [{ at, dof }, sum] of groups.map((parts) => [parts[0], parts.reduce((total, { value }) => total + value, 0)])) {
     const [[x0, y0], [x1, y1]] = at;
     const corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
     const outline = corners.flatMap(([x, y], k) => Array.from({ length: 24 }, (_, n) => onPlate(spots, ...[x, y].map((v, axis) => v + (corners[(k + 1) % 4][axis] - v) * (n / 24)))));
-    const [isWhole, words] = [String(at) === plate, inUnit(rough(sum), "load")];
+    const [isWhole, words] = [String(at) === plate, dof ? inUnit(`${dof} ${rough(sum)}`, "couple") : inUnit(rough(sum), "load")];
     const [x, y] = onPlate(spots, (x0 + x1) / 2, isWhole ? y0 : (y0 + y1) / 2);
     root.append(titled(`Load ${words}`, shape(lineTo(outline) + "Z", "load-line", { style: "stroke-width: 2.4" })));
     say(x, y + (isWhole ? 26 : 4), words, "value", groups.length <= 12 ? words : null);

@@ -370,15 +370,16 @@ function loadRows(of) {
 
 // The parts of a load: what, where, value, and x of a point.
 function partsOfLoad(s) {
-  const { uniform = [], settlement = [], curvature = [], move = [] } = s.load;
+  const { uniform = [], settlement = [], curvature = [], moments = [], move = [] } = s.load;
   const part = ({ from, to }) => [from, to].map((at) => (isBeam() ? digits(at, 12) : `(${at.map((x) => digits(x, 12)).join(", ")})`)).join(" to ").replace(/^(?!\()/, "x = ");
   const polynomial = (a) => a.map((c, i) => `${short(c)}${i === 0 ? "" : i === 1 ? " x" : ` x^${i}`}`).join(" + ");
   const at = (p) => (p.between ? `x = ${short(p.x)}` : placed(p.name) + (ofMatrix ? "" : structure.kind === "plate" ? `, (${short(p.x)}, ${short(p.y)})` : `, x = ${short(p.x)}`));
   const points = (load, words, what) => pointsOf({ load }).map((p) => [words + what(p), at(p), p.value, p.x]);
   const motion = (p) => (ofMatrix ? inUnit("along the dof", kindOf(p) === "force" ? "w" : "") : inUnit(p.dof, p.dof));
   const distributed = (d) => (d.self_weight ? "self-weight " : "") + inUnit(isBeam() ? "per length" : "per area", "load");
+  const spread = (m) => ["wx", "wy"].filter((dof) => m[dof]).map((dof) => [inUnit(`${dof}, over an area`, "couple"), part(m), m[dof]]);
   const rows = [...uniform.map((d) => [distributed(d), d.elements ? elementsWords(d.elements) : part(d), d.polynomial ? polynomial(d.polynomial) : d.value]),
-    ...points(s.load, "", whatHolds), ...curvature.map((c) => ["imposed curvature", part(c), c.value]), ...points({ point: settlement }, "settlement ", motion), ...points({ point: move }, "face moved ", motion)];
+    ...points(s.load, "", whatHolds), ...moments.flatMap(spread), ...curvature.map((c) => ["imposed curvature", part(c), c.value]), ...points({ point: settlement }, "settlement ", motion), ...points({ point: move }, "face moved ", motion)];
   return rows.length > 0 ? rows : [["resultant of all loads", "", sumOf(s)]];
 }
 
@@ -463,7 +464,7 @@ function showCuts() {
   const within = increments.length + 1 + drawn.filter((s) => !endsAt(s, s.increments.length - 1)).length;
   if (frames.length < within) cuts.add(`The path has ${increments.length} increments; the slider stops at ${frames.length} states: the start, some of the ` +
       "increments, evenly chosen, and the ends of steps.");
-  const isSum = ({ words, uniform, point, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !settlement && !curvature && !move;
+  const isSum = ({ words, uniform, point, moments, settlement, curvature, move }) => words !== "none" && words !== "" && !uniform && !point && !moments && !settlement && !curvature && !move;
   if (frames.some((f) => isSum(f.load))) cuts.add("Within steps, loads of more than 32 parts are not drawn: their sum is told.");
   if (result.log.length < result.log_bytes) cuts.add(`Of ${result.log_bytes} bytes of unit 26 the first ${result.log.length} are shown.`);
   const none = element("li", { class: "screen-only" }, `Nothing: every increment, ${unitOf()}, pair and call is on this page.`);
@@ -483,7 +484,7 @@ const pictureWords = {
 
 function showLegend() {
   const there = (test) => frames.some((f) => f.pairs.some(test));
-  const loaded = frames.some((f) => [...pointsOf(f), ...(f.load.uniform || []), ...(f.load.curvature || [])].length > 0);
+  const loaded = frames.some((f) => [...pointsOf(f), ...(f.load.uniform || []), ...(f.load.curvature || []), ...(f.load.moments || [])].length > 0);
   const items = [
     [there((p) => p.look === "c"), "in contact, with a force", () => pairMark("c", 11, 9, 5)],
     [there((p) => p.look === "o"), "separated, with a gap", () => pairMark("o", 11, 9, 5)],
