@@ -4,6 +4,7 @@
 #include <span>
 
 #include "app/problem_runs.hpp"
+#include "contct/results/quantities.hpp"
 #include "contct/structure/placed_loads.hpp"
 #include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
@@ -45,6 +46,17 @@ std::string bed_words(const problem& p, const bed& b) {
     for (const auto& [from, to] : intervals_of(b, *on))
       words += fmt::format(", from {:.6g} to {:.6g}", from, to);
   return words;
+}
+
+/// The names that the file gives to supports, pairs and beds, each once.
+std::string name_words(const problem& p) {
+  std::vector<std::string> all;
+  for (const on where : {on::supports, on::pairs, on::beds})
+    for (std::size_t i = 0; i < list_of(where).count(p); ++i)
+      if (const std::string name = on_one_line(name_of_entry(p, where, i));
+          !name.empty() && std::ranges::count(all, name) == 0)
+        all.push_back(name);
+  return joined(all, ", ");
 }
 
 constexpr std::size_t most_combinations_told = 20;
@@ -96,6 +108,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   facts.emplace_back("pairs", pair_words(p));
   for (std::size_t i = 0; i < p.beds.size(); ++i)
     facts.emplace_back(fmt::format("bed {}", i + 1), bed_words(p, p.beds[i]));
+  if (const std::string names = name_words(p); !names.empty()) facts.emplace_back("names", names);
   for (std::size_t i = 0; i < p.steps.size(); ++i) {
     if (starts_from_zero(p) && i == most_combinations_told)
       facts.emplace_back("..", counted(p.steps.size() - i - 1, "more combination"));

@@ -189,7 +189,8 @@ void declare_pictures(CLI::App* c, run_options& o) {
            "Write a table with a row for each increment to this file (- is standard output). For F.csv also "
            "write F.pairs.csv, with a row for each pair and increment, and F.states.csv, with w, slope, "
            "moment, shear, bearing pressure and stress at the end of each step, along a beam or at the nodes "
-           "of a plate. Columns of F.csv: step, increment, kind, s, share, force, events, closed, open, "
+           "of a plate, and F.supports.csv, with reactions, contact forces, gaps and beds. Columns of F.csv: "
+           "step, increment, kind, s, share, force, events, closed, open, "
            "at_face, smin, kernels; of F.pairs.csv: step, increment, pair, node, surface, state, look, w, "
            "gap, force, face, x, y, label, name");
   add_file(c, "--vtu", o.vtu,

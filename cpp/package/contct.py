@@ -280,7 +280,7 @@ class Result(Answer):
 
     def to_dataframe(self, on: str = "nodes", step: int = -1) -> Any:
         """A pandas DataFrame of all quantities on a list: "nodes", "pairs", "supports", "beds", "hinges" or "structure".
-        Its index counts from 1; its columns are keys of `quantities`."""
+        Its index counts from 1; its columns are the places and names of the entries, and keys of `quantities`."""
         keys = [row.key for row in self.quantities if row.on == on]
         allowed = sorted({row.on for row in self.quantities} - {"element_ends"})
         if on not in allowed:
@@ -289,7 +289,13 @@ class Result(Answer):
             pandas = importlib.import_module("pandas")
         except ImportError as error:
             raise ImportError(f"contct.Result.to_dataframe: {error}. It needs pandas (Debian: python3-pandas)") from error
-        frame = pandas.DataFrame({key: self.array(key, step) for key in keys})
+        entries = {"pairs": "pairs", "supports": "reactions", "beds": "beds", "hinges": "hinges"}
+        if on == "nodes" and ("structure" in self or self._again is not None):
+            of = self._with_structure().structure.nodes
+        else:
+            of = self.steps[step][entries[on]] if on in entries else []
+        places = [{key: value for key, value in entry.items() if key not in keys and isinstance(value, (str, int, float))} for entry in of]
+        frame = pandas.DataFrame(places).drop(columns="value", errors="ignore").assign(**{key: self.array(key, step) for key in keys})
         frame.index += 1
         return frame
 

@@ -6,8 +6,10 @@
 #include <filesystem>
 
 #include "catch.hpp"
+#include "contct/write/words.hpp"
 #include "support/a_run.hpp"
 #include "support/bedded_beams.hpp"
+#include "support/words.hpp"
 
 using namespace contct;
 
@@ -115,6 +117,8 @@ TEST_CASE("Without mesh error, the cookbook's footing has the same extremes at e
       }
   }
   CHECK(compared == 4 * 2 * 3);
+  const std::vector<std::string> told = certificate_summary(proved_run(footing(6)).ends.result, true);
+  check_words(told.back(), {"without mesh error: ", " in step 2, shear 150 in step 1"});
 }
 
 TEST_CASE(

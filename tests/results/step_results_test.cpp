@@ -146,7 +146,7 @@ TEST_CASE("A beam that sags through the face between two pairs is reported, but 
   CHECK(through->depth == Approx(500.0 * 256 / (1920 * 1e4)).epsilon(1e-3));  // q L^4 / (1920 EI)
   const a_run run(soft);
   check_words(passage_warning(run.what, run.result.record.steps),
-              {"^step 1: between pairs 1 and 2 the beam passes through"});
+              {"^step 1: between pair 1 and pair 2 the beam passes through"});
   CHECK_FALSE(passage(beam_over_stops(-10.0, -1.0)));
   problem backwards = soft;  // its pairs are named from right to left
   std::ranges::reverse(backwards.pairs);

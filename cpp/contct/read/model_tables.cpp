@@ -129,7 +129,9 @@ void check_elements(const toml_value& t, const beam& b) {
 
 /// Reads the nodes of a beam. If the table has element_size, adds nodes between the coordinates of the table.
 mesh_line read_nodes(const toml_value& t, const toml_value& top) {
-  if (t.has("x")) t.refuse_beside({"length", "elements"}, "x", "either x, or length and elements");
+  if (t.has("x"))
+    t.refuse_beside({"length", "elements"}, "x",
+                    "x with element_size or alone, or length with elements or element_size");
   if (t.has("element_size")) t.refuse_beside({"elements"}, "element_size", "either elements or element_size");
   if (!t.has("x") && !t.has("element_size")) {
     const double length = t["length"].real(positive_real);

@@ -44,9 +44,9 @@ void take(envelope& all, const step_results& r) {
     all.values_watched.assign(watched.size(), {{{infinite}}, {{-infinite}}});
     for (const value_range& v : r.ranges()) all.names.push_back(v.name);
     all.values.assign(all.names.size(), {{{infinite}}, {{-infinite}}});
-    for (const quantity_row* row : quantities_of(r.what))
-      if (row->where == on::supports || row->where == on::beds || row->kind == quantity::force)
-        all.lists.push_back({row, {}});
+    for (const on where : {on::supports, on::beds, on::hinges, on::pairs})
+      for (const quantity_row* row : quantities_of(r.what, where))
+        if (where != on::pairs || row->kind) all.lists.push_back({row, {}});  // a face is no result
   }
   for (std::size_t i = 0; i < all.values.size(); ++i)
     take(all.values[i], r.ranges()[i].least, r.ranges()[i].most, s, std::mem_fn(&placed_value::value));

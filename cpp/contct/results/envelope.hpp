@@ -27,7 +27,7 @@ struct envelope {
     reached<Value> least, most;
   };
 
-  /// A number of each support or bed, or the force of each pair.
+  /// A number of each support, bed or hinge, or the force or gap of each pair.
   struct listed {
     const quantity_row* row;
     std::vector<range<double>> at;

@@ -218,7 +218,7 @@ bool mesh_error::is_within(double share) const {
 
 mesh_error largest_of(std::span<const mesh_error> all) {
   mesh_error largest;
-  for (const mesh_error& e : all) {
+  for (int step = 1; const mesh_error& e : all) {
     if (!e.not_proved.empty()) return {e.not_proved};
     for (const mesh_number& n : e.numbers) {
       auto most = std::ranges::find(largest.numbers, n.key, &mesh_number::key);
@@ -226,14 +226,16 @@ mesh_error largest_of(std::span<const mesh_error> all) {
       most->error = std::max(most->error, n.error);
       most->of = std::max(most->of, n.of);
     }
-    if (&e == &all.front() || e.extremes.empty()) largest.extremes = e.extremes;
+    if (step == 1 || e.extremes.empty()) largest.extremes = e.extremes;
     for (std::size_t i = 0; i < largest.extremes.size(); ++i) {
       true_extremes& most = largest.extremes[i];
-      most.told_least = std::min(most.told_least, e.extremes[i].told_least);
-      most.told_most = std::max(most.told_most, e.extremes[i].told_most);
-      most.least = std::min(most.least, e.extremes[i].least);
-      most.most = std::max(most.most, e.extremes[i].most);
+      const true_extremes& x = e.extremes[i];
+      most.told_least = std::min(most.told_least, x.told_least);
+      most.told_most = std::max(most.told_most, x.told_most);
+      if (step == 1 || x.least < most.least) std::tie(most.least, most.least_step) = std::pair(x.least, step);
+      if (step == 1 || x.most > most.most) std::tie(most.most, most.most_step) = std::pair(x.most, step);
     }
+    ++step;
   }
   return largest;
 }

@@ -24,6 +24,7 @@ struct mesh_number {
 struct true_extremes {
   std::string_view key;
   double told_least, told_most, least, most;
+  int least_step = 0, most_step = 0;  ///< steps of `least` and `most`
 };
 
 /// What is proved about the mesh's error of a state.
@@ -46,7 +47,7 @@ struct mesh_error {
 [[nodiscard]] mesh_error mesh_error_of(const problem& p, const std::shared_ptr<const fine_mesh>& mesh,
                                        const solved_step& s);
 
-/// The largest errors, sizes and extremes of all of them. Not proved if one is not.
+/// The largest errors, sizes and extremes of all steps. Not proved if one is not.
 [[nodiscard]] mesh_error largest_of(std::span<const mesh_error> all);
 
 }  // namespace contct

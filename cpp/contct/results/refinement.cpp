@@ -219,14 +219,18 @@ void estimate_errors(std::vector<mesh_change>& by_first, const std::vector<mesh_
 
 std::vector<mesh_change> changes_between(const run_result& coarse, const run_result& fine) {
   std::vector<mesh_change> all;
-  const auto take = [&all](std::string_view kind, double before, double now) {
+  std::size_t step = 0;
+  const auto take = [&all, &step](std::string_view kind, double before, double now) {
     auto at = std::ranges::find(all, kind, &mesh_change::kind);
     if (at == all.end()) at = all.insert(all.end(), {kind});
-    at->change = std::max(at->change, std::abs(now - before));
+    if (const double change = std::abs(now - before); change > at->change || at->step == 0) {
+      at->change = change;
+      at->step = static_cast<int>(step) + 1;
+    }
     at->of = std::max(at->of, std::abs(now));
   };
   const problem& p = coarse.what;
-  for (std::size_t step = 0; step < p.steps.size(); ++step) {
+  for (; step < p.steps.size(); ++step) {
     const structure_state& before = coarse.record.steps[step];
     const structure_state& now = fine.record.steps[step];
     const step_results a(p, before);

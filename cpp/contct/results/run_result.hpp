@@ -35,7 +35,8 @@ struct mesh_change {
   double of = 0.0;                   ///< the largest number of this quantity on the finer mesh
   std::optional<double> order = {};  ///< of a plate: by what power of the element size two halvings change it
   std::optional<double> error =
-      {};  ///< an estimate of the mesh's error, if the order shows that it converges
+      {};        ///< an estimate of the mesh's error, if the order shows that it converges
+  int step = 0;  ///< that with this change
 };
 
 struct run_result : recorded_path {

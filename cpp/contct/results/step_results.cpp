@@ -245,10 +245,11 @@ std::string_view places_of_extremes(const model& m) {
 }
 
 std::string place_words(const model& m, const placed_value& at) {
-  if (std::holds_alternative<assembled>(m.kind)) return place_words(m, at.node);
+  const std::string name = at.name.empty() ? "" : on_one_line(at.name) + ", ";
+  if (std::holds_alternative<assembled>(m.kind)) return name + place_words(m, at.node);
   const std::string x = std::holds_alternative<plate>(m.kind) ? fmt::format("({:.6g}, {:.6g})", at.x, at.y)
                                                               : fmt::format("x = {:.6g}", at.x);
-  return at.node < 0 ? x : fmt::format("{}, {}", place_words(m, at.node), x);
+  return name + (at.node < 0 ? x : fmt::format("{}, {}", place_words(m, at.node), x));
 }
 
 }  // namespace contct

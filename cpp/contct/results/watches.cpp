@@ -28,10 +28,10 @@ class watcher {
   bool begun_ = false;
 };
 
-placed_value at_node(const problem& p, double value, int node) {
-  if (std::holds_alternative<assembled>(p.geometry.kind)) return {value, 0.0, 0.0, node};
+placed_value at_node(const problem& p, double value, int node, std::string_view name = {}) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return {value, 0.0, 0.0, node, name};
   const place at = place_of_node(p.geometry, node);
-  return {value, at.x, at.y, node};
+  return {value, at.x, at.y, node, name};
 }
 
 void add_range(const step_results& r, std::size_t part, std::vector<watched_range>& all) {
@@ -60,7 +60,8 @@ void add_named(const step_results& r, std::size_t part, std::vector<watched_rang
       watcher w(all, part, *row);
       const std::vector<double> values = row->values(r);
       for (std::size_t i = 0; i < std::min(values.size(), list_of(list).count(p)); ++i)
-        if (is_named(list, i)) w.take(at_node(p, values[i], list_of(list).node(p, i)));
+        if (is_named(list, i))
+          w.take(at_node(p, values[i], list_of(list).node(p, i), name_of_entry(p, list, i)));
     }
   const std::vector<bed_reading> beds = beds_in(r);
   for (const quantity_row* row : quantities_of(p, on::nodes)) {
@@ -68,7 +69,10 @@ void add_named(const step_results& r, std::size_t part, std::vector<watched_rang
     watcher w(all, part, *row);
     for (std::size_t i = 0; i < beds.size(); ++i)
       if (is_named(on::beds, i))
-        for (const placed_value& v : {beds[i].pressure.least, beds[i].pressure.most}) w.take(v);
+        for (placed_value v : {beds[i].pressure.least, beds[i].pressure.most}) {
+          v.name = name_of_entry(p, on::beds, i);
+          w.take(v);
+        }
   }
 }
 

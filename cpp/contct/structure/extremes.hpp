@@ -130,6 +130,7 @@ struct placed_value {
   double value = 0.0;
   double x = 0.0, y = 0.0;
   int node = -1;
+  std::string_view name = {};  ///< that the file gives to the support, pair or bed whose value it is
 };
 
 /// The difference up to which values of magnitude `size` are equal, as at symmetric places, if the quantity

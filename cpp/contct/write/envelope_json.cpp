@@ -1,4 +1,5 @@
 // The least and largest values over a path or over combinations, with their steps.
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "contct/results/envelope.hpp"
@@ -30,6 +31,14 @@ json curves_json(const envelope_curves& all) {
   return out;
 }
 
+/// An entry of a list, with its place or number, and with its name.
+json begun_entry(const problem& p, on where, std::size_t i) {
+  if (where == on::supports) return support_json(p, i);
+  json entry = {{list_of(where).entry, i + 1}};
+  if (where != on::pairs || i < contacts_of(p)) put_name(entry, p, where, i);
+  return entry;
+}
+
 }  // namespace
 
 json envelope_json(const problem& p, const envelope& e, const envelope_curves& along) {
@@ -43,26 +52,23 @@ json envelope_json(const problem& p, const envelope& e, const envelope_curves& a
   const auto range = [&value](const envelope::range<double>& r) -> json {
     return {{"min", value(r.least)}, {"max", value(r.most)}};
   };
-  json pairs = json::array();
-  json reactions = json::array();
-  json beds = json::array();
-  if (e.states > 0) {
-    reactions =
-        list_of(p.supports, [&p, i = 0](const support& /*at*/) mutable { return support_json(p, i++); });
-    for (std::size_t i = 0; i < p.beds.size(); ++i) {
-      beds.push_back({{"bed", i + 1}});
-      put_name(beds.back(), p, on::beds, i);
+  std::map<on, json> lists = {{on::pairs, json::array()}, {on::supports, json::array()}};
+  for (const auto& [row, at] : e.lists) {
+    json& list = lists[row->where];
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (i == list.size()) list.push_back(begun_entry(p, row->where, i));
+      json& entry = list[i];
+      if (row->kind == quantity::force) entry.update(timed({{"force_max", at[i].most.value}}, at[i].most));
+      if (at[i].most.step == 0 || (row->where == on::pairs && i >= contacts_of(p))) continue;
+      if (row->where == on::supports)
+        entry.update(range(at[i]));
+      else
+        entry[key_in_list(*row)] = range(at[i]);
     }
   }
-  for (const auto& [row, at] : e.lists)
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      if (row->where == on::pairs)
-        pairs.push_back(timed({{"pair", i + 1}, {"force_max", at[i].most.value}}, at[i].most));
-      if (row->where == on::beds) beds[i][key_in_list(*row)] = range(at[i]);
-      if (row->where == on::supports && at[i].most.step > 0) reactions[i].update(range(at[i]));
-    }
-  out.update({{"pairs", pairs}, {"reactions", reactions}});
-  if (!beds.empty()) out["beds"] = beds;
+  out.update({{"pairs", lists[on::pairs]}, {"reactions", lists[on::supports]}});
+  for (const on where : {on::beds, on::hinges})
+    if (lists.contains(where)) out[list_of(where).name] = lists[where];
   if (!e.watched.empty())
     out["watch"] = watched_json(p, e.watched, list_of(e.values_watched, [&place](const auto& r) -> json {
                                   return {{"min", place(r.least)}, {"max", place(r.most)}};

@@ -159,6 +159,7 @@ json error_json(const problem& p, const std::optional<certificate>& c) {
 
 json value_json(const model& m, const placed_value& at) {
   json entry = {{"value", at.value}};
+  if (!at.name.empty()) entry["name"] = at.name;
   if (std::holds_alternative<assembled>(m.kind)) {
     put_place(entry, m, at.node);
     entry["x"] = nullptr;  // a matrix has no x

@@ -288,58 +288,75 @@ class table_printer {
   void print_envelope() {
     const envelope e = envelope_of(run_);
     if (e.states == 0) return;
-    std::string lines;
-    const auto add = [&](const std::string& what, const placed_value& at, int step, unit in,
-                         const std::string& before = "") {
-      lines += fmt::format("{:<17} {:<19} {:<22} {}\n", what,
-                           fmt::format("{:.6g}{}", at.value + 0.0, unit_words(problem_, in, at.node)),
-                           before + place_words(problem_.geometry, at),
-                           on_one_line(problem_.steps[step - 1].name));
-    };
-    const auto at_node = [&](double force, int node) {
-      const place at = place_of_node(problem_.geometry, node);
-      return placed_value{force, at.x, at.y, node};
-    };
-    for (std::size_t i = 0; i < e.names.size(); ++i)
-      for (const auto& [word, at] :
-           {std::pair("least", &e.values[i].least), std::pair("largest", &e.values[i].most)})
-        add(fmt::format("{} {}", word, shown_name(e.names[i])), at->value, at->step,
-            row_named(problem_, e.names[i]).in);
-    for (std::size_t i = 0; i < e.watched.size(); ++i)
-      for (const auto& [word, at] :
-           {std::pair("least", &e.values_watched[i].least), std::pair("largest", &e.values_watched[i].most)})
-        add(fmt::format("{} {}", word, shown_name(e.watched[i].row->key)), at->value, at->step,
-            e.watched[i].row->in, on_one_line(problem_.watches[e.watched[i].part].name) + ", ");
-    for (const envelope::listed& list : e.lists) {
-      const quantity_row* const row = list.row;
-      const auto& at = list.at;
-      if (row->where == on::pairs) {
-        const auto force = std::ranges::max_element(at, {}, [](const auto& r) { return r.most.value; });
-        const auto pair = static_cast<std::size_t>(force - at.begin());
-        if (force->most.value > 0.0)
-          add("largest contact", at_node(force->most.value, problem_.pairs[pair].node), force->most.step,
-              row->in, fmt::format("pair {}, {}", pair + 1, name_before(problem_, on::pairs, pair)));
-      } else if (row->where == on::supports && row->in == unit::force) {
-        for (const int side : {-1, 1}) {
-          const auto of = [&](std::size_t i) { return side < 0 ? at[i].least : at[i].most; };
-          if (const auto i = extreme_support(problem_, side, [&of](std::size_t k) { return of(k).value; }))
-            add(side < 0 ? "least reaction" : "largest reaction",
-                at_node(of(*i).value, problem_.supports[*i].node), of(*i).step, row->in,
-                name_before(problem_, on::supports, *i));
-        }
-      } else if (row->where == on::beds) {
-        for (std::size_t bed = 0; bed < at.size(); ++bed)
-          for (const auto& [word, found] :
-               {std::pair("least", &at[bed].least), std::pair("largest", &at[bed].most)})
-            lines += fmt::format("{:<17} {:<19} {:<22} {}\n", fmt::format("{} {}", word, key_in_list(*row)),
-                                 fmt::format("{:.6g}{}", found->value + 0.0, unit_words(problem_, row->in)),
-                                 numbered_words(problem_, on::beds, bed),
-                                 on_one_line(problem_.steps[found->step - 1].name));
-      }
-    }
     text_ += '\n';
     print_heading("all combinations");
-    text_ += lines;
+    const auto both = [&](const envelope::range<placed_value>& v, const quantity_row& row,
+                          const std::string& before = "") {
+      for (const auto* at : {&v.least, &v.most})
+        print_extreme(at == &v.least ? "least" : "largest", shown_name(row.key), at->value.value,
+                      unit_words(problem_, row.in, at->value.node),
+                      before + place_words(problem_.geometry, at->value), at->step);
+    };
+    for (std::size_t i = 0; i < e.names.size(); ++i) both(e.values[i], row_named(problem_, e.names[i]));
+    for (std::size_t i = 0; i < e.watched.size(); ++i)
+      both(e.values_watched[i], *e.watched[i].row,
+           on_one_line(problem_.watches[e.watched[i].part].name) + ", ");
+    for (const envelope::listed& list : e.lists)
+      if (list.row->where != on::pairs || contacts_of(problem_) > 0) print_listed(list);
+  }
+
+  void print_extreme(std::string_view bound, std::string_view name, double value, const std::string& in,
+                     const std::string& at, int step) {
+    text_ +=
+        fmt::format("{:<17} {:<19} {:<22} {}\n", fmt::format("{} {}", bound, name),
+                    fmt::format("{:.6g}{}", value + 0.0, in), at, on_one_line(problem_.steps[step - 1].name));
+  }
+
+  /// Prints the extremes of each support, bed, hinge and pair, or of all of them together if there are many.
+  void print_listed(const envelope::listed& list) {
+    constexpr std::size_t most_listed = 12;
+    const quantity_row& row = *list.row;
+    const std::string_view name = row.key.substr(row.key.rfind('_') + 1);
+    const std::size_t count = list_of(row.where).count(problem_);
+    for (const auto bound : {&envelope::range<double>::least, &envelope::range<double>::most}) {
+      const bool is_least = bound == &envelope::range<double>::least;
+      const auto size_of = [&](std::size_t i) {
+        const envelope::reached<double>& v = list.at[i].*bound;
+        return v.step == 0 ? -std::numeric_limits<double>::infinity() : is_least ? -v.value : v.value;
+      };
+      std::vector<std::size_t> told;
+      for (std::size_t i = 0; i < count; ++i)
+        if (count <= most_listed || told.empty())
+          told.push_back(i);
+        else if (size_of(i) > size_of(told[0]) + tie_of(std::abs(size_of(i)), 0.0))
+          told[0] = i;
+      for (const std::size_t i : told) {
+        const auto& [value, step, increment, first] = list.at[i].*bound;
+        const bool is_known = step > 0 && (row.where != on::pairs || value > 0.0) &&
+                              !(is_least && row.words.starts_with("largest"));
+        if (is_known)
+          print_extreme(is_least ? "least" : "largest", name, value, unit_of(row, i), entry_place(row, i),
+                        step);
+      }
+    }
+  }
+
+  [[nodiscard]] std::string unit_of(const quantity_row& row, std::size_t i) const {
+    const auto node = list_of(row.where).node;
+    return unit_words(problem_, row.in, node == nullptr ? -1 : node(problem_, i));
+  }
+
+  /// A support, bed, hinge or pair in words, with its place.
+  [[nodiscard]] std::string entry_place(const quantity_row& row, std::size_t i) const {
+    const list_row& list = list_of(row.where);
+    std::string number = list.entry.empty() ? "" : numbered_words(problem_, row.where, i);
+    if (list.node == nullptr) return number;
+    const int node = list.node(problem_, i);
+    const std::string before = list.entry.empty() ? name_before(problem_, row.where, i) : number + ", ";
+    if (std::holds_alternative<assembled>(problem_.geometry.kind))
+      return before + place_words(problem_.geometry, node);
+    const place at = place_of_node(problem_.geometry, node);
+    return before + place_words(problem_.geometry, placed_value{0.0, at.x, at.y, node});
   }
 
   /// Prints a table for each quantity, with one row for each step.

@@ -22,12 +22,13 @@ std::string passage_warning(const problem& p, std::span<const solved_step> steps
   if (!worst) return "";
   const contact_pair& left = p.pairs[worst->first];
   return fmt::format(
-      "{}: between pairs {} and {} the beam passes through their common face at {:g} by {:.2g}{} at x = "
+      "{}: between {} and {} the beam passes through their common face at {:g} by {:.2g}{} at x = "
       "{:.6g}. "
       "This is right if the pairs are separate stops; if one surface extends between them, put pairs closer "
       "together (at the nodes of a finer mesh: element_size)",
-      step_words(p, step), worst->first + 1, worst->second + 1, left.face, worst->depth,
-      unit_words(p, unit::length), worst->x);
+      step_words(p, step), numbered_words(p, on::pairs, worst->first),
+      numbered_words(p, on::pairs, worst->second), left.face, worst->depth, unit_words(p, unit::length),
+      worst->x);
 }
 
 namespace {
@@ -44,7 +45,8 @@ std::string concentrated_at(const step_results& r, int node) {
   for (const point_load& f : r.acting.points)
     if (f.node == node && f.value * f.factor != 0.0) return "a point load";
   for (std::size_t i = 0; i < contacts_of(p); ++i)
-    if (p.pairs[i].node == node && r.pairs[i].force != 0.0) return fmt::format("the force of pair {}", i + 1);
+    if (p.pairs[i].node == node && r.pairs[i].force != 0.0)
+      return "the force of " + numbered_words(p, on::pairs, i);
   return "";
 }
 

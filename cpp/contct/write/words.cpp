@@ -115,12 +115,16 @@ std::vector<std::string> mesh_words(const problem& p, const mesh_error& e) {
   std::vector<std::string> without;
   constexpr double noticeable = 0.01;
   for (const true_extremes& x : e.extremes) {
-    const bool is_most = x.most > -x.least * (1 + 1e-9);
-    const double told = std::max(x.told_most, -x.told_least) * (is_most ? 1 : -1);
-    const double found = is_most ? x.most : x.least;
-    const double exact = std::abs(found) > 1e-9 * std::abs(told) ? found : 0.0;  // rounding
-    if (std::abs(exact - told) > noticeable * std::abs(exact))
+    const double size = std::max(x.most, -x.least);
+    const auto add = [&](double told, double found, int step) {
+      const double exact =
+          std::abs(found) > 1e-9 * std::max(x.told_most, -x.told_least) ? found : 0.0;  // rounding
+      if (std::abs(exact - told) <= noticeable * size) return;
       without.push_back(fmt::format("{} {:.6g}{}", x.key, exact, unit_words(p, row_named(p, x.key).in)));
+      if (p.steps.size() > 1) without.back() += " in " + step_words(p, step);
+    };
+    add(x.told_least, x.least, x.least_step);
+    if (x.most != x.least) add(x.told_most, x.most, x.most_step);
   }
   if (!without.empty()) items.push_back("without mesh error: " + joined(without, ", "));
   return items;
@@ -308,14 +312,18 @@ std::vector<std::string> refinement_words(const run_result& r) {
   std::vector<std::string> items;
   const auto size = [&p](const quantity_row& row, double x, double of) {
     const std::string unit = unit_words(p, row.in);
-    const double percent = x == 0.0 ? 0.0 : 100 * x / of;
-    return 0.0 < x && percent <= 1e-7 ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit)
-                                      : fmt::format("{:.3g}{} ({:.2g} % of {:.4g})", x, unit, percent, of);
+    const double share = x == 0.0 ? 0.0 : x / of;
+    return 0.0 < x && share <= 1e-9
+               ? fmt::format("less than 1e-07 % of {:.4g}{}", of, unit)
+               : fmt::format("{}{} ({} of {:.4g})",
+                             x < 1000.0 ? fmt::format("{:.3g}", x) : fmt::format("{:.0f}", x), unit,
+                             percent_words(share), of);
   };
   for (const mesh_change& c : r.refined) {
     const quantity_row& row = row_named(p, c.kind);
     items.push_back(fmt::format("{}{} by {}", items.empty() ? "half the element size changes the " : "the ",
                                 row.words, size(row, c.change, c.of)));
+    if (p.steps.size() > 1 && c.change > 1e-9 * c.of) items.back() += " in " + step_words(p, c.step);
   }
   std::size_t estimated = 0;
   for (const mesh_change& c : r.refined) {

@@ -6,6 +6,7 @@ from typing import Callable
 import z3
 
 GENERAL = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for k in range(8, 16)]  # by number
+LONGEST = 16  # bytes of a value: a register xmm
 KEPT = ["rbx", "rbp", "r12", "r13", "r14", "r15"]  # registers that a callee must preserve by the System V ABI
 REGISTERS = {f"xmm{k}": (f"xmm{k}", 0, 16) for k in range(16)}  # name: (full register, first byte, size)
 for _full in GENERAL:
@@ -63,7 +64,7 @@ class State:
     def write(self, region: str, at: int, value: z3.BitVecRef) -> None:
         """Store a value. If older values overlap the new value, their other bytes do not change."""
         end = at + value.size() // 8
-        for place, start in [key for key in self.cells if key[0] == region and key[1] < end]:
+        for place, start in [key for key in self.cells if key[0] == region and at - LONGEST < key[1] < end]:
             old = self.cells[place, start]
             above = start + old.size() // 8 - end
             if above > at - end:
@@ -81,7 +82,7 @@ class State:
         whole = self.cells.get((region, at))
         if whole is not None and whole.size() == 8 * size:
             return whole
-        for start, value in [(key[1], value) for key, value in self.cells.items() if key[0] == region and key[1] <= at]:
+        for start, value in [(key[1], value) for key, value in self.cells.items() if key[0] == region and at - LONGEST < key[1] <= at]:
             held = start + value.size() // 8 - at  # number of bytes from `at`
             if held > 0:
                 low = bits(value, 8 * (at - start), 8 * min(size, held))

@@ -24,21 +24,23 @@ const ofElements = ["EI", "GA"];  // numbers of each element of a beam
 const quantityOf = (key) => result.quantities.find((q) => q.key === key);
 function unit(key) {
   if (!result.units) return "";
-  if (quantityOf(key)) return quantityOf(key).unit.replace(/\^(\d)/g, (_, n) => "⁰¹²³⁴"[n]);
+  if (quantityOf(key)) return quantityOf(key).unit.replace(/\^(\d)/g, (_, n) => "⁰¹²³⁴"[n]).replaceAll(" ", "\u00a0");
   const { length, force } = result.units;
   if (!(key in powers)) return "";
   const [f, per] = powers[key];
   const l = per + (isBeam() && ["load", "modulus"].includes(key) ? 1 : 0);
   const of = l === 0 ? "" : length + ["", "", "²", "³", "⁴"][Math.abs(l)];
-  return f === 0 ? of : force + (l === 0 ? "" : l > 0 ? " " : "/") + of;
+  return f === 0 ? of : force + (l === 0 ? "" : l > 0 ? "\u00a0" : "/") + of;
 }
 const inUnit = (name, quantity) => name + (unit(quantity) ? ` [${unit(quantity)}]` : "");
 
 // The place of an extreme value in words: a node or dof, or the x between two nodes of a beam.
 function placeOf(v) {
-  if (v.dof !== undefined) return placed(v.dof);
+  const name = v.name ? `${v.name}, ` : "";
+  if (v.dof !== undefined) return name + placed(v.dof);
   const node = structure.nodes.find((n) => n.x === v.x && (v.y === undefined || n.y === v.y));
-  return node === undefined ? `x = ${rough(v.x)}` : placed(node.node);
+  const at = v.y === undefined ? `x = ${rough(v.x)}` : `(${rough(v.x)}, ${rough(v.y)})`;
+  return name + (node === undefined ? at : `${placed(node.node)}, ${at}`);
 }
 // The one of `min` and `max` with the larger magnitude (of equal ones `max`), then the other one if their signs differ.
 function toldOf({ min, max }) {
@@ -501,6 +503,17 @@ function drawColours(root, f, spots) {
   bands.forEach((d, i) => { if (d.length > 0) root.append(svg("path", { d: d.join(""), fill: bandColour(i), stroke: bandColour(i), "stroke-width": 0.7 })); });
 }
 
+// Marks the largest value of the shown quantity, and the largest of the other sign, as tables have them.
+function markLargest(root, f, spots, say) {
+  const values = atNodes(f, field.name).map((value, i) => ({ value, x: structure.nodes[i].x, y: structure.nodes[i].y }));
+  const range = f.extremes[field.name] ?? { min: values.reduce((a, b) => (b.value < a.value ? b : a)), max: values.reduce((a, b) => (b.value > a.value ? b : a)) };
+  for (const { value, x, y } of toldOf(range)) {
+    const at = onPlate(spots, x, y);
+    root.append(svg("circle", { cx: at[0], cy: at[1], r: 4, class: "dot-w" }));
+    say(at[0], at[1] - 10, rough(value), "value", rough(value));
+  }
+}
+
 function drawScaleOfColours(root, x, y, width) {
   const { bands, name } = field;
   for (let i = 0; i < bands; ++i) root.append(svg("rect", { x: x + (width * i) / bands, y, width: width / bands + 0.5, height: 14, fill: bandColour(i) }));
@@ -587,16 +600,17 @@ function frameScene(kept) {
   const box = [Infinity, -Infinity, Infinity, -Infinity];
   const take = ([x, y]) => [Math.min(box[0], x), Math.max(box[1], x), Math.min(box[2], y), Math.max(box[3], y)].forEach((v, k) => { box[k] = v; });
   was.forEach(take);
-  for (const f of frames) for (const i of scene.drawn) take(projected(movedTo(f, i, times)));
   for (const p of near) take(projected(faceAt(p, times)));
-  return { times, size, most, box };
+  const undeformed = [...box];
+  for (const f of frames) for (const i of scene.drawn) take(projected(movedTo(f, i, times)));
+  return { times, size, most, box, undeformed };
 }
 
 // The scales of a picture, with room for numbers beside the structure, and for loads and forces above and below.
-function pageOf(width) {
-  const { box: [x0, x1, y0, y1], times } = scene;
+function pageOf(width, [x0, x1, y0, y1] = scene.box) {
+  const { times } = scene;
   const [left, right, top] = [74, 30, 100];
-  const scale = Math.min((width - left - right) / (x1 - x0 || 1), 420 / (y1 - y0 || x1 - x0 || 1));
+  const scale = Math.min((width - left - right) / (x1 - x0 || 1), y1 > y0 ? 420 / (y1 - y0) : Infinity);
   const begin = left + (width - left - right - (x1 - x0) * scale) / 2;
   const X = (x) => begin + (x - x0) * scale;
   const height = (y) => top + (y1 - y) * scale;
@@ -652,7 +666,7 @@ let page = null;  // the scales of the last picture (see pageOf)
 // Draws state `f`. A sketch shows only the structure with supports, pairs and loads, without diagrams and colours.
 function drawPicture(f, holder, isSketch = false) {
   if (scene === null) return;
-  page = pageOf(widthOf(holder));
+  page = pageOf(widthOf(holder), isSketch ? scene.undeformed : scene.box);
   const { width, bottom } = page;
   const colours = isSketch ? undefined : field;
   const was = scene.at.map((at) => page.spot(projected(at)));
@@ -669,10 +683,11 @@ function drawPicture(f, holder, isSketch = false) {
   root.append(marksAt(scene.still, was, "m-3 -3l6 6m-6 0l6 -6", "thin still"));
   const words = svg("g");  // on top of all marks
   page.on = marksOn(words, page, spots, f, isSketch);
-  drawPoints(root, f, page.on);
+  if (printing && colours) markLargest(root, f, spots, page.on.say);  // loads would cover the colours
+  else drawPoints(root, f, page.on);
   drawPairs(root, pairsOf(f), page.on);
   drawSupports(root, f, page.on);
-  if (structure.kind === "plate") drawAreaLoads(root, f, spots, page.on.say);
+  if (structure.kind === "plate" && !(printing && colours)) drawAreaLoads(root, f, spots, page.on.say);
   if (isSketch && isBeam()) sayLineLoads(f, page, page.on.say);
   root.append(words);
   if (!isBeam()) drawAxes(root, page);

@@ -143,7 +143,7 @@ function showCalls() {
       : `Lockstep: ${others.join(" and ")} had the same input as ${leader} at every call: ${words.comparison}. ` +
         "A distance of 0 ULP means equal to the bit. The comparison covers SMIN, every s, every status, and the text of unit 26 if both write it.";
   const pairs = Math.max(0, ...calls.map((c) => c.s.length));
-  if (places.pairs.length > pairs) cuts.add(`Calls: s is listed for the first ${pairs} of ${places.pairs.length} pairs; the distances cover all pairs.`);
+  if (pairs > 0 && places.pairs.length > pairs) cuts.add(`Calls: s is listed for the first ${pairs} of ${places.pairs.length} pairs; the distances cover all pairs.`);
   if (calls.length < calls_made) cuts.add(`The first ${calls.length} of ${calls_made} calls are listed.`);
   const compared = lockstep ? others : [];
   const names = compared.flatMap((k) => [`ULP off in SMIN, ${k}`, "ULP off in any s", "values compared", "different"]);
@@ -158,7 +158,7 @@ function showCalls() {
 
 const markOf = (c) => (!c ? "no certificate" : c.certified ? "certified" : "NOT certified");
 // The proved error of the mesh beside a largest value.
-const meshErrorOf = ({ kind, error, of }, read) => (kind === "proved" && read(of) > 0 ? `; mesh error ${Number((100 * read(error) / read(of)).toPrecision(2))} %` : "");
+const meshErrorOf = ({ kind, error, of }, read) => (kind === "proved" && read(of) > 0 ? `; mesh error ${Number((100 * read(error) / read(of)).toPrecision(2))}\u00a0%` : "");
 const quantityHead = (key) => inUnit(sentence(quantityOf(key).words).slice(0, -1), key);
 const largestBy = (list, key) => list.reduce((a, b) => (Math.abs(b[key]) > Math.abs(a[key]) ? b : a));
 const kindOf = ({ direction }) => (direction > 3 ? "couple" : direction > 0 ? "force" : "");  // empty: not known
@@ -198,17 +198,18 @@ function endTables() {
   const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), labelled(b.bed, b.name), b.force, ...[b.pressure.min, b.pressure.max].map((v, i) => [{ number: v.value, at: placeOf(v) + (i === 1 ? meshErrorOf(s.mesh, (of) => of.pressure) : "") }]), b.contact]));
   const bedTable = ["Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds];
   const hinges = steps.flatMap((s) => (s.hinges || []).map((h) => [stepName(s), String(h.hinge), h.x, h.rotation, h.moment]));
+  const hingeTable = tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges, 200);
   const watched = steps.flatMap((s) => watchedRows(s.watch, (v) => placeOf(v)).map((row) => [stepName(s), ...row]));
   const byEnvelope = startsFromZero() && result.envelope;  // combinations: their extremes are the governing results
   const governing = [
     ...(byEnvelope ? [] : [
       ...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)),
       ...tableOf(...bedTable), ...tableOf("Watched parts", ["Step", "Part", "Quantity", "Least", "Largest"], watched)]),
-    ...holdTable(endsOf(6)),
-    ...tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges, 40),
+    ...holdTable(endsOf(byEnvelope ? 3 : 6), byEnvelope),
+    ...(byEnvelope ? [] : hingeTable),
   ];
   return [governing, [
-    ...(!byEnvelope ? [] : [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)), ...tableOf(...bedTable)]),
+    ...(!byEnvelope ? [] : [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)), ...tableOf(...bedTable), ...hingeTable]),
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
@@ -224,16 +225,18 @@ function endTables() {
 const watchedRows = (watch = [], words) => watch.flatMap(({ name, extremes }) => Object.entries(extremes)
   .map(([key, { min, max }]) => [name, quantityHead(key), ...[min, max].map((v) => [{ number: v.value, at: words(v) }])]));
 
-// Supports, and the pairs of [[contact]], beside each other in these steps.
-function holdTable(steps, most = 24) {
+// Supports, and the pairs of [[contact]]: their least and largest values in all combinations, and those in these steps.
+function holdTable(steps, envelope, most = 40) {
   const whole = steps.filter((s) => s.pairs);
-  const own = places.pairs.filter((p) => !p.bed);
-  const unbroken = (words) => words.replace(/ /g, "\u00a0");
-  const rows = [...places.supports.map((s, i) => [[labelled(unbroken(`support at ${placed(s.name)}`), s.label), whatHolds(s)], (of) => of.reactions[i].value]),
-    ...own.map((p) => [[labelled(unbroken(`pair ${p.pair}, ${placed(p.name)} ${p.surface}`), p.label), inUnit("force", "force")], (of) => forceOrGap(of.pairs[p.pair - 1])])];
-  const title = `Reactions and contact forces; for a separated pair the ${inUnit("gap", "w")}${whole.length < result.steps.length ? `, ${whole.length} of ${result.steps.length} steps` : ""}`;
-  const sizeOf = (r) => Math.max(...r.slice(2).map((v) => (Array.isArray(v) ? 0 : Math.abs(v))));
-  return whole.length === 0 ? [] : tableOf(title, ["Where", "What", ...whole.map((s) => `Step ${stepName(s)}`)], rows.map(([begin, read]) => [...begin, ...whole.map(read)]), most, sizeOf);
+  const kind = (s) => (kindOf(s) === "force" ? "" : `, ${whatHolds(s)}`);
+  const where = (label, what, name) => (label ? `${label}, ${placed(name)}` : `${what}, ${placed(name)}`).replaceAll(" ", "\u00a0");
+  const range = (r) => [r?.min, r?.max].map((v) => (!v ? null : v.value === 0 ? [{ number: 0 }] : envelopeCell(v, result.steps[v.step - 1].name || stepName(result.steps[v.step - 1]))));
+  const rows = [...places.supports.map((s, i) => [[where(s.label, "support", s.name) + kind(s), ...(envelope ? [...range(envelope.reactions[i]), null] : [])], (of) => of.reactions[i].value]),
+    ...places.pairs.filter((p) => !p.bed).map((p) => [[where(p.label, `pair ${p.pair}`, p.name), ...(envelope ? [...range(envelope.pairs[p.pair - 1].force),
+      ...range(envelope.pairs[p.pair - 1].gap).slice(1)] : [])], (of) => forceOrGap(of.pairs[p.pair - 1])])];
+  const title = `${inUnit("Reactions and contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${whole.length < result.steps.length ? `, ${envelope ? "of all combinations, and " : ""}${whole.length} of ${result.steps.length} steps` : ""}`;
+  const sizeOf = (r) => Math.max(...r.slice(1, envelope ? 3 : undefined).map((v) => (Array.isArray(v) ? Math.abs(envelope ? v[0].number : 0) : Math.abs(v ?? 0))));
+  return whole.length === 0 ? [] : tableOf(title, ["Where", ...(envelope ? ["Least", "Largest", "Largest gap"] : []), ...whole.map((s) => `Step ${stepName(s)}`)], rows.map(([begin, read]) => [...begin, ...whole.map(read)]), most, sizeOf);
 }
 
 // The sums of loads, reactions and contact forces of a matrix along each axis.
@@ -257,25 +260,41 @@ function besideEachOther(steps, title, names, begins, read, most = Infinity) {
   return [...tableOf(title, [...names, ...beside.map((s) => `Step ${stepName(s)}`)], rows, most, sizeOf), ...besideEachOther(steps.slice(6), title, names, begins, read, most)];
 }
 
+const whenReached = (v) => (startsFromZero() ? nameOfStep(v.step) : `step ${v.step}, increment ${v.increment}`);
+const envelopeCell = (v, at = whenReached(v)) => [{ number: v.value, at }];
+const meshErrorIn = (name, v) => meshErrorOf(result.steps[v.step - 1].mesh, (of) => of[name]);
+
+// The extremes without mesh error over all combinations, if one of them differs by more than 1 % of the largest.
+function withoutMeshError(name, range) {
+  const known = result.steps.filter((s) => s.mesh.extremes?.[name]);
+  if (known.length === 0) return [];
+  const found = [["min", -1], ["max", 1]].map(([bound, side]) => {
+    const s = known.reduce((a, b) => (side * b.mesh.extremes[name][bound] > side * a.mesh.extremes[name][bound] ? b : a));
+    return { value: s.mesh.extremes[name][bound], step: s.step, told: range[bound].value };
+  });
+  const size = Math.max(...found.map(({ value }) => Math.abs(value)));
+  return found.some(({ value, told }) => Math.abs(value - told) > 0.01 * size) ? [[`${quantityHead(name)}, without mesh error`, ...found.map((v) => envelopeCell(v, nameOfStep(v.step)))]] : [];
+}
+
 // The governing values of the envelope, and its other tables.
-function envelopeTables({ pairs, reactions, beds = [], watch = [], states, curves, ...ranges }) {
-  const when = (v) => (startsFromZero() ? nameOfStep(v.step) : `step ${v.step}, increment ${v.increment}`);
-  const bound = (v, at = when(v)) => [{ number: v.value ?? v.force_max, at }];
+function envelopeTables({ pairs, reactions, beds = [], hinges = [], watch = [], states, curves, ...ranges }) {
+  const lists = [["Bed", "bed", beds], ["Hinge", "hinge", hinges]].flatMap(([words, key, list]) => list.flatMap(({ [key]: number, name, ...numbers }) =>
+    Object.entries(numbers).map(([what, range]) => [labelled(`${words} ${number}`, name), quantityHead(`${key}_${what}`), envelopeCell(range.min), envelopeCell(range.max)])));
   const forces = (title, of, most, sizeOf) => tableOf(inUnit(title, "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
-    pairs.flatMap((p, i) => (of(places.pairs[i]) ? [[...pairCells(places.pairs[i]), bound(p)]] : [])), most, sizeOf);
+    pairs.flatMap((p, i) => (of(places.pairs[i]) ? [[...pairCells(places.pairs[i]), [{ number: p.force_max, at: whenReached(p) }]]] : [])), most, sizeOf);
   return states === 0 ? [[], []] : [[
     ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. ",
       element("span", { class: "screen-only" }, "Point at a curve to see which step it comes from; click it to show the end of that step.")))] : []),
     ...tableOf(startsFromZero() ? "Least and largest of all combinations" : "Least and largest of all increments", ["Quantity", "Least", "Largest"],
-      Object.entries(ranges).map(([name, range]) => [quantityHead(name), ...[range.min, range.max].map((v) => bound(v, `${placeOf(v)}; ${when(v)}`))])),
-    ...tableOf("Beds: least and largest values", ["Bed", "Quantity", "Least", "Largest"], beds.flatMap(({ bed, name, ...numbers }) =>
-      Object.entries(numbers).map(([key, range]) => [labelled(bed, name), quantityHead(`bed_${key}`), bound(range.min), bound(range.max)]))),
-    ...tableOf("Watched parts: least and largest values", ["Part", "Quantity", "Least", "Largest"], watchedRows(watch, (v) => `${placeOf(v)}; ${when(v)}`)),
+      Object.entries(ranges).flatMap(([name, range]) => [[quantityHead(name), ...[range.min, range.max].map((v) => envelopeCell(v, `${placeOf(v)}; ${whenReached(v)}${v === largestOf(range) ? meshErrorIn(name, v) : ""}`))],
+        ...withoutMeshError(name, range)])),
+    ...tableOf(hinges.length > 0 ? "Beds and hinges: least and largest values" : "Beds: least and largest values", ["Where", "Quantity", "Least", "Largest"], lists),
+    ...tableOf("Watched parts: least and largest values", ["Part", "Quantity", "Least", "Largest"], watchedRows(watch, (v) => `${placeOf(v)}; ${whenReached(v)}`)),
   ], [
     ...forces("Largest contact force of each pair", (p) => !p.bed),
     ...forces("Largest contact force of each pair of a bed", (p) => p.bed, 40, (r) => Math.abs(r[r.length - 1][0].number)),
     ...tableOf(reactionsTitle, [...placeHead(), "What", "Least", "Largest"],
-      places.supports.map((s, i) => [...supportCells(s), whatHolds(s), bound(reactions[i].min), bound(reactions[i].max)]), mostReactions,
+      places.supports.map((s, i) => [...supportCells(s), whatHolds(s), envelopeCell(reactions[i].min), envelopeCell(reactions[i].max)]), mostReactions,
       (r) => Math.max(...r.slice(-2).map(([v]) => Math.abs(v.number)))),
   ]];
 }
@@ -290,7 +309,7 @@ function drawEnvelope() {
   const root = canvas(holder, width, 144 * 3 + 44, "Envelope: least and largest deflection, moment and shear along the beam");
   Object.entries(curves).forEach(([name, { min, max, min_step, max_step }], k) => {
     const range = result.envelope[name];
-    const Y = scaleOfStrip(root, { X, ends }, 8 + 144 * k, name, quantityHead(name), spread([0, range.min.value, range.max.value]), toldOf(range));
+    const Y = scaleOfStrip(root, { X, ends }, 8 + 144 * k, name, width < 620 ? inUnit(["w", "M", "V"][k], name) : quantityHead(name), spread([0, range.min.value, range.max.value]), toldOf(range));
     const spots = (values, [first, last]) => values.slice(first, last + 1).map((v, i) => [X(x[first + i]), Y(v)]);
     const whole = [0, x.length - 1];
     root.append(path([...spots(max, whole), ...spots(min, whole).reverse()], `${name}-area`, "Z"));
@@ -331,15 +350,15 @@ const placesWords = (all) => rangeWords([all[0], all[all.length - 1]]) + (all.le
 
 // Returns "1.35 G + 1.5 Q"; a train also has its places.
 const termWords = (of) => [...Object.entries(of[0].terms ?? {}), ...(of[0].train ? [[`${of[0].train.name} at ${placesWords(of.map((s) => s.train.at))}`, of[0].train.factor]] : [])]
-  .map(([name, factor]) => `${short(factor)} ${name}`).join(" + ");
+  .map(([name, factor]) => `${short(factor)} ${name}`).join(" + ").replaceAll("+ \u2212", "\u2212 ");
 
 const inputTables = () => [
   ...tableOf({ beam: "Beam", plate: "Plate", matrix: "Structure from a matrix" }[structure.kind], ["Quantity", "Value"], structureRows()),
   ...tableOf("Supports: fixed, or the stiffness of a spring", [...placeHead(), ...(ofMatrix ? [] : ["Dof"]), "Held"],
     gathered(places.supports, (s) => `${s.dof} ${s.spring}`, 13, supportCells).map(([s, at]) => [...at, ...(ofMatrix ? [] : [s.dof]), s.spring === null ? "fixed" : inUnit(short(s.spring), springKind(s))])),
   ...tableOf("Candidate pairs", ["Pair", ...placeHead(), "Surface", inLength("Face"), inUnit("Stiffness", "stiffness"), "At the start"],
-    gathered(places.pairs.filter((p) => !p.bed), (p) => [p.surface, p.face, p.stiffness, p.state, p.label].join(" "))
-      .map(([p, at, list]) => [labelled(numbersWords(list.map((q) => q.pair)), p.label), ...at, p.surface, p.face, p.stiffness, startWords(p)])),
+    gathered(places.pairs.filter((p) => !p.bed), (p) => [p.surface, p.face, p.stiffness, p.state].join(" "))
+      .map(([p, at, list]) => [labelled(numbersWords(list.map((q) => q.pair)), labelsWords(list)), ...at, p.surface, p.face, p.stiffness, startWords(p)])),
   ...tableOf("Beds: a pair at each node, with the modulus times the node's tributary length or area as its stiffness", ["Pairs", ...placeHead(), "Surface", inLength("Face"), inUnit("Modulus", "modulus"), "At the start"],
     gathered(places.pairs.filter((p) => p.bed), (p) => [p.surface, p.face, modulus(p).toPrecision(9), p.state, p.label].join(" "), 1)
       .map(([p, at, list]) => [labelled(numbersWords(list.map((q) => q.pair)), p.label), ...at, p.surface, p.face, Number(modulus(p).toPrecision(12)), startWords(p)])),
@@ -348,6 +367,8 @@ const inputTables = () => [
   ...tableOf("Loads, settlements and moved faces at the ends of steps", ["Step", "What", "Where", "Value"], runsOfTrains().filter((of) => !result.cases || of[0].train).flatMap(loadRows)),
 ];
 
+// The names of entries that are listed in one row.
+const labelsWords = (list) => { const all = [...new Set(list.map((p) => p.label ?? "").filter(Boolean))]; return all.length > 2 ? `${all[0]} to ${all[all.length - 1]}` : all.join(", "); };
 const modulus = (p) => p.stiffness / p.bed;
 const startWords = (p) => (p.state === "contact" ? "in contact" : "separated");
 
@@ -363,8 +384,8 @@ function loadRows(of) {
   const [all, count] = [of.map(partsOfLoad), new Map()];
   for (const rows of all) for (const row of new Set(rows.map(String))) count.set(row, (count.get(row) ?? 0) + 1);
   const stays = (row) => count.get(String(row)) === of.length;
-  const moving = all.flatMap((rows, i) => rows.filter((row) => !stays(row)).map(([what, , value, x]) => ({ what, value, x, offset: (x - of[i].train.at).toFixed(9) })));
-  const axles = groupsOf(moving, ({ what, value, offset }) => [what, value, offset].join());
+  const moving = all.flatMap((rows, i) => rows.filter((row) => !stays(row)).map(([what, , value, x]) => ({ what, value, x, offset: Math.round(1e9 * (x - of[i].train.at)) / 1e9 + 0 })));
+  const axles = groupsOf(moving, ({ what, value, offset }) => [what, short(value), offset].join());
   return [...all[0].filter(stays), ...axles.map((list) => [list[0].what, `x = ${placesWords(list.map(({ x }) => x))}`, list[0].value])].map((row) => [stepsName(of), ...row.slice(0, 3)]);
 }
 
@@ -475,8 +496,8 @@ function showCuts() {
 const pictureWords = {
   beam: "Up is positive. Numbers under supports are reactions. Moments are positive where the beam sags; the shear V = dM/dx is the upward " +
     "force of the part left of a cut on the part right of it. Dots are at the largest values.",
-  plate: "Colours are the same in all states: dark is low. Up is positive; moments are positive where the plate sags, and means of the elements at each " +
-    "node. Numbers at supports are reactions.",
+  plate: "Colours are the same in all states: dark is low. Up is positive; moments are positive where the plate sags. Colours are means of the elements at " +
+    "each node; marked values, and those of tables, are at the corner of one element. Numbers at supports are reactions.",
   matrix: "A face is drawn beside its node, across the direction of the pair's dof, at its distance from the undeformed node, magnified as displacements " +
     "are. Numbers at supports are reactions.",
   none: "No coordinates of this structure are known, so it is not drawn. [matrix] takes coordinates, [calculix] the mesh in CalculiX's input.",
