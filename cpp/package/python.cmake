@@ -10,6 +10,11 @@ else()
 endif()
 install(FILES contct.py DESTINATION ${python_folder} COMPONENT python)
 
+# A module of one file cannot tell type checkers that it has types; a package of stubs with its text can.
+file(WRITE ${PROJECT_BINARY_DIR}/py.typed "")
+install(FILES contct.py DESTINATION ${python_folder}/contct-stubs RENAME __init__.pyi COMPONENT python)
+install(FILES ${PROJECT_BINARY_DIR}/py.typed DESTINATION ${python_folder}/contct-stubs COMPONENT python)
+
 # The prover, a separate package next to the module.
 file(GLOB prover RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS prove/*.py)
 foreach(file IN LISTS prover)

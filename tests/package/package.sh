@@ -157,12 +157,13 @@ program() {
   echo "$said" | grep -F "$data/contct/reference/verification.toml"
 }
 
-# python LIBDIR VERSION: tests that the installed contct.py finds the installed library. Exit 77 without Python 3.11.
+# python LIBDIR VERSION: tests that the installed contct.py finds the installed library, and has types. Exit 77 without Python 3.11.
 python() {
   python3 -c 'import tomllib' 2>/dev/null || exit 77
   cd /
   found=$(env -u CONTCT_LIBRARY PYTHONPATH="$1" python3 -B -c 'import contct; print(contct.about().version, contct._library._name)')
   [ "$found" = "$2 $(realpath "$1")/libcontct.so" ] || fail "found $found; allowed: $2 $1/libcontct.so"
+  [ -f "$1/contct-stubs/py.typed" ] && cmp "$1/contct.py" "$1/contct-stubs/__init__.pyi"
 }
 
 "$@"

@@ -72,8 +72,8 @@ std::string concentration_warning(const problem& p, std::span<const solved_step>
       most = size;
       warning = fmt::format(
           "{}: largest {} at {}, under {}: there the moments of a thin plate grow with every finer mesh. "
-          "Spread the load, or the force of a bolt, over an area (uniform with from and to) for a finite "
-          "stress",
+          "Spread the load, or the force of a bolt, over an area (uniform or moment with from and to) for "
+          "a finite stress",
           step_words(p, s.step), here == 0 ? "von Mises" : ranges[here].name, place_words(p.geometry, at),
           what);
     }
