@@ -256,13 +256,13 @@ def interpreted(code: bytes, state: bytes) -> Outcome:
     before = {(name, 0): value for name, value in zip(ORDER, held)} | {(f"xmm{k // 2}", k % 2 * 8): held[18 + k] for k in range(32)}
     cells = {place: number_64(value) for place, value in before.items()}
     s = State(processor.address, dict(cells))
-    start = s.flags = lambda: {name: z3.BoolVal(is_so) for name, is_so in conditions(held[16]).items()}
+    start = s.flags = {name: lambda is_so=is_so: z3.BoolVal(is_so) for name, is_so in conditions(held[16]).items()}
     (s,) = machine._step(s)
     values = dict.fromkeys([*ORDER, *(f"xmm{k}" for k in range(16))], 0)
     for (name, at), value in s.cells.items():
         values[name] |= (before[name, at] if value is cells.get((name, at)) else constant(value).as_long()) << 8 * at
     assert s.pc in (processor.landing, processor.address + len(code)), "another jump"
-    known = conditions(held[16]) if s.flags is start else {name: z3.is_true(constant(claim)) for name, claim in s.flags().items()}
+    known = conditions(held[16]) if s.flags is start else {name: z3.is_true(constant(claim())) for name, claim in s.flags.items()}
     return [*values.values(), s.pc == processor.landing], bytes(machine.data), known
 
 

@@ -2,6 +2,7 @@
 
 import argparse
 import functools
+import gc
 import hashlib
 import json
 import multiprocessing
@@ -78,6 +79,7 @@ def kernels_of(image: Image, symbol: str) -> list[Kernel]:
 
 def judge(path: str, kernel: Kernel, trace: str = "") -> tuple[int, str]:
     """The verdict on one kernel of a file: exit status and words. `trace`: a file for a call with a difference."""
+    gc.disable()  # Z3's terms have no cycles
     start, image = time.process_time(), Image(path)
     machine = Machine(image, Specification(kernel.width))
     try:

@@ -1,5 +1,6 @@
 """The proof that a kernel equals the specification from loop head to loop head, for any number of pairs."""
 
+import itertools
 from typing import Iterator, NamedTuple
 
 import z3
@@ -12,6 +13,7 @@ from .specification import Position, Toggle
 from .state import State
 
 MOST_ROUNDS = 400
+MOST_TURNS = 8  # paths of a loop from which the growth of a value in a turn is guessed
 Slot = tuple[str, int, int]  # a region, the first byte and the size
 VARYING = {"i", "smin", "toggled", "unknown"}  # symbols whose meaning depends on the position
 
@@ -56,6 +58,7 @@ class Proof:
         self.machine, self.spec, self.interface, self.address = machine, machine.spec, interface, address
         machine.find_cuts(address)
         self.heads: dict[int, Head] = {}
+        self._varying: dict[int, tuple[z3.ExprRef, bool]] = {}
         self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # of each head, the version and the paths
 
     def prove(self) -> None:
@@ -93,7 +96,6 @@ class Proof:
         """The paths from a state in which `facts`, the preconditions and the specification's invariant hold."""
         facts = facts + self.spec.of_call() + self.spec.of_position(at)
         facts += [z3.ULT(BASE[name], 1 << 63) for name in ARRAYS]  # so that no address in an array overflows
-        facts += [fact for k in range(3) for fact in self.spec.of_pair(at.i + k)]
         self.machine.begin(at, facts)
         return (Arrival(end, origin, at, facts) for end in self.machine.explore(s))
 
@@ -115,9 +117,10 @@ class Proof:
             head.facts.append(self.spec.here.i == to.i)
 
     def _turns(self, a: Arrival, to: Position) -> list[tuple[State, int]]:
-        """Ends of the paths from this arrival back to the same place, with the numbers of their pairs."""
+        """Ends of some paths from this arrival back to the same place, with the numbers of their pairs."""
         ends = self._paths(State(a.s.pc, dict(a.s.cells)), a.s.pc, to, a.facts + a.s.path)
-        return [(b.s, len(b.s.pairs)) for b in ends if b.s.pc == a.s.pc and b.s.pairs]
+        turns = ((b.s, len(b.s.pairs)) for b in ends if b.s.pc == a.s.pc and b.s.pairs)
+        return list(itertools.islice(turns, MOST_TURNS))
 
     def _guesses(self, cases: list[tuple[Arrival, Advance]], slot: Slot, turns: list[tuple[State, int]]) -> list[z3.BitVecRef]:
         """Possible values of a slot when the loop begins a pair: a value that depends on the pair, SMIN, or the number of
@@ -158,7 +161,8 @@ class Proof:
         before, cases = head.version, self._cases(a)
         while cases and head.version == before:  # further cases began with assumptions that are now removed
             (case, listing), *cases = cases
-            when = lambda term: z3.substitute(term, *zip(self.spec.here[1:], listing.to[1:]))  # the term there
+            there = list(zip(self.spec.here[1:], listing.to[1:]))
+            when = lambda term: z3.substitute(term, *there) if self._varies(term) else term  # the term there
             kept = [fact for fact in head.facts if self.machine.holds(case.s, when(fact))]
             refuted = [options for slot, options in head.guesses.items() if options and not self._holds(case, slot, when(options[0]))]
             changed = len(kept) < len(head.facts) or bool(refuted)
@@ -169,6 +173,12 @@ class Proof:
         if head.version == before:
             a.s.judged["refutes nothing of version"] = before
         return head.version > before
+
+    def _varies(self, term: z3.ExprRef) -> bool:
+        """Whether the meaning of a term depends on the position."""
+        if term.get_id() not in self._varying:  # with the term, whose number is the key
+            self._varying[term.get_id()] = term, not symbols(term).isdisjoint(VARYING)
+        return self._varying[term.get_id()][1]
 
     def _holds(self, a: Arrival, slot: Slot, value: z3.BitVecRef) -> bool:
         found = a.s.read(*slot)

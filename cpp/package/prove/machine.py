@@ -49,17 +49,27 @@ class Machine:
         self.order: dict[int, int] = {}  # of each instruction, the place in a depth-first search; the entry is last
         self._is_element: dict[tuple, tuple[bool, list]] = {}  # with the terms, whose numbers are in the key
         self._of_numbers: dict[int, tuple[z3.BoolRef, bool]] = {}
+        self._solvers: dict[int, tuple[list[z3.BoolRef], z3.Solver, set[int]]] = {}  # by the list of facts, with the told pairs
+        self._located: dict[int, tuple[z3.BitVecRef, tuple[str, z3.BitVecRef | int]]] = {}
         self._decoded: dict[int, Instruction] = {}
 
     # Questions to Z3.
 
     def begin(self, at: Position, facts: list[z3.BoolRef]) -> None:
         """Set the position of the listing at which the next paths begin, and the facts that hold."""
-        if facts is not self.facts or at is not self.at:
-            self.at, self.facts = at, facts
-            self.solver = z3.SimpleSolver()
-            self.solver.set("rlimit", EFFORT)
-            self.solver.add(*facts)
+        self.at, self.facts = at, facts
+        if id(facts) not in self._solvers:
+            solver = z3.SimpleSolver()
+            solver.set("rlimit", EFFORT)
+            solver.add(*facts)
+            self._solvers[id(facts)] = facts, solver, set()
+        _, self.solver, self.told = self._solvers[id(facts)]
+
+    def _tell(self, k: int, i: z3.BitVecRef) -> None:
+        """Add the preconditions for the path's pair `k` once a path uses it: fewer facts make Z3 quicker."""
+        if k not in self.told:
+            self.told.add(k)
+            self.solver.add(*self.spec.of_pair(i))
 
     def possible(self, s: State, claim: z3.BoolRef) -> bool:
         """Whether `claim` can hold on this path."""
@@ -71,14 +81,14 @@ class Machine:
         if z3.is_true(claim) or z3.is_false(claim):
             return z3.is_true(claim)
         if claim.get_id() not in s.known:
-            if any(z3.is_false(model.eval(claim, True)) for model in s.models):
+            if any(told == len(self.told) and z3.is_false(model.eval(claim, True)) for told, model in s.models):
                 return False
             self.questions += 1
             answer = self.solver.check(*s.path, z3.simplify(z3.Not(claim)))
             if answer == z3.unknown:
                 raise self.undecided(s, "Z3 gave no answer")
             if answer == z3.sat:
-                s.models = [*s.models[-3:], self.solver.model()]
+                s.models = [*s.models[-3:], (len(self.told), self.solver.model())]
             s.known[claim.get_id()] = claim, answer == z3.unsat
         return s.known[claim.get_id()][1]
 
@@ -110,7 +120,6 @@ class Machine:
         return None
 
     def same(self, s: State, a: z3.BitVecRef, b: z3.BitVecRef) -> bool:
-        a, b = z3.simplify(a), z3.simplify(b)
         return a.eq(b) or (a.size() == b.size() and self.holds(s, a == b))
 
     def fresh(self, width: int) -> z3.BitVecRef:
@@ -130,7 +139,11 @@ class Machine:
 
     def locate(self, s: State, address: z3.BitVecRef) -> tuple[str, z3.BitVecRef | int]:
         """The region of an address, and the offset from its first byte: a constant, except in arrays."""
-        address = z3.simplify(address)
+        if address.get_id() not in self._located:  # with the term, whose number is the key
+            self._located[address.get_id()] = address, self._locate(s, z3.simplify(address))
+        return self._located[address.get_id()][1]
+
+    def _locate(self, s: State, address: z3.BitVecRef) -> tuple[str, z3.BitVecRef | int]:
         for term in address.children() if address.decl().kind() == z3.Z3_OP_BADD else [address]:
             name = term.decl().name() if z3.is_const(term) else ""
             if name not in BASE:
@@ -159,6 +172,7 @@ class Machine:
             i = z3.simplify(self.at.i + k)
             if self._stands_at(s, array, i, offset) and self.holds(s, z3.ULT(i, self.spec.pairs)):
                 s.pairs |= {k} if array == "SS" else set()
+                self._tell(k, i)
                 return k
         if array == "SS" and self.at.loop == 1 and s.pc not in self.cuts and self._stands_at(s, array, z3.BitVecVal(0, 64), offset):
             self.cuts.add(s.pc)  # DO 30 begins here, without the head of a loop before it

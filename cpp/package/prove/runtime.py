@@ -24,7 +24,7 @@ def call(machine, s: State, name: str) -> None:
     if machine.starting and name in OF_START:
         for region, at in [place for place in s.cells if place[0] in CHANGED]:
             s.cells[region, at] = machine.fresh(s.cells[region, at].size())
-        s.flags = dict
+        s.flags = {}
         return
     if name not in (BEGIN, INTEGER, REAL, DONE) or not (s.events or name == BEGIN):
         raise machine.undecided(s, f"{name} is called, whose effect is not known")
@@ -40,7 +40,7 @@ def call(machine, s: State, name: str) -> None:
             del s.cells[region, at]  # the call may change the block and everything below the return address
         elif region in CHANGED:
             s.cells[region, at] = machine.fresh(value.size())
-    s.flags = dict
+    s.flags = {}
 
 
 def _label(machine, s: State, block: int) -> int:

@@ -36,12 +36,12 @@ class State:
         self.pc = pc
         self.steps = 0
         self.cells = cells or {}  # stored values, by region and first byte
-        self.flags: Callable[[], dict[str, z3.BoolRef]] = dict  # the known conditions
+        self.flags: dict[str, Callable[[], z3.BoolRef]] = {}  # the known conditions
         self.elements: dict[tuple[str, int], z3.BitVecRef] = {}  # written values, by array and pair
         self.pairs: set[int] = set()  # pairs with a read or written element of SS, from the path's first pair
         self.events: list[z3.BitVecRef] = []  # labels and numbers written to unit 26
         self.path: list[z3.BoolRef] = []  # conditions of the taken branches
-        self.models: list[z3.ModelRef] = []  # examples of the facts and this path, which answer further questions
+        self.models: list[tuple[int, z3.ModelRef]] = []  # examples of this path, with the number of pairs told: see Machine.holds
         self.known: dict[int, tuple[z3.BoolRef, bool]] = {}  # answers of Z3 on this path, by the number of the term
         self.judged: dict = {}  # what the proof found out about this state as the end of a path
         self.choices: list[tuple[str, int]] = []  # cells of this instruction whose value depends on a condition
@@ -54,7 +54,7 @@ class State:
             setattr(other, name, getattr(self, name).copy())
         other.path += claims
         other.judged = {}
-        other.models = [model for model in self.models if all(z3.is_true(model.eval(claim, True)) for claim in claims)]
+        other.models = [m for m in self.models if all(z3.is_true(m[1].eval(claim, True)) for claim in claims)]
         other.known = {key: told for key, told in self.known.items() if told[1]}
         for claim in claims:
             opposite = z3.simplify(z3.Not(claim))

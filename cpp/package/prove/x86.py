@@ -56,26 +56,26 @@ class Operands:
 
     def condition(self) -> z3.BoolRef:
         """The condition of jcc, setcc and cmovcc."""
-        known = self.s.flags().get(("o", "b", "e", "be", "s", "p", "l", "le")[self.ins.condition // 2])
+        known = self.s.flags.get(("o", "b", "e", "be", "s", "p", "l", "le")[self.ins.condition // 2])
         if known is None:
             raise self.machine.undecided(self.s, "the flag that the instruction reads is not known")
-        return z3.simplify(z3.Not(known) if self.ins.condition % 2 else known)
+        return z3.simplify(z3.Not(known()) if self.ins.condition % 2 else known())
 
 
 def _compare(o: Operands, a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
     """Set the flags of a - b, and return a - b."""
-    o.s.flags = lambda: {
-        "e": a == b, "b": z3.ULT(a, b), "be": z3.ULE(a, b), "l": a < b, "le": a <= b, "s": a - b < 0,
-        "o": (a < b) != (a - b < 0),
+    o.s.flags = {
+        "e": lambda: a == b, "b": lambda: z3.ULT(a, b), "be": lambda: z3.ULE(a, b), "l": lambda: a < b,
+        "le": lambda: a <= b, "s": lambda: a - b < 0, "o": lambda: (a < b) != (a - b < 0),
     }  # fmt: skip
     return a - b
 
 
 def _compare_reals(o: Operands) -> None:
     a, b = o.both()
-    nan = reals.unordered(a, b)
-    o.s.flags = lambda: {"p": nan, "e": z3.Or(nan, reals.equal(a, b)), "b": z3.Or(nan, reals.less(a, b)),
-                         "be": z3.Not(reals.less(b, a))}  # fmt: skip
+    nan = lambda: reals.unordered(a, b)
+    o.s.flags = {"p": nan, "e": lambda: z3.Or(nan(), reals.equal(a, b)), "b": lambda: z3.Or(nan(), reals.less(a, b)),
+                 "be": lambda: z3.Not(reals.less(b, a))}  # fmt: skip
 
 
 def _logic(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
@@ -85,13 +85,13 @@ def _logic(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
 
 def _sum(o: Operands, result: z3.BitVecRef) -> z3.BitVecRef:
     """Set only the flags of a sum or shift that depend on the result."""
-    o.s.flags = lambda: {"e": result == 0, "s": result < 0}
+    o.s.flags = {"e": lambda: result == 0, "s": lambda: result < 0}
     return result
 
 
 def _multiply(o: Operands) -> None:
     o.set(reals.product(*o.both()))
-    o.s.flags = dict
+    o.s.flags = {}
 
 
 def _shift(o: Operands, work: Callable) -> None:
