@@ -120,9 +120,12 @@ def markdown_of(file):
 
 
 def linked(m, file, names):
-    """The address of a link or picture of `file`: another page, or a file of the tree."""
+    """The address of a link or picture of `file`: another page, a copy of the picture, or a file of the tree."""
     target, mark, place = m[2].partition("#")
     to = (file.parent / target).resolve()
+    if m[1] == "src":
+        names[to] = "pictures/" + "-".join(to.relative_to(root / "reference").parts)
+        (out.parent / "course" / names[to]).write_bytes(to.read_bytes())
     return f'{m[1]}="{names.get(to) or pathlib.Path("../..", to.relative_to(root)).as_posix()}{mark}{place}"'
 
 
@@ -148,15 +151,15 @@ def page_of(file, converter, order, names, titles):
     converter.reset()
     text = re.sub(r"^\[Contents\].*\n", "", markdown_of(file), count=1, flags=re.M) if file in order else markdown_of(file)
     body = converter.convert(text)
-    known = scenes()
+    known, still = scenes(), "<noscript><p>JavaScript is off: the picture does not move, and answers are not judged.</p></noscript>"
 
     def place(m):
         if m[2] not in known:
             raise SystemExit(f"{file}: found a scene \"{m[2]}\"; allowed: {', '.join(known)}")
-        return f'<figure data-scene="{m[2]}">{m[1]}</figure>'
+        return f'<figure data-scene="{m[2]}">{m[1]}{still}</figure>'
 
     body = re.sub(r'<p>(<img [^>]*title="scene: ([\w-]+)"[^>]*>)</p>', place, body)
-    body = re.sub(r'<p>(<img [^>]*title="judge: port"[^>]*>)</p>', r'<div data-port>\1</div>', body)
+    body = re.sub(r'<p>(<img [^>]*title="judge: port"[^>]*>)</p>', rf'<div data-port>\1{still}</div>', body)
     body = re.sub(r'(<pre><code class="language-sh">.*?</pre>)', r'<details class="commands"><summary>Run it yourself</summary>\1</details>', body, flags=re.S)
     body = re.sub(r'<pre><code class="language-text">(.*?)</code></pre>', numbered, body, flags=re.S)
     body = re.sub(r'(href|src)="(?!https?:|#)([^"]+)"', lambda m: linked(m, file, names), body)
@@ -167,7 +170,7 @@ def page_of(file, converter, order, names, titles):
 def write_course():
     import markdown
     folder = out.parent / "course"
-    folder.mkdir(exist_ok=True)
+    (folder / "pictures").mkdir(parents=True, exist_ok=True)
     converter = markdown.Markdown(extensions=["tables", "fenced_code", "toc", "md_in_html"])
     files = [root / "README.md", *sorted((root / "reference").rglob("*.md")), *course.glob("*.ipynb")]
     names = {file: name_of(file) for file in files}
