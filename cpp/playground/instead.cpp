@@ -50,10 +50,6 @@ std::string lapack_identity() {
          ", by f2c";
 }
 
-}  // namespace contct
-
-namespace contct {
-
 std::unique_ptr<kernel> make_plugin(const std::string& path, const outside_limits& /*limits*/) {
   throw std::invalid_argument("plugin:" + path + ": found a library; allowed in a page: built-in kernels");
 }

@@ -21,10 +21,6 @@ let endRun = () => {}; // ends the worker's run
 const kernelsAsked = () => byId("kernels").value.split(",");
 const askPath = (name, options) => ask(name, editor.value, { kernels: kernelsAsked(), ...options });
 
-// ---- numbers of the text ----
-
-const numberOf = (key) => model && model.numbers.find((n) => n.key === key);
-
 /** Replaces numbers of the text: { key: value }. All changes of one drag are one change for undo. */
 function change(values) {
   const text = withNumbers(editor.value, model.numbers, values);
@@ -40,8 +36,7 @@ function change(values) {
 /** Marks a part of the text: the number that is dragged, or an error. */
 function mark(from, to, kind) {
   const text = editor.value;
-  const marked = element("mark", { class: kind }, text.slice(from, to) || " ");
-  byId("marks").replaceChildren(text.slice(0, from), ...(to > from ? [marked] : []), text.slice(to), "\n");
+  byId("marks").replaceChildren(text.slice(0, from), ...(to > from ? [element("mark", { class: kind }, text.slice(from, to))] : []), text.slice(to), "\n");
   follow();
 }
 function follow() {
@@ -208,7 +203,7 @@ function loadHandle(f, p) {
 }
 
 function addUniformHandle(root, step) {
-  const uniform = numberOf(`step[${step}].uniform`);
+  const uniform = model.numbers.find((n) => n.key === `step[${step}].uniform`);
   if (!uniform) return;
   const right = page.width - 30;
   root.append(label(right - 8, 17, `uniform ${rough(uniform.value)}`, { "text-anchor": "end", class: "value" }),

@@ -96,8 +96,9 @@ function button(words, act, more = {}) {
 
 /** A rectangle that can be dragged, or moved by the arrow keys. It keeps the focus when it is drawn again. `begin` returns
     a function of the pixels since the drag began; `end` is called after the drag. `step` receives the direction of an
-    arrow key on the page, and whether Shift is pressed. `more` are further attributes. */
-function handle(place, words, { begin, end = () => {}, step, ...more }) {
+    arrow key on the page, and whether Shift is pressed; `ends` has the directions of the keys Home and End. `more` are
+    further attributes. */
+function handle(place, words, { begin, end = () => {}, step, ends = {}, ...more }) {
   const made = svg("rect", { ...place, fill: "none", class: "handle", tabindex: "0", role: "slider", "aria-label": words, ...more }, svg("title", {}, words));
   // Without this, the browser would scroll when the handle is drawn again during a touch.
   made.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false });
@@ -105,17 +106,16 @@ function handle(place, words, { begin, end = () => {}, step, ...more }) {
     event.preventDefault();
     const [x, y, to] = [event.clientX, event.clientY, begin()];
     const drag = new AbortController();
-    const during = { signal: drag.signal };
     let moved = null; // the last movement, which the next frame handles
     const follow = () => { if (moved) to(...moved); moved = null; };
     addEventListener("pointermove", (e) => {
       if (moved === null) requestAnimationFrame(follow);
       moved = [e.clientX - x, e.clientY - y];
-    }, during);
-    for (const name of ["pointerup", "pointercancel"]) addEventListener(name, () => { drag.abort(); follow(); end(); }, during);
+    }, { signal: drag.signal });
+    for (const name of ["pointerup", "pointercancel"]) addEventListener(name, () => { drag.abort(); follow(); end(); }, { signal: drag.signal });
   });
   made.addEventListener("keydown", (event) => {
-    const way = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] }[event.key];
+    const way = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0], ...ends }[event.key];
     if (!way) return;
     event.preventDefault();
     const holder = made.ownerSVGElement.parentNode;

@@ -19,6 +19,9 @@ function shapeOf(nodes, u, parts = 6) {
   return points;
 }
 
+/** "stop 1", or "stops 1, 2 and 3". */
+const stopsIn = (pairs) => `stop${pairs.length > 1 ? "s" : ""} ${pairs.map((p) => p.pair).join(" and ").replace(/ and (?=.* and )/g, ", ")}`;
+
 const nearestTo = (x, xs) => xs.reduce((best, at, i) => (Math.abs(at - x) < Math.abs(xs[best] - x) ? i : best), 0);
 
 /** A place of the page with words, a picture and controls. `kind`: the name of the element for the words. */
@@ -31,9 +34,10 @@ class Scene {
     scenes.push(this);
   }
 
-  /** Shows the words, the picture, the buttons and other elements. The picture is drawn again if its width changes. */
-  showAll(buttons, ...others) {
-    this.holder.replaceChildren(this.words, this.picture, element("div", { class: "controls" }, ...buttons), ...others);
+  /** Shows rows of controls, the words, the picture and other elements. The controls are first, so that they stay where
+      they are when the picture grows. The picture is drawn again if its width changes. */
+  showAll(rows, ...others) {
+    this.holder.replaceChildren(...rows.map((row) => element("div", { class: "controls" }, ...row)), this.words, this.picture, ...others);
     const items = () => [...this.picture.querySelectorAll("[tabindex]")];
     new ResizeObserver(() => {
       const focused = items().indexOf(document.activeElement);
@@ -51,7 +55,13 @@ class ContactScene extends Scene {
     const [force, length] = units.map((unit) => (x) => `${rough(Math.abs(x))} ${unit}`.trim());
     Object.assign(this, { load, most, kernels, beside, question, inForce: force, inLength: length, grid: roundDown(most / 40) });
     this.field = element("input", { type: "number", min: "0", max: String(most), step: String(this.grid), "aria-label": `Load, from 0 to ${force(most)}` });
-    this.field.addEventListener("change", () => this.push(this.node, -Number(this.field.value), false));
+    this.field.addEventListener("change", () => {
+      const asked = Number(this.field.value);
+      this.push(this.node, -asked, false);
+      this.field.value = String(Math.abs(this.force));
+      this.note = asked === Math.abs(this.force) ? "" : `Allowed: a load from 0 to ${force(most)}, downwards. `;
+      this.draw();
+    });
     this.fieldLabel = element("label", {}, "Load ", this.field, ` ${units[0]}`);
     this.history = new TextHistory(text);
     this.listing = listing.split("\n").slice(0, -1).map((words) => element("li", {}, words));
@@ -63,20 +73,15 @@ class ContactScene extends Scene {
   // ---- elements of the page ----
 
   build() {
-    this.buttons = {
-      step: button("Step", () => this.step(), { "data-act": "step" }),
-      into: button("Step into", () => this.stepInto(), { "data-act": "into" }),
-      pair: button("Next pair", () => this.nextPair(), { "data-act": "pair" }),
-      back: button("Step back", () => this.stepBack(), { "data-act": "back" }),
-      ignore: button("Ignore s_min", () => this.ignore(), { "data-act": "ignore", "aria-pressed": "false" }),
-      start: button("From the start", () => this.start(), { "data-act": "start" }),
-      undo: button("Undo", () => this.restore(this.history.undo()), { "data-act": "undo" }),
-      redo: button("Redo", () => this.restore(this.history.redo()), { "data-act": "redo" }),
-    };
+    const first = { start: ["From the start", () => this.start()], ignore: ["Ignore s_min", () => this.ignore()],
+      undo: ["Undo", () => this.restore(this.history.undo())], redo: ["Redo", () => this.restore(this.history.redo())] };
+    const steps = { step: ["Step", () => this.step()], into: ["Step into", () => this.stepInto()], pair: ["Next pair", () => this.nextPair()], back: ["Step back", () => this.stepBack()] };
+    this.buttons = {};
+    const row = (acts) => Object.entries(acts).map(([name, [words, act]]) => (this.buttons[name] = button(words, () => { this.finish(); act(); }, { "data-act": name })));
     this.values = element("dl", { class: "values" });
     this.lines = element("ol", { class: "listing", tabindex: "0", role: "region", "aria-label": "The listing" }, ...this.listing);
     this.inside = element("div", { class: "inside", hidden: "" }, this.values, this.lines);
-    this.showAll([...Object.values(this.buttons), this.fieldLabel], this.inside);
+    this.showAll([[this.fieldLabel, ...row(first)], row(steps)], this.inside);
     listenForUndo(this.holder, (way) => this.restore(this.history[way]()));
   }
 
@@ -127,14 +132,13 @@ class ContactScene extends Scene {
   /** Shows the beam under the whole load ("end"), or state `k` of the path ("path"). */
   show(what, k = this.last) {
     this.moving = null;
-    Object.assign(this, { shown: what, k, overlay: what === "path" && k < this.last, at: -1, through: null });
+    Object.assign(this, { shown: what, k, overlay: what === "path" && k < this.last, at: -1, through: null, note: "" });
     this.draw();
   }
 
   start() { this.show("path", 0); }
 
   step() {
-    if (this.moving) return;
     if (this.shown === "end" || (!this.overlay && this.k === this.last)) return this.start();
     if (this.through) return this.ignore();
     const [from, to] = [this.frames[this.k].u, this.frames[this.k + 1].u];
@@ -143,7 +147,6 @@ class ContactScene extends Scene {
 
   /** Moves to the next line of the listing in the order of execution. */
   stepInto() {
-    if (this.moving) return;
     if (this.shown === "end" || !this.overlay) return this.start();
     if (this.through) return this.ignore();
     if (this.at + 1 >= this.linesOf(this.k).length) return this.step();
@@ -156,14 +159,13 @@ class ContactScene extends Scene {
     if (this.shown === "end" || !this.overlay || this.through) return this.stepInto();
     const lines = this.linesOf(this.k);
     const next = lines.findIndex((l, i) => i > this.at && l.pair !== lines[this.at]?.pair);
-    if (next >= 0) this.at = next - 1;
-    else this.at = lines.length - 1;
+    this.at = (next < 0 ? lines.length : next) - 1;
     this.stepInto();
   }
 
   /** Moves to the line before, or to the increment before. */
   stepBack() {
-    if (this.moving || this.shown === "end") return;
+    if (this.shown === "end") return;
     if (this.through) return this.ignore();
     if (this.at < 0) return this.show("path", Math.max(0, this.k - 1));
     this.at -= 1;
@@ -181,7 +183,6 @@ class ContactScene extends Scene {
 
   /** Shows the path without s_min: all the remaining load is applied at once, and the beam passes through the stops. */
   ignore() {
-    if (this.moving) return;
     if (this.shown === "end" || !this.overlay) this.start();
     const ghost = this.ghostOf(this.k);
     if (!ghost) return;
@@ -193,59 +194,50 @@ class ContactScene extends Scene {
   }
 
   glide(from, to, done) {
-    const whole = 650;
     if (stillAsked()) return done();
-    const began = performance.now();
-    const mine = this.moving = { u: from };
+    const [began, mine] = [performance.now(), (this.moving = { u: from, done })];
     const move = (now) => {
       if (this.moving !== mine) return;
-      const t = Math.min(1, Math.max(0, (now - began) / whole));
-      const eased = t * t * (3 - 2 * t);
-      mine.u = from.map((w, i) => w + eased * (to[i] - w));
-      if (t < 1) {
-        this.draw();
-        return requestAnimationFrame(move);
-      }
-      this.moving = null;
-      done();
+      const t = Math.min(1, Math.max(0, (now - began) / 650));
+      mine.u = from.map((w, i) => w + t * t * (3 - 2 * t) * (to[i] - w));
+      if (t === 1) return this.finish();
+      this.draw();
+      requestAnimationFrame(move);
     };
     requestAnimationFrame(move);
   }
 
-  // ---- dragging ----
-
-  /** Changes the load. If `follows`, the change is part of the same drag. */
-  change(values, follows = false) {
-    this.history.add(withNumbers(this.history.text, this.numbers, values), follows);
-    this.solve();
-    this.show("end");
+  /** Ends a movement at once, so that quick presses of a button all count. */
+  finish() {
+    const moving = this.moving;
+    this.moving = null;
+    moving?.done();
   }
+
+  // ---- dragging ----
 
   restore() {
     this.solve();
     this.show("end");
   }
 
-  /** Sets the load's node and size. */
+  /** Sets the load's node and size. If `follows`, the change is part of the same drag. */
   push(node, force, follows) {
-    const size = Math.max(-this.most, Math.min(0, force));
     const place = this.number("node") ? { [`${this.load}.node`]: node + 1 } : { [`${this.load}.x`]: this.nodes[node] };
-    this.change({ [`${this.load}.w`]: size, ...place }, follows);
+    this.history.add(withNumbers(this.history.text, this.numbers, { [`${this.load}.w`]: Math.max(-this.most, Math.min(0, force)), ...place }), follows);
+    this.restore();
   }
 
   addHandle(root, x, top) {
     const words = `load ${rough(this.force)} at x = ${rough(this.nodes[this.node])}; arrow keys move it`;
-    const range = { "aria-valuenow": String(this.force), "aria-valuemin": String(-this.most), "aria-valuemax": "0" };
+    const range = { "aria-valuenow": String(Math.abs(this.force)), "aria-valuemin": "0", "aria-valuemax": String(this.most) };
     root.append(handle({ x: x - 24, y: top - 8, width: 48, height: 72, rx: 8 }, words, {
       class: "handle across", ...range,
       begin: () => {
-        const [force, from] = [this.force, this.nodes[this.node]];
-        let follows = false;
-        return (dx, dy) => {
-          this.push(nearestTo(from + dx / this.page.scale, this.nodes), this.onGrid(force - (dy * this.most) / 150), follows);
-          follows = true;
-        };
+        const [force, from, begun] = [this.force, this.nodes[this.node], this.history.at];
+        return (dx, dy) => this.push(nearestTo(from + dx / this.page.scale, this.nodes), this.onGrid(force - (dy * this.most) / 150), this.history.at > begun);
       },
+      ends: { Home: [0, -Infinity], End: [0, Infinity] },
       step: ([across, down], far) => this.push(Math.max(0, Math.min(this.nodes.length - 1, this.node + across)), this.onGrid(this.force - down * this.grid * (far ? 5 : 1)), false),
     }));
   }
@@ -310,7 +302,7 @@ class ContactScene extends Scene {
     root.append(titled(`pair ${p.pair}: face ${p.surface} at ${short(p.face)}`, shape(`M${x} ${y}${at(0.1, 0)}${coil}${at(0.9, 0)}${at(1, 0)}`, "coil"),
       line(x - 16, y, x + 16, y, `face-line${through ? " through" : ""}`), line(x - 14, foot, x + 14, foot, "face-line"),
       ...[-10, -3, 4, 11].map((k) => line(x + k, foot, x + k - 5, foot - p.side * 6, "hatch"))));
-    root.append(axisWord(x + 20, foot + 2, String(p.pair), "start"));
+    root.append(axisWord(x + 16, foot + 2, String(p.pair), "start"));
   }
 
   /** Draws the contact force as an arrow whose tip is at the beam, on the left of the spring. */
@@ -328,7 +320,6 @@ class ContactScene extends Scene {
     const { X, Y } = this.page;
     if (!ghost) return;
     root.append(path(shapeOf(this.nodes, ghost).map(([x, w]) => [X(x), Y(w)]), "ghost"));
-    const toggled = this.toggledOf(this.k);
     this.drawBracket(root, u, ghost);
     for (const p of this.told[this.k].pairs) {
       const at = this.pairs[p.pair - 1];
@@ -336,37 +327,36 @@ class ContactScene extends Scene {
       const meets = p.s > 0 && p.s < 1;
       const chosen = this.chosen()?.pair === p.pair;
       root.append(line(x, Y(u[2 * at.at]), x, Y(ghost[2 * at.at]), `ray${meets ? " meets" : ""}${chosen ? " chosen" : ""}`));
-      if (meets) root.append(svg("circle", { cx: x, cy: Y(at.face), r: 5, class: toggled.includes(p.pair) ? "dot gold" : "dot" }));
+      if (meets) root.append(svg("circle", { cx: x, cy: Y(at.face), r: 5, class: this.toggledOf(this.k).includes(p.pair) ? "dot gold" : "dot" }));
     }
   }
 
-  /** Draws a bracket from D to D + d* at the pair that is explained, or else at the load. */
+  /** Draws a bracket from D to D + d* at the pair that is explained, or that is next, or else at the load. */
   drawBracket(root, u, ghost) {
     const { X, Y } = this.page;
-    const at = this.chosen() ? this.pairs[this.chosen().pair - 1].at : this.node;
-    const [x, from, to] = [X(this.nodes[at]) + 20, Y(u[2 * at]), Y(ghost[2 * at])];
+    const at = this.pairs[(this.chosen()?.pair ?? this.toggledOf(this.k)[0]) - 1]?.at ?? this.node;
+    const [x, from, to] = [X(this.nodes[at]) + 28, Y(u[2 * at]), Y(ghost[2 * at])];
     if (Math.abs(to - from) < 4) return;
-    root.append(titled("d*", shape(`M${x - 6} ${from}H${x}V${to}h-6`, "bracket")), label(x + 6, (from + to) / 2 + 4, "d*", { class: "value halo" }));
+    root.append(titled("d*", shape(`M${x - 5} ${from}H${x}V${to}h-5`, "bracket")), label(x + 4, (from + to) / 2 + 4, "d*", { class: "value halo" }));
   }
 
   chosen() { return this.at < 0 ? null : this.linesOf(this.k)[this.at].pair; }
 
-  /** Draws all s on a line from 0 to 1. The leftmost is s_min; pairs that are toggled are gold, as on page 12. Near dots
-      are above each other. */
+  /** Draws the s of each pair on a line of its own from 0 to 1, in the order of the pairs. The smallest is s_min; pairs
+      that are toggled are gold, as on page 12. */
   drawShares(root) {
     const { left, width, right, height } = this.page;
     const [y, told] = [height - 34, this.told[this.k]];
     const S = (s) => left + s * (width - left - right);
-    root.append(line(S(0), y, S(1), y, "zero"), ...[0, 1].map((s) => line(S(s), y - 5, S(s), y + 5, "zero")),
-      axisWord(S(0), y + 22, "0", "start"), axisWord(S(1), y + 22, "1: all the load", "end"));
-    const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
-    const sorted = [...meeting].sort((a, b) => a.s - b.s);
-    const [toggled, winner] = [this.toggledOf(this.k), sorted.find((p) => p.s === told.s)];
+    const row = (pair) => y - 18 * (this.pairs.length - pair);
+    for (const { pair } of this.pairs) root.append(line(S(0), row(pair), S(1), row(pair), "zero"), axisWord(S(0) - 12, row(pair) + 4, String(pair), "end"));
+    root.append(...[0, 1].map((s) => line(S(s), row(1) - 5, S(s), y + 5, "zero")), axisWord(S(0), y + 22, "s = 0", "start"), axisWord(S(1), y + 22, "s = 1: all the load", "end"));
+    const sorted = told.pairs.filter((p) => p.s > 0 && p.s < 1).sort((a, b) => a.s - b.s);
+    const toggled = this.toggledOf(this.k);
     for (const [n, p] of sorted.entries()) {
-      const gold = toggled.includes(p.pair);
-      const words = `pair ${p.pair}: s = ${p.s}${p === winner ? ", the smallest: s_min" : ""}${gold ? ", toggled" : ""}`;
-      const up = 18 * sorted.slice(0, n).filter((other) => S(p.s) - S(other.s) < 14).length;
-      const dot = svg("circle", { cx: S(p.s), cy: y - up, r: gold ? 8 : 6, class: gold ? "dot gold" : "dot", tabindex: "0", role: "button", "aria-label": words, "data-s": String(p.s) }, svg("title", {}, words));
+      const [gold, smallest, at] = [toggled.includes(p.pair), p.s === told.s, row(p.pair)];
+      const words = `pair ${p.pair}: s = ${p.s}${smallest ? ", the smallest: s_min" : ""}${gold ? ", toggled" : ""}`;
+      const dot = svg("circle", { cx: S(p.s), cy: at, r: gold ? 8 : 6, class: gold ? "dot gold" : "dot", tabindex: "0", role: "button", "aria-label": words, "data-s": String(p.s) }, svg("title", {}, words));
       const open = () => {
         this.at = this.linesOf(this.k).findIndex((l) => l.pair?.pair === p.pair);
         this.draw();
@@ -374,10 +364,8 @@ class ContactScene extends Scene {
       };
       dot.addEventListener("click", open);
       dot.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); open(); } });
-      root.append(dot);
-      const short = `${p.pair}: ${p === winner ? "s_min = " : ""}${rough(p.s)}`;
-      const above = y - 8 - 18 * (sorted.length - n);
-      root.append(line(S(p.s), y - up - 8, S(p.s), above, "was"), label(S(p.s) + (S(p.s) > width / 2 ? -6 : 6), above + 4, short, { class: `${gold ? "value" : "axis-word"} halo`, "text-anchor": S(p.s) > width / 2 ? "end" : "start" }));
+      const way = p.s > 0.5 ? -1 : 1;
+      root.append(label(S(p.s) + 12 * way, at + 4, `${smallest ? "s_min = " : ""}${rough(p.s)}`, { class: `${gold ? "value" : "axis-word"} halo`, "text-anchor": way < 0 ? "end" : "start" }), dot);
     }
   }
 
@@ -385,11 +373,11 @@ class ContactScene extends Scene {
     const { X, Y } = this.page;
     const [x, tip] = [X(this.nodes[this.node]), Y(u[2 * this.node]) - 4];
     const length = (this.page.top - 32) * (0.55 + (0.45 * Math.abs(this.force)) / this.most);
-    const size = this.shown === "path" ? ` · ${rough(this.through ? 100 : 100 * this.frames[this.k].share)} %` : "";
-    const words = `${this.inForce(this.force)}${size}`;
+    const share = this.shown === "end" ? Math.sign(-this.force) : this.through ? 1 : this.frames[this.k].share;
+    const words = `${this.inForce(this.force)}${this.shown === "path" ? ` · ${rough(100 * share)} %` : ""}`;
     const half = 4 + 4.4 * words.length;
     const inside = Math.max(half, Math.min(x, this.page.width - half));
-    root.append(arrow(x, tip - length, 0, length, "load-arrow"), label(inside, tip - length - 8, words, { "text-anchor": "middle", class: "value halo" }));
+    root.append(line(x, tip - length, x, tip, "load-rest"), arrow(x, tip - share * length, 0, share * length, "load-arrow"), label(inside, tip - length - 8, words, { "text-anchor": "middle", class: "value halo" }));
     this.addHandle(root, x, tip - length);
   }
 
@@ -405,25 +393,32 @@ class ContactScene extends Scene {
     else if (this.overlay) {
       const meeting = told.pairs.filter((p) => p.s > 0 && p.s < 1);
       const next = this.frames[this.k + 1].events ?? [];
-      const stops = next.map((e) => e.pair).join(" and ").replace(/ and (?=.* and )/g, ", ");
       const how = [...new Set(next.map((e) => (e.change === "make" ? "met" : "left")))].join(" or ");
       const after = (frame.events ?? []).map((e) => `The beam ${e.change === "make" ? "meets" : "leaves"} stop ${e.pair}. `).join("");
-      words = `${after}The dashed beam is at D + d*; d* is the response to all of the remaining load. ` + (meeting.length === 0 ? "No stop is met or left before the full load: s_min = 1."
-        : `${next.length > 1 ? `Stops ${stops} are` : `Stop ${stops} is`} ${how} next, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`) +
+      words = `${after}The dashed beam is at D + d*; d* is the response to all of the remaining load. ` + (meeting.length === 0 ? `No stop is met or left before the full load: s_min = 1.${this.atFaces(this.ghostOf(this.k), " Under the full load the beam is at ")}`
+        : `${sentence(stopsIn(next)).slice(0, -1)} ${next.length > 1 ? "are" : "is"} ${how} next, at ${rough(100 * told.s)} % of the remaining load: s_min = ${rough(told.s)}.`) +
         (next.length > 1 ? ` Their s differ by ${rough(Math.max(...next.map((e) => Math.abs(told.pairs[e.pair - 1].s - told.s))))}.` : "");
-    } else words = this.endWords(frame);
-    if (this.words.textContent !== words) this.words.textContent = words;
+    } else words = `${this.endWords(frame)} This is the end of the step; Step begins again.`;
+    if (this.words.textContent !== this.note + words) this.words.textContent = this.note + words;
+  }
+
+  /** `words` and the stops whose faces the beam reaches without force; empty if there are none. */
+  atFaces(u, words) {
+    const reached = this.pairs.filter((p) => Math.abs(p.face - u[2 * p.at]) < 1e-9 * this.deep);
+    return reached.length === 0 ? "" : `${words}${stopsIn(reached)}, without force.`;
   }
 
   endWords(frame) {
-    const closed = this.pairs.filter((_, i) => frame.closed[i]);
+    const pressed = this.pairs.filter((_, i) => frame.force[i] > 1e-9 * this.most);
     return `Under ${this.inForce(this.force)} the beam is ${this.inLength(frame.u[2 * this.node])} down at the load; ` +
-      (closed.length === 0 ? "it touches no stop." : `it presses on ${closed.map((p) => `stop ${p.pair} with ${this.inForce(frame.force[p.pair - 1])}`).join(", ")}.`);
+      (pressed.length > 0 ? `it presses on ${pressed.map((p) => `stop ${p.pair} with ${this.inForce(frame.force[p.pair - 1])}`).join(", ")}.`
+        : this.atFaces(frame.u, "it is at ") || "it touches no stop.");
   }
 
   throughWords(u) {
-    const deepest = this.pairs.map((p) => ({ p, by: -p.side * (p.face - u[2 * p.at]) })).sort((a, b) => b.by - a.by)[0];
-    return deepest && deepest.by > 0 ? `Without s_min the beam goes through stop ${deepest.p.pair}, ${this.inLength(deepest.by)} beyond its face. s_min prevents this.`
+    const beyond = this.pairs.map((p) => ({ ...p, by: -p.side * (p.face - u[2 * p.at]) })).filter(({ by }) => by > 1e-9 * this.deep);
+    const deepest = [...beyond].sort((a, b) => b.by - a.by)[0];
+    return deepest ? `Without s_min the beam goes through ${stopsIn(beyond)}${beyond.length > 1 ? `; it is farthest beyond the face of stop ${deepest.pair}, by` : ":"} ${this.inLength(deepest.by)}. s_min prevents this.`
       : "Without s_min nothing is different here: no stop is in the way.";
   }
 

@@ -10,13 +10,14 @@ class TwoRules extends Scene {
     Object.assign(this, { text, kernels, units, slide, mine, who, steps: ["no load yet", ...names], at: 0, seen: new Map() });
     this.solve(text);
     this.buttons = this.steps.map((words, k) => button(sentence(words).slice(0, -1), () => this.show(k), { "aria-pressed": "false" }));
-    this.showAll(this.buttons, ...(slide ? this.slider() : []));
+    this.showAll([this.buttons], ...(slide ? this.slider() : []));
     this.show(0);
   }
 
   solve(text) {
-    [this.old, this.right] = [resultOf(text, this.kernels), resultOf(text, ["corrected"])];
-    if (this.mine) this.old = { ...this.right, steps: this.mine.map((displacement) => ({ displacement })) };
+    [this.listing, this.right] = [resultOf(text, this.kernels), resultOf(text, ["corrected"])];
+    this.old = this.mine ? { ...this.right, steps: this.mine.map((displacement) => ({ displacement })) } : this.listing;
+    this.most = Math.max(...[this.old, this.right].flatMap((of) => of.steps.flatMap(({ displacement }) => displacement.filter((_, i) => i % 2 === 0).map(Math.abs))));
     const { nodes, supports, pairs } = this.right.structure;
     Object.assign(this, { supports, pairs, nodes: nodes.map((n) => n.x) });
   }
@@ -32,7 +33,7 @@ class TwoRules extends Scene {
       this.solve(withNumbers(this.text, numbers, { [key]: String(Number((from - this.range.value / 1000).toPrecision(8))) }));
       this.show(2);
     });
-    return [element("label", { class: "slide" }, "The second stop is lower by ", this.range, this.said), this.plot];
+    return [element("label", { class: "controls" }, "The second stop is lower by ", this.range, this.said), this.plot];
   }
 
   /** Plots the tip's deflection after unloading against the heights that were tried. */
@@ -55,6 +56,9 @@ class TwoRules extends Scene {
     this.draw();
   }
 
+  /** Displacements that are only rounding, less than 1e-9 of the largest on the path, count as zero. */
+  settled(u) { return u.some((w, i) => i % 2 === 0 && Math.abs(w) > 1e-9 * this.most) ? u : u.map(() => 0); }
+
   endOf(of) { return this.at === 0 ? this.nodes.flatMap(() => [0, 0]) : of.steps[this.at - 1].displacement; }
 
   draw() {
@@ -63,7 +67,7 @@ class TwoRules extends Scene {
     const width = widthOf(this.picture);
     const [left, middle, height] = [60, 110, 230];
     const scale = (width - left - 60) / (this.nodes[this.nodes.length - 1] - this.nodes[0]);
-    const times = magnificationFor(Math.max(far(old), far(right)), 84 / scale);
+    const times = magnificationFor(Math.max(far(this.settled(old)), far(this.settled(right))) || this.most, 84 / scale);
     const [X, Y] = [(x) => left + (x - this.nodes[0]) * scale, (w) => middle - w * times * scale];
     const root = canvas(this.picture, width, height, `The beam by ${this.who}, and the right answer`);
     root.append(line(left, middle, width - 24, middle, "was"), line(left, middle - 30, left, middle + 30, "face-line"), ...[-24, -12, 0, 12, 24].map((k) => line(left, middle + k, left - 8, middle + k + 8, "hatch")));
@@ -71,7 +75,7 @@ class TwoRules extends Scene {
       const [x, y] = [X(this.nodes[p.node - 1]), Y(p.face)];
       if (y < height - 24) root.append(titled(`face of pair ${p.pair} at ${short(p.face)}`, line(x - 14, y, x + 14, y, "face-line")));
     }
-    const drawn = (u) => shapeOf(this.nodes, u).map(([x, w]) => [X(x), Y(w)]);
+    const drawn = (u) => shapeOf(this.nodes, this.settled(u)).map(([x, w]) => [X(x), Y(w)]);
     root.append(path(drawn(right), "ghost right"), path(drawn(old), "member"), axisWord(8, 18, `vertical ${timesWords(times)}`, "start"),
       axisWord(8, height - 8, `solid: ${this.who}; dashed: right`, "start"));
     this.tell(old, right);
@@ -79,9 +83,13 @@ class TwoRules extends Scene {
   }
 
   tell(old, right) {
-    const tip = 2 * this.nodes.length - 2;
-    const off = old[tip] - right[tip];
-    const shown = (w) => `${rough(Math.abs(w) < 1e-12 ? 0 : w)}`;
-    this.words.replaceChildren(`${sentence(this.steps[this.at])} The tip by ${this.who}: `, element("b", { "data-value": String(old[tip]) }, shown(old[tip])), ` ${this.units[1]}`.trimEnd(), "; the right answer (dashed): ", element("b", { "data-value": String(right[tip]) }, shown(right[tip])), ` ${this.units[1]}`.trimEnd(), Math.abs(off) > 1e-12 ? `. Off by ${rough(Math.abs(off))} ${this.units[1]}`.trimEnd() + "." : ".");
+    const [tip, unit] = [2 * this.nodes.length - 2, ` ${this.units[1]}`.trimEnd()];
+    const is = (a, b) => Math.abs(a - b) <= 1e-9 * this.most;
+    const words = (w) => rough(is(w, 0) ? 0 : w) + unit;
+    const shown = (w) => element("b", { "data-value": String(w) }, words(w));
+    const listed = this.endOf(this.listing)[tip];
+    const whose = !this.mine ? "" : is(old[tip], listed) ? " CONTCT gives the same: this is the listing's own fault (EPSMUL, page 9)." : ` CONTCT gives ${words(listed)}.`;
+    this.words.replaceChildren(`${sentence(this.steps[this.at])} The tip by ${this.who}: `, shown(old[tip]), "; the right answer (dashed): ", shown(right[tip]), ".",
+      is(old[tip], right[tip]) ? "" : ` Off by ${rough(Math.abs(old[tip] - right[tip]))}${unit}.${whose}`);
   }
 }

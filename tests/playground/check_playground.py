@@ -432,7 +432,7 @@ def lesson_labels():
     for k in (0, 1):
         value(f"scenes[0].show('path', {k})")
         bracket = [float(y) for y in re.findall(r"M[\d.]+ ([\d.]+)H[\d.]+V([\d.]+)", value("document.querySelector('#three-stops .bracket').getAttribute('d')"))[0]]
-        far = value(f"[scenes[0].frames[{k}].u[24], scenes[0].ghostOf({k})[24]].map((w) => scenes[0].page.Y(w))")
+        far = value(f"[scenes[0].frames[{k}].u, scenes[0].ghostOf({k})].map((u) => scenes[0].page.Y(u[2 * scenes[0].pairs[scenes[0].toggledOf({k})[0] - 1].at]))")
         check(max(abs(a - b) for a, b in zip(bracket, far)) < 0.01 and "dashed beam is at D + d*" in told(), f"the bracket is d*, from D to the dashed beam: {bracket}, {far}")
     for node, first in ((12, 3), (8, 1)):
         value(f"scenes[0].push({node}, -1.5, false), scenes[0].start()")
@@ -514,6 +514,26 @@ def loads_are_exact():
     browser.wait_for("scenes[0].moving === null", 10)
     colours = value("(() => { const bad = document.body.appendChild(element('p', { class: 'bad' })); return [bad, document.querySelector('[aria-pressed=true]')].map((e) => getComputedStyle(e).color); })()")
     check(colours[0] != colours[1], f"a pressed button has not the red of errors: {colours}")
+
+
+def scene_by_hand():
+    """Checks that slow drags, quick presses, keys and loads that are not allowed do what they say, and that buttons stay."""
+    open_scene("04-algorithm", 1200)
+    top, words = "document.querySelector('[data-act=step]').getBoundingClientRect().top + scrollY", "document.querySelector('.told').textContent"
+    before, _ = value(top), drag(arm := "document.querySelector('.scene .handle')", 0, 60, steps=60)
+    check(value("(scenes[0].buttons.undo.click(), scenes[0].history.at === 0 && scenes[0].history.texts.length === 2)"), "a slow drag is one step of undo")
+    ends = value(f"['Home', 'End'].map((key) => {{ {arm}.dispatchEvent(new KeyboardEvent('keydown', {{ key }})); return scenes[0].force; }})")
+    rows = value("(scenes[0].push(8, -1.5, false), scenes[0].start(), [...document.querySelectorAll('.scene [data-s]')].map((d) => d.cy.baseVal.value))")
+    check(value("document.querySelector('.load-arrow') === null") and value(top) == before and len(set(rows)) == 3, f"no load acts yet, each s has its row, and the buttons stay: {rows}")
+    check(value(f"(scenes[0].buttons.ignore.click(), scenes[0].finish(), {words})").count("through stops 1, 2 and 3") == 1, "all stops that the beam goes through are named")
+    steps = value("(scenes[0].start(), [1, 2, 3].forEach(() => scenes[0].buttons.step.click()), scenes[0].finish(), scenes[0].k)")
+    check(ends == [0, -2] and steps == 3, f"Home and End give no load and all of it, and three quick presses are three steps: {ends}, {steps}")
+    open_scene("01-picture", 1200)
+    typed = "const f = document.querySelector('.scene input'); f.value = load; f.dispatchEvent(new Event('change')); await new Promise((done) => setTimeout(done, 100))"
+    said = [value(f"(async (load) => {{ {typed}; return {words}; }})('{load}')") for load in ("1000", "15")]
+    check("Allowed: a load from 0 to 60 kN" in said[0] and "it is at stop 1, without force" in said[1], f"a load that is not allowed is told, and a stop that is reached: {said}")
+    moved = value("['beforeprint', 'afterprint'].map((name) => { dispatchEvent(new Event(name)); return document.querySelectorAll('.answers .answer').length; })")
+    check(moved == [2, 0], f"on paper the answers are at the end: {moved}")
 
 
 def dots_of_a_tie():
@@ -842,7 +862,8 @@ def cliff_of_the_tolerance():
         value(f"scenes[0].range.value = '{mm}', scenes[0].range.dispatchEvent(new Event('input'))")
         stays[mm] = value("Number(scenes[0].plot.querySelector('.gold').dataset.stays)")
         told_tip = value("Number(scenes[0].words.querySelector('b').dataset.value)")
-        check(abs(stays[mm] - 1000 * abs(told_tip)) < 1e-9, f"the plot shows what the words say: {stays[mm]}, {told_tip}")
+        bent = value("scenes[0].picture.querySelector('.member').getBBox().height")
+        check(abs(stays[mm] - 1000 * abs(told_tip)) < 1e-9 and (bent > 10) == (mm < 4 / 256), f"plot and beam show what the words say: {stays[mm]}, {told_tip}, {bent} px")
     for mm in (0.005, 0.015):
         check(abs(stays[mm] - mm * 5e4 * 8 / 3e4) < 1e-9, f"lower by {mm} mm, {stays[mm]} mm stay: k times the height, times L^3 / (3 EI)")
     check(max(stays[0.016], stays[0.1]) < 1e-9 and 0.015 < 4 / 256 < 0.016, f"beyond 4 mm / 256 nothing stays: {stays}")
@@ -864,7 +885,7 @@ try:
     for width in (1300, 400):
         for dark in (False, True):
             shape(width, dark)
-    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, shell_of_the_course, readme_has_the_bent_beam, an_hour, dots_of_a_tie, beside_the_listing, cliff_of_the_tolerance, judge_of_kernels, workshop):
+    for part in (long_beam, course_pages, pictures_are_whole, loads_are_exact, shell_of_the_course, readme_has_the_bent_beam, an_hour, scene_by_hand, dots_of_a_tie, beside_the_listing, cliff_of_the_tolerance, judge_of_kernels, workshop):
         part()
     check(not browser.errors, f"the page reports no error: {browser.errors[:3]}")
     outside = [r for r in browser.requests if not r.startswith(("file://", "data:", "about:", "blob:"))]

@@ -16,7 +16,7 @@ PICTURES = {
     "tip-stop": ("01-picture", "scenes[0].push(2, -60, false)"),
     "tip-stop-unloaded": ("01-picture", "scenes[0].push(2, 0, false)"),
     "tip-stop-step": ("01-picture", "(scenes[0].push(2, -50, false), scenes[0].start())"),
-    "three-stops": ("04-algorithm", "(scenes[0].push(12, -1.6, false), scenes[0].start())"),
+    "three-stops": ("04-algorithm", "(scenes[0].push(12, -1.5, false), scenes[0].start())"),
     "three-stops-cpp": ("07-again", "scenes[0].push(12, -1.6, false)"),
     "tie": ("08-equality", "(scenes[0].push(8, -3, false), scenes[0].start())"),
     "bent-beam": ("09-wrong", "scenes[0].show(2)"),
