@@ -3,7 +3,8 @@
 // reference/course/port/hint.py does. The kernel can also be run in the beam of page 9.
 "use strict";
 
-const emptyKernel = `// dd, dtest, cc, ss, id, isep, isurf: arrays that begin with 0. Nodes and dofs are numbered from 1.
+const emptyKernel = `// Arrays: cc, ss, id, isep, isurf with elements 0 to nc - 1; dd, dtest with
+// element n - 1 for dof n. Nodes, in id, begin with 1.
 // Write ss and isep, and return SMIN.
 function contct(dd, dtest, cc, ss, id, isep, isurf, nc, indof, ndofpn) {
 
@@ -12,11 +13,19 @@ function contct(dd, dtest, cc, ss, id, isep, isurf, nc, indof, ndofpn) {
 const unset = -7; // the value of SS before a call
 const patience = 3000; // ms
 
-/** An error in words, with the line of the source at which it arose. */
-const errorWords = (error) => `${error}${/:(\d+):\d+/.test(error.stack) ? ` (line ${/:(\d+):\d+/.exec(error.stack)[1]})` : ""}`;
+/** An error in words, with the line at which it arose among the first `lines`, those of the source. */
+function errorWords(error, lines) {
+  const place = [...String(error.stack).matchAll(/:(\d+):\d+/g)].find(([, at]) => Number(at) <= lines);
+  return `${error}${place ? ` (line ${place[1]})` : ""}`;
+}
 
-/** In the worker: the answers of a kernel to calls. `tell` receives the number of each call before it. */
+/** In the worker: the answers of a kernel to calls. `tell` receives the number of each call before it. An array of pairs
+    refuses every element that it does not have. */
 function answerAll(kernel, { calls }, tell) {
+  const guarded = (name, of) => {
+    const at = (key) => { if (typeof key === "string" && !(key in of)) throw RangeError(`${name}[${key}]: the pairs are 0 to nc - 1, here ${of.length - 1}`); return of[key]; };
+    return new Proxy(of, { get: (_, key) => (typeof at(key) === "function" ? at(key).bind(of) : at(key)), set: (_, key, x) => { at(key); of[key] = x; return true; } });
+  };
   return calls.map((c, number) => {
     tell(number);
     const [dd, dtest] = [1, 2].map((k) => {
@@ -24,11 +33,11 @@ function answerAll(kernel, { calls }, tell) {
       for (const dof of c.dofs) all[dof[0] - 1] = dof[k];
       return all;
     });
-    const [id, isep, isurf] = [0, 1, 2].map((k) => Int32Array.from(c.pairs, (p) => p[k]));
-    const ss = new Float64Array(c.pairs.length).fill(-7); // unset
+    const [id, isep, isurf] = ["id", "isep", "isurf"].map((name, k) => guarded(name, Int32Array.from(c.pairs, (p) => p[k])));
+    const [cc, ss] = [["cc", (p) => p[3]], ["ss", () => -7]].map(([name, of]) => guarded(name, Float64Array.from(c.pairs, of))); // -7: unset
     try {
-      const smin = kernel(dd, dtest, Float64Array.from(c.pairs, (p) => p[3]), ss, id, isep, isurf, c.pairs.length, c.indof, c.ndofpn);
-      return { smin: Number(smin), ss: [...ss], isep: [...isep], silent: smin === undefined };
+      const smin = kernel(dd, dtest, cc, ss, id, isep, isurf, c.pairs.length, c.indof, c.ndofpn);
+      return { smin: Number(smin), ss: [...ss], isep: [...isep], returns: smin === undefined ? "nothing" : typeof smin === "number" ? "" : "no number" };
     } catch (error) {
       return { error: errorWords(error) };
     }
@@ -56,7 +65,7 @@ function runBeam(kernel, { faces, loads, responses }) {
 /** What `work`, answerAll or runBeam, returns for a kernel's source, or an error. The source begins the worker's code, so
     that lines of errors are those of the source. A worker that exceeds `patience` is stopped. */
 function answersOf(source, work, given) {
-  const code = `${source}\n;{ const errorWords = ${errorWords}; onmessage = (e) => { try { postMessage({ answers: (${work})(contct, e.data, (number) => postMessage({ number })) }); }
+  const code = `${source}\n;{ const errorWords = (error) => (${errorWords})(error, ${source.split("\n").length}); onmessage = (e) => { try { if (typeof contct !== "function") throw "The text has no function contct."; postMessage({ answers: (${work})(contct, e.data, (number) => postMessage({ number })) }); }
     catch (error) { postMessage({ error: errorWords(error) }); } }; }`;
   const place = URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
   const worker = new Worker(place);
@@ -109,15 +118,25 @@ function firstDifference(answer, right) {
   return k < 0 ? null : at("ISEP", k, answer.isep[k], right.isep[k]);
 }
 
-/** The hints of hints.toml for these answers. */
-function hintOf(digest, first, quantity, right) {
-  const known = Object.values(given.hints);
+/** What is wrong with an answer apart from the faults of hints.toml; null if nothing is. `found`: its first difference. */
+function slipOf(call, { error, returns }, { quantity, value, right }) {
+  const name = /^ReferenceError: (\w+) is not/.exec(error)?.[1];
+  if (error) return name in Math ? [`In JavaScript it is Math.${name}.`] : [];
+  if (returns && quantity === "SMIN") return [`Your function returns ${returns}: it has to return SMIN.`];
+  return Number.isNaN(value) && !Number.isNaN(right) && call.dofs.every((dof) => !dof.some(Number.isNaN))
+    ? ["This call has no NaN, but DD and DTEST have NaN at places that are not its dofs: look at your index."] : null;
+}
+
+/** The hints for these answers: those of hints.toml, or of the first wrong answer. */
+function hintOf(answers, right, call, answer, found) {
+  const [known, digest, first] = [Object.values(given.hints), digestOf(answers), `${call.name} ${found.quantity} ${found.pair} ${found.bits}`];
   const same = known.filter((h) => h.digest === digest);
-  if (same.length > 0) return ["All answers are those of this fault:", ...same.map((h) => h.says)];
+  if (same.length > 0) return ["All answers are those of a kernel with this fault:", ...same.map((h) => h.says)];
   const stage = given.stages.findIndex((s) => s.digests.includes(digest));
   if (stage >= 0) return ["No fault: the answers match an unfinished port. Next:", given.stages[stage + 1].adds];
   const alike = known.filter((h) => h.first === first && right > 0);
-  return alike.length > 0 ? ["The first wrong answer matches these faults:", ...alike.slice(0, 3).map((h) => h.says)] : ["No known fault gives this answer.", given.where[quantity]];
+  return slipOf(call, answer, found) ?? (alike.length > 0 ? ["The first wrong answer is also that of these faults, but others are not:", ...alike.slice(0, 3).map((h) => h.says)]
+    : ["No known fault gives these answers.", given.where[found.quantity]]);
 }
 
 // ---- the page ----
@@ -130,17 +149,25 @@ class KernelJudge extends Scene {
     this.calls = given.golden.map((c) => ({ ...c, dofs: c.dofs.map((d) => d.map(real)), pairs: c.pairs.map((p) => p.map(real)), smin: real(c.smin), ss: c.ss.map(real) }));
     this.source = element("textarea", { spellcheck: "false", rows: "16", "aria-label": "A kernel in JavaScript" });
     this.source.value = localStorage.getItem("kernel") ?? emptyKernel;
-    this.source.addEventListener("input", () => localStorage.setItem("kernel", this.source.value));
+    this.source.addEventListener("input", () => { localStorage.setItem("kernel", this.source.value); this.clear("The text has changed: press Judge."); });
     this.button = button("Judge", () => this.judge());
-    const again = button("Empty kernel", () => { this.source.value = emptyKernel; this.source.dispatchEvent(new Event("input")); });
+    const again = button("Empty kernel", () => { if (confirm("Replace your text with the empty kernel?")) { this.source.value = emptyKernel; this.source.dispatchEvent(new Event("input")); } });
     this.lights = given.stages.map((stage, k) => element("li", { title: stage.adds }, String(k + 1)));
     [this.inputs, this.beam] = [element("div", { class: "scroll" }), element("div")];
     const listing = element("ol", { class: "listing", tabindex: "0", role: "region", "aria-label": "The listing" }, ...given.listing.split("\n").slice(0, -1).map((words) => element("li", {}, words)));
     holder.classList.add("port");
     holder.replaceChildren(element("div", { class: "desk" }, this.source, listing), element("div", { class: "controls" }, this.button, button("Run it in the beam", () => this.bend()), again),
       element("ol", { class: "lights", "aria-label": "Stages that are right" }, ...this.lights), this.words, this.inputs, this.picture, this.beam);
-    listing.scrollTop = listing.children[25].offsetTop;
+    listing.scrollTop = listing.children[18].offsetTop;
+    if (this.source.value !== emptyKernel) this.say("This is your kernel of last time: press Judge.");
     holder.dataset.lives = "yes";
+  }
+
+  /** Removes what was shown about an earlier text, and shows a sentence. */
+  clear(words) {
+    [this.picture, this.inputs, this.beam].forEach((part) => part.replaceChildren());
+    this.lights.forEach((light) => light.classList.remove("lit"));
+    this.say(words);
   }
 
   /** Runs the kernel in the beam of page 9, and draws the beam beside the correct one. */
@@ -152,17 +179,22 @@ class KernelJudge extends Scene {
     this.beam.replaceChildren();
     if (error) return this.beam.append(element("p", { class: "bad" }, `Your kernel does not bring the beam to the end: ${error}`));
     this.bent = new TwoRules(this.beam, { ...given.scenes["bent-beam"], slide: null, mine: answers, who: "your kernel" });
+    this.bent.words.scrollIntoView({ block: "nearest" });
     this.bent.show(Math.abs(answers[1].at(-2) - this.bent.right.steps[1].displacement.at(-2)) > 1e-12 ? 2 : 1);
   }
 
   async judge(source = this.source.value) {
     this.source.value = source;
     this.button.disabled = true;
-    this.say("Judging.");
+    this.clear("Judging.");
     const { answers, error } = await answersOf(source, answerAll, { calls: this.calls });
     this.button.disabled = false;
-    this.picture.replaceChildren();
-    this.inputs.replaceChildren();
+    if (this.source.value !== source) return; // the text has changed meanwhile
+    this.report(answers, error);
+    this.words.scrollIntoView({ block: "nearest" });
+  }
+
+  report(answers, error) {
     const isRight = (i) => !error && !firstDifference(answers[i], this.calls[i]);
     this.lights.forEach((light, k) => light.classList.toggle("lit", given.stages[k].calls.every(isRight)));
     if (error) return this.say(`No golden call was judged. ${error}`);
@@ -170,16 +202,16 @@ class KernelJudge extends Scene {
     const count = `${answers.length - wrong.length} of ${answers.length} golden calls are right to the bit.`;
     if (wrong.length === 0) return this.say(count, "This is CONTCT, as far as the golden set can tell.");
     const [call, answer, found] = wrong[0];
-    const value = found.bits === "" ? answer.error : `${found.quantity}${found.pair ? `(${found.pair})` : ""} is ${found.value}; right: ${found.right}.`;
+    const value = found.bits === "" ? answer.error : `${found.quantity}${found.pair ? `(${found.pair})` : ""} is ${found.quantity === "SS" && found.value === unset ? "not set" : found.value}; right: ${found.right}.`;
     this.say(count, `First wrong: ${call.name}${call.note ? `: ${call.note}` : ""}. ${value}`,
-      ...(answer.silent && found.quantity === "SMIN" ? ["Your function returns nothing: it has to return SMIN."] : hintOf(digestOf(answers), `${call.name} ${found.quantity} ${found.pair} ${found.bits}`, found.quantity, answers.length - wrong.length)));
+      ...hintOf(answers, answers.length - wrong.length, call, answer, found));
     this.showInputs(call, answer);
     if (!answer.error) this.draw(call, answer);
   }
 
   /** Shows the inputs of a call, and the right and the given answers, as a table of its pairs. */
   showInputs(call, { ss = [], isep = [] }) {
-    const cell = (words) => element("td", {}, typeof words === "number" ? digits(words, 6) : words ?? "");
+    const cell = (words) => element("td", {}, typeof words === "number" ? digits(words, 4) : words ?? "");
     const rows = call.pairs.slice(0, 20).map(([id, status, n, c], i) => {
       const [, d, star] = call.dofs.find(([dof]) => dof === (id - 1) * call.ndofpn + call.indof) ?? [];
       return element("tr", {}, ...[i + 1, d, star, c, n, status, call.ss[i], ss[i], call.isep[i], isep[i]].map(cell));
@@ -207,8 +239,7 @@ class KernelJudge extends Scene {
         root.append(svg("circle", { cx: at, cy: place, r: toggled ? 8 : 6, class: toggled ? "dot gold" : "dot", "data-s": String(s) }, svg("title", {}, `pair ${i + 1}: s = ${s}`)));
         say(at + (s > 0.5 ? -1 : 1) * (16 + 4.4 * words.length), place + 4, words, "axis-word");
       });
-      const others = of.ss.length - shown.length;
-      if (others > 0) root.append(label(8, y + (up < 0 ? -40 : 52), `${counted(others, "pair")} outside 0 to 1`, { class: "axis-word" }));
+      if (of.ss.length > shown.length) root.append(label(8, y + (up < 0 ? -40 : 52), `${counted(of.ss.length - shown.length, "pair")} outside 0 to 1`, { class: "axis-word" }));
     }
   }
 }

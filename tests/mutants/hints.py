@@ -89,7 +89,7 @@ def main(scratch, build_file, write=False):
     if write:
         TABLE.write_text(as_text(seen | {key: t for key, t in table.items() if key.startswith("port-")}))  # tests/course/port.py tests these
     says = [t["says"] for t in seen.values()]
-    wrong += [f"the same sentence stands twice: {s}" for s in set(says) if says.count(s) > 1]
+    wrong += [f"the same sentence stands twice, or is empty: {s}" for s in set(says) if says.count(s) > 1 or not s]
     wrong += [f"{len(seen)} mutants have a sentence; allowed: {LEAST} or more"] * (len(seen) < LEAST)
     print("\n".join([*wrong, f"{len(trials)} kernels, {len(seen)} whose numbers differ, {len(set(t['digest'] for t in seen.values()))} different answers"]))
     return 1 if wrong else 0

@@ -768,11 +768,18 @@ def beside_the_listing():
     check(len(lines) >= 15 and seen == [expected[line] for line in lines], f"the C++ of each line is beside it: {len(lines)} lines")
 
 
-# Faults that are put into kernel.js: (name of the mutant in hints.toml, a text of the kernel, its replacement).
+# Faults that are put into kernel.js: (name in hints.toml, a text of the kernel, its replacement). SLIPS: (text, replacement, what the page says).
 FAULTS = [("smin-quotient-dropped", " - smin) / smin", " - smin)"), ("epsmul-le", "diff < 1", "diff <= 1"), ("gap-reversed", "cc[i] - dd[dof]", "dd[dof] - cc[i]"),
           ("toggled-by-sign", "isep[i] === 1 ? -1 : 1", "-isep[i]"), ("sschk-negated", "(isep[i] * isurf[i])", "(-isep[i] * isurf[i])"),
           ("do-30-from-2", "let i = 0; i < nc; ++i) {\n    const diff", "let i = 1; i < nc; ++i) {\n    const diff"), ("nodes-from-0", "(id[i] - 1)", "id[i]"),
-          ("delta-dropped", "sschk * 1e-20", "sschk"), ("cpp-smin-not-set-without-event", "if (smin === 1) return smin;", "if (smin === 1) return -7;")]
+          ("delta-dropped", "sschk * 1e-20", "sschk"), ("cpp-smin-not-set-without-event", "if (smin === 1) return smin;", "if (smin === 1) return -7;"), ("diff-as-product", "- smin) / smin;\n    if (diff < 1", "- smin);\n    if (diff < smin"),
+          ("port-index-from-1", "indof - 1;", "indof;"), ("port-smin-assigned", "if (smin === 1)", "if (smin = 1)"), ("port-epsmul-far", "1 / 256", "0.39"), ("port-epsmul-large", "1 / 256", "0.0390625"),
+          ("port-epsgap-large", "1e-10", "1e-6"), ("port-epsgap-small", "1e-10", "1e-12"), ("port-gap-with-n-twice", "gap / dtest", "isurf[i] * isurf[i] * gap / dtest"), ("port-sschk-lt", "sschk > 0", "sschk < 0"),
+          ("port-delta-0", "1e-20", "0"), ("port-sschk-without-dtest", "(isep[i] * isurf[i]) / dtest[dof]", "isep[i] * isurf[i]"), ("port-gap-with-n", "cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])"),
+          ("port-without-epsmul", "diff < 1 / 256", "ss[i] === smin"), ("port-gap-with-n-and-sign", "cc[i] - dd[dof];\n    if (dtest[dof] === 0) ss[i] = 1;\n    else if (Math.abs(gap)", "isurf[i] * (cc[i] - dd[dof]);\n    if (dtest[dof] === 0) ss[i] = 1;\n    else if (gap")]
+SLIPS = [("i < nc; ++i) {\n    const dof", "i <= nc; ++i) {\n    const dof", "id[1]: the pairs are 0 to nc - 1"), ("Math.abs(gap)", "abs(gap)", "it is Math.abs"), ("\n  return smin;\n", "\n", "returns nothing"),
+         ("\n  return smin;\n", "\n  return ss;\n", "returns no number"), ("+ indof - 1", "+ indof + 3", "look at your index"), ("function contct", "function f", "has no function contct"), ("diff < 1 / 256", "diff < 0.3", "but others are not"),
+         ("let smin = 1;", "no();", "no is not defined (line 2)"), ("let smin = 1;", "let smin = 1; while (nc === 2);", "does not answer call full-load 4 in 3 seconds")]
 
 
 def judged(source):
@@ -790,31 +797,29 @@ def judge_of_kernels():
     browser.open(COURSE / "12-port-it.html")
     browser.wait_for("document.querySelector('[data-port] textarea') !== null")
     said = judged(value("document.querySelector('[data-port] textarea').value"))
-    check(said.startswith("0 of 223 ") and "look at DO 10" in said, f"the empty kernel fails every call: {said}")
+    check(said.startswith("0 of 223 ") and "SS(1) is not set" in said and "look at DO 10" in said, f"the empty kernel fails every call: {said}")
     said = judged(right)
-    check(said.startswith("223 of 223 ") and "This is CONTCT" in said, f"a right kernel passes every call: {said}")
-    check(value("document.querySelector('[data-port] svg') === null"), "and nothing is drawn")
+    check(said.startswith("223 of 223 ") and "This is CONTCT" in said and not all_of("[data-port] svg", "0"), f"a right kernel passes every call, and nothing is drawn: {said}")
     for name, old, new in FAULTS:
         said = judged(right.replace(old, new))
         check(right.count(old) == 1 and said.startswith(f"{table[name]['right']} of 223 ") and said.rstrip().endswith(table[name]["says"]) and "All answers" in said,
               f"the fault {name} is told by its hint: {said}")
+    for old, new, says in SLIPS:
+        check(right.count(old) == 1 and says in judged(right.replace(old, new)), f"of {new!r} the page says {says!r}")
     judged(right.replace(*FAULTS[0][1:]))
     dots = value("[...document.querySelectorAll('[data-port] [data-s]')].map(d => [Number(d.dataset.s), d.classList.contains('gold')])")
     check(sorted(dots) == sorted([[256 / 257 - 2**-53, True], [1, False], [256 / 257 - 2**-53, True], [1, True]]), f"the first failing call is drawn, right and theirs: {dots}")
-    said = judged(right.replace("let smin = 1;", "let smin = 1; while (nc === 2);"))
-    check("does not answer call full-load 4 in 3 seconds" in said, f"an endless loop is stopped: {said}")
     stages = toml("course/port/stages.toml")["stage"]
     said = judged(right.replace("isep[i] === 1 ? -1 : 1", "-isep[i]").replace(FAULTS[1][1], "ss[i] === smin || diff < 0"))
     check(f"{stages[7]['right']['calls']} of 223 " in said and said.rstrip().endswith(stages[8]["adds"]), f"an unfinished kernel is told what comes next: {said}")
-    check("SyntaxError" in judged("function contct( {") and "no is not defined" in judged(right.replace("let smin = 1;", "no();")), "what JavaScript refuses is told")
+    check("SyntaxError" in judged("function contct( {"), "what JavaScript refuses is told")
     check("line 2" in judged("function contct() {\n  let = = 1;\n}") and "at the end" in judged("function contct() {\n"), "with its line")
-    check("(line 2)" in judged(right.replace("let smin = 1;", "no();")), "an error of a run, too")
     check(judged(right).startswith("223 of 223 "), "the judge goes on after all of that")
 
 
 def workshop():
     """Checks the lights, the inputs, the likely faults, the beam and the memory of page 12."""
-    table, stages = toml("course/hints.toml"), toml("course/port/stages.toml")["stage"]
+    stages = toml("course/port/stages.toml")["stage"]
     right = (ROOT / "tests/playground/kernel.js").read_text(encoding="utf-8")
     browser.open(COURSE / "12-port-it.html", width=1200)
     browser.wait_for("document.querySelector('[data-port] textarea') !== null")
@@ -828,18 +833,12 @@ def workshop():
     check(lit(right.replace("isep[i] === 1 ? -1 : 1", "-isep[i]")) == [True] * 9 + [False], "a kernel of stage 9 lights nine")
     check(not all(lit(right.replace("diff < 1 / 256", "diff <= 1 / 256"))), "two wrong calls put a light out")
     check(not any(lit("function contct() { return 0; }")), "a kernel of stage 0 lights none")
-    for name, edits in (("port-gap-with-n", [("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])")]), ("port-without-epsmul", [("diff < 1 / 256", "ss[i] === smin")]),
-                        ("port-gap-with-n-and-sign", [("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])"), ("Math.abs(gap)", "gap")])):
-        source = right
-        for edit in edits:
-            source = source.replace(*edit)
-        said = judged(source)
-        check(said.rstrip().endswith(table[name]["says"]), f"the likely fault {name} is told by its hint: {said}")
+    judged(right.replace("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])"))
     shown = all_of("[data-port] tbody tr:first-child td")
     call = value("given.golden.find((c) => c.name === 'inconsistent-start 1')")
     check([float(x.replace("−", "-")) for x in shown[1:6]] == [call["dofs"][0][1], call["dofs"][0][2], call["pairs"][0][3], call["pairs"][0][2], call["pairs"][0][1]],
           f"D, d*, c, n and the status of the failing call are shown: {shown}")
-    check("returns nothing" in judged(right.replace("\n  return smin;\n", "\n")), "a missing return is told")
+    check(value("(() => { const l = document.querySelector('.listing'); return l.scrollWidth <= l.clientWidth; })()"), "no line of the listing is cut")
     browser.open(COURSE / "12-port-it.html")
     browser.wait_for("document.querySelector('[data-port] textarea') !== null")
     check("Math.abs(gap)" in value("document.querySelector('[data-port] textarea').value"), "a kernel outlives a reload")
@@ -847,8 +846,12 @@ def workshop():
     for source, ends in ((right, [s["displacement"][-2] for s in tip]), (right.replace("cc[i] - dd[dof]", "isurf[i] * (cc[i] - dd[dof])"), [-60 * 8 / 3e4, 0])):
         judged(source)
         value("scenes[0].bend()")
-        bent = value("scenes[0].bent.old.steps.map((s) => s.displacement.at(-2))")
+        bent, theirs = value("scenes[0].bent.old.steps.map((s) => s.displacement.at(-2))"), value("scenes[0].beam.innerText")
+        check(("listing's own fault" in theirs) == (source == right) and "CONTCT gives" in theirs, f"the beam is compared with CONTCT's: {theirs}")
         check(max(abs(a - b) for a, b in zip(bent, ends)) < 1e-12 and value("document.querySelector('[data-port] .member') !== null"), f"the kernel bends the beam: {bent}, {ends}")
+    value("scenes[0].source.dispatchEvent(new Event('input'))")
+    check("text has changed" in value("document.querySelector('[data-port]').innerText") and not all_of(".lit, [data-port] svg, [data-port] td"), "a change of the text takes back all that was said of it")
+    check("Math.abs(gap)" in value("(window.confirm = () => false, document.querySelectorAll('[data-port] .controls button')[2].click(), scenes[0].source.value)"), "a kernel is not deleted without a question")
     judged(right.replace("let smin = 1;", "return 2;"))
     value("scenes[0].bend()")
     check("SMIN is 2; allowed" in value("scenes[0].beam.textContent"), "a kernel that cannot carry the beam is told why")

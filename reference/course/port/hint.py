@@ -118,14 +118,14 @@ def hints(found, quantity, table):
     """Returns a heading that says how certain the hints are, and the hints."""
     same = [t["says"] for t in table.values() if t["digest"] == found["digest"]]
     if same:
-        return "All answers are those of this fault:", same
+        return "All answers are those of a kernel with this fault:", same
     after = [stage["adds"] for before, stage in zip(STAGES, STAGES[1:]) if found["digest"] in before["digests"]]
     if after:
         return "No fault: the answers match an unfinished port. Next:", after
     alike = [t["says"] for t in table.values() if t["first"] == found["first"] and found["right"] > 0]
     if alike:
-        return "The first wrong answer matches these faults:", alike[:3]
-    return "No known fault gives this answer.", [WHERE[quantity]]
+        return "The first wrong answer is also that of these faults, but others are not:", alike[:3]
+    return "No known fault gives these answers.", [WHERE[quantity]]
 
 
 def read_table(file=ROOT / "reference/course/hints.toml"):
