@@ -352,6 +352,26 @@ TEST_CASE("The envelope of a load at two places has the extremes of the two stat
   }
 }
 
+TEST_CASE("Envelope curves have the pressure of beds, linear between nodes") {
+  const a_run r(
+      parsed("[beam]\nlength = 4\nelements = 3\nEI = 9\n[[bed]]\nmodulus = 100\nface = 0\n[[case]]\n"
+             "name = 'G'\nuniform = [ { polynomial = [-2, -1] } ]\n[[combination]]\nname = 'A'\n"
+             "terms = { G = 1 }\n[[combination]]\nname = 'B'\nterms = { G = 2 }\n"),
+      "corrected");
+  const envelope_curves all = curves_of(r.result);
+  REQUIRE(all.curves.size() == 4);
+  const auto& at = all.curves[3].at;
+  const std::vector<double> in_a = bed_pressure(r.results());
+  const std::size_t parts = at.size() / 3 - 1;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const std::size_t e = i / (parts + 1);
+    const double t = static_cast<double>(i % (parts + 1)) / static_cast<double>(parts);
+    CHECK((at[i].least.step == 1 && at[i].most.step == 2));
+    CHECK(at[i].least.value == Approx(in_a[e] + t * (in_a[e + 1] - in_a[e])));
+    CHECK(at[i].most.value == Approx(2 * at[i].least.value));
+  }
+}
+
 TEST_CASE("Envelope curves have the shear on both sides of a jump, and each value has its step") {
   const envelope_curves all = curves_of(a_run(load_in_two_places, "corrected").result);
   const auto at_node = std::find(all.x.begin(), all.x.end(), 2.0);

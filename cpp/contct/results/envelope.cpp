@@ -79,20 +79,33 @@ int parts_of(const beam& b) {
   return (enough + b.elements() - 1) / b.elements();
 }
 
+/// The pressure of beds, which is linear between nodes; empty without beds.
+std::vector<const quantity_row*> of_beds(const problem& p) {
+  std::vector<const quantity_row*> rows = quantities_of(p, on::nodes);
+  std::erase_if(rows, [](const quantity_row* row) { return row->kind.has_value(); });
+  return rows;
+}
+
 /// The curves before the first state: all places, with infinite values that any state replaces.
-envelope_curves begun(const beam& b) {
+envelope_curves begun(const problem& p, const beam& b) {
   envelope_curves all;
   const int parts = parts_of(b);
   for (int e = 0; e < b.elements(); ++e)
     for (int k = 0; k <= parts; ++k)
       all.x.push_back(k == parts ? b.x[e + 1] : b.x[e] + b.length_of(e) * k / parts);
-  for (const line_row& row : along_beam)
-    all.curves.push_back({row.key, {all.x.size(), {{infinite}, {-infinite}}}});
+  const auto add = [&all](std::string_view key) {
+    all.curves.push_back({key, {all.x.size(), {{infinite}, {-infinite}}}});
+  };
+  for (const line_row& row : along_beam) add(row.key);
+  for (const quantity_row* row : of_beds(p)) add(row->key);
   return all;
 }
 
 /// Widens the curves by one state. Values at ends of elements are not taken from polynomials, which round.
-void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s) {
+/// `at_nodes`: the values of each quantity of_beds.
+void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s,
+          const std::vector<std::vector<double>>& at_nodes) {
+  constexpr std::size_t lines_of_beam = std::size(along_beam);
   const int parts = parts_of(b);
   std::size_t place = 0;
   for (int e = 0; e < b.elements(); ++e) {
@@ -105,7 +118,12 @@ void take(envelope_curves& all, const beam& b, const beam_lines& lines, const st
       const auto& ends = lines.ends();
       const std::array at_ends = {std::array{u[0], u[2]}, std::array{ends.at(e, 1)[0], ends.at(e, 1)[1]},
                                   std::array{ends.at(e, 0)[0], ends.at(e, 0)[1]}};
-      for (std::size_t i = 0; i < all.curves.size(); ++i) {
+      for (std::size_t i = 0; i < at_nodes.size(); ++i) {
+        const double value =
+            at_nodes[i][e] + (at_nodes[i][e + 1] - at_nodes[i][e]) * k / static_cast<double>(parts);
+        take(all.curves[lines_of_beam + i].at[place], value, value, s, std::identity{});
+      }
+      for (std::size_t i = 0; i < lines_of_beam; ++i) {
         const double inside = polynomial_at((*piece).*along_beam[i].polynomial, t);
         const double value = k == 0 ? at_ends[i][0] : k == parts ? at_ends[i][1] : inside;
         take(all.curves[i].at[place], value, value, s, std::identity{});
@@ -151,9 +169,11 @@ envelope_curves curves_of(const run_result& r) {
   if (b == nullptr) return {};
   envelope_curves all;
   for_each_state_of_envelope(r, [&](const structure_state& s) {
-    if (all.x.empty()) all = begun(*b);
+    if (all.x.empty()) all = begun(r.what, *b);
+    std::vector<std::vector<double>> at_nodes;
+    for (const quantity_row* row : of_beds(r.what)) at_nodes.push_back(row->values(step_results(r.what, s)));
     const load acting = load_at(r.what, s.step, s.fraction);
-    take(all, *b, beam_lines(*b, acting, s.displacement, s.numbers.element_values), s);
+    take(all, *b, beam_lines(*b, acting, s.displacement, s.numbers.element_values), s, at_nodes);
   });
   return all;
 }

@@ -52,7 +52,7 @@ struct envelope {
 /// and increment. Empty for plates and matrices, and if no state is known.
 struct envelope_curves {
   struct curve {
-    std::string_view name;                    ///< a key of along_beam
+    std::string_view name;                    ///< a key of along_beam, or of a quantity of beds at nodes
     std::vector<envelope::range<double>> at;  ///< [places]
   };
   /// The places: nodes and, if there are fewer than 480 elements, equidistant places in each element. A node

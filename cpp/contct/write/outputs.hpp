@@ -48,8 +48,9 @@ void write_states_csv(const run_result& r, output_file& out);
 /// steps: a row for each entry of these lists and a column for each quantity, with six digits.
 void write_supports_csv(const run_result& r, output_file& out);
 
-/// Writes the least and the largest w, moment and shear along a beam over the states of the envelope, with
-/// their steps: x, w_min, w_min_step, w_max, w_max_step, .. For plates and matrices writes only "x".
+/// Writes the least and the largest w, moment, shear and pressure of beds along a beam over the states of the
+/// envelope, with their steps: x, w_min, w_min_step, w_max, w_max_step, .. For plates and matrices writes
+/// only "x".
 void write_envelope_csv(const run_result& r, output_file& out);
 
 /// Writes and finishes all requested outputs of a run.

@@ -303,13 +303,15 @@ function drawEnvelope() {
   const holder = byId("curves");
   if (!holder) return;
   const { x, ...curves } = result.envelope.curves;
+  const count = Object.keys(curves).length;
   const width = widthOf(holder);
   const ends = [x[0], x[x.length - 1]];
   const X = (v) => 74 + ((v - ends[0]) / (ends[1] - ends[0])) * (width - 104);
-  const root = canvas(holder, width, 144 * 3 + 44, "Envelope: least and largest deflection, moment and shear along the beam");
+  const root = canvas(holder, width, 144 * count + 44, "Envelope: least and largest values along the beam");
   Object.entries(curves).forEach(([name, { min, max, min_step, max_step }], k) => {
-    const range = result.envelope[name];
-    const Y = scaleOfStrip(root, { X, ends }, 8 + 144 * k, name, width < 620 ? inUnit(["w", "M", "V"][k], name) : quantityHead(name), spread([0, range.min.value, range.max.value]), toldOf(range));
+    const ofCurve = (values, of) => { const i = values.indexOf(of(...values)); return { value: values[i], x: x[i] }; };
+    const range = result.envelope[name] ?? { min: ofCurve(min, Math.min), max: ofCurve(max, Math.max) };
+    const Y = scaleOfStrip(root, { X, ends }, 8 + 144 * k, name, width < 620 ? inUnit(["w", "M", "V", "p"][k], name) : quantityHead(name), spread([0, range.min.value, range.max.value]), toldOf(range));
     const spots = (values, [first, last]) => values.slice(first, last + 1).map((v, i) => [X(x[first + i]), Y(v)]);
     const whole = [0, x.length - 1];
     root.append(path([...spots(max, whole), ...spots(min, whole).reverse()], `${name}-area`, "Z"));
@@ -324,7 +326,7 @@ function drawEnvelope() {
       }
     }
   });
-  scaleAlong(root, ticks(...ends, Math.floor(width / 75)), X, 144 * 3 + 12);
+  scaleAlong(root, ticks(...ends, Math.floor(width / 75)), X, 144 * count + 12);
 }
 
 const rangeWords = ([low, high]) => (low === high ? short(low) : `${short(low)} to ${short(high)}`);
