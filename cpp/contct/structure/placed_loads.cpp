@@ -290,7 +290,9 @@ void for_each_exact_work(const beam& b, const load& l,
       std::array<rational, 4> sum;
       const rational h = sources.h(e);
       const rational EI = sources.EI(e);
-      const auto shapes = shapes_of(12 * EI * sources.flexibility(e) / h / h);
+      static const std::array<shape_function, 4> without_shear = shapes_of(0);
+      const rational flexibility = sources.flexibility(e);
+      const auto shapes = flexibility == 0 ? without_shear : shapes_of(12 * EI * flexibility / h / h);
       for (const element_load& a : sources.on(e)) add_work(a, h, EI, shapes, sum);
       for (std::size_t i = 0; i < 4; ++i) force[i] = nearest<Number>(sum[i]);
     }
