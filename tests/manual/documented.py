@@ -69,8 +69,9 @@ class documented:
     def see(self, value, of):
         for key, inner in value.items():
             self.seen.add((of["title"], key))
-            to = target(self.schema, of["properties"][key])
-            for entry in inner if isinstance(inner, list) else [inner]:
+            named = of["properties"][key].get("additionalProperties")  # of an object with any keys
+            to = target(self.schema, named or of["properties"][key])
+            for entry in inner if isinstance(inner, list) else inner.values() if named else [inner]:
                 if to is not None and entry is not None:
                     self.see(entry, to)
 
