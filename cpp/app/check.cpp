@@ -48,17 +48,6 @@ std::string bed_words(const problem& p, const bed& b) {
   return words;
 }
 
-/// The names that the file gives to supports, pairs and beds, each once.
-std::string name_words(const problem& p) {
-  std::vector<std::string> all;
-  for (const on where : {on::supports, on::pairs, on::beds})
-    for (std::size_t i = 0; i < list_of(where).count(p); ++i)
-      if (const std::string name = on_one_line(name_of_entry(p, where, i));
-          !name.empty() && std::ranges::count(all, name) == 0)
-        all.push_back(name);
-  return joined(all, ", ");
-}
-
 constexpr std::size_t most_combinations_told = 20;
 
 std::string load_words(const load& l) {
@@ -107,8 +96,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const problem& p) {
   facts.emplace_back("supports", support_words(p));
   facts.emplace_back("pairs", pair_words(p));
   for (std::size_t i = 0; i < p.beds.size(); ++i)
-    facts.emplace_back(fmt::format("bed {}", i + 1), bed_words(p, p.beds[i]));
-  if (const std::string names = name_words(p); !names.empty()) facts.emplace_back("names", names);
+    facts.emplace_back(fmt::format("bed {}", i + 1), name_before(p, on::beds, i) + bed_words(p, p.beds[i]));
   for (std::size_t i = 0; i < p.steps.size(); ++i) {
     if (starts_from_zero(p) && i == most_combinations_told)
       facts.emplace_back("..", counted(p.steps.size() - i - 1, "more combination"));

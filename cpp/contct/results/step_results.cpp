@@ -77,23 +77,16 @@ bool is_turning(const problem& p, const support& s) {
   return s.dof != 0 || (a != nullptr && a->places.known() && a->places.dofs[s.node].direction > 3);
 }
 
-std::optional<std::size_t> extreme_support(const problem& p, int side,
-                                           const std::function<double(std::size_t)>& force_of) {
-  std::optional<std::size_t> most;
-  for (std::size_t i = 0; i < p.supports.size(); ++i) {
-    const double force = force_of(i);
-    if (!is_turning(p, p.supports[i]) &&
-        (!most || side * (force - force_of(*most)) > tie_of(std::abs(force), 0.0)))
-      most = i;
-  }
-  return most;
-}
-
 std::vector<std::size_t> step_results::hardest_supports() const {
-  const auto force_of = [this](std::size_t i) { return reactions[i]; };
-  const auto up = extreme_support(what, 1, force_of);
+  std::optional<std::size_t> up, down;  // the first with the largest and with the least force
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    if (is_turning(what, what.supports[i])) continue;
+    const double tie = tie_of(std::abs(reactions[i]), 0.0);
+    if (!up || reactions[i] > reactions[*up] + tie) up = i;
+    if (!down || reactions[i] < reactions[*down] - tie) down = i;
+  }
   if (!up) return {};
-  std::vector<std::size_t> all = {*up, *extreme_support(what, -1, force_of)};
+  std::vector<std::size_t> all = {*up, *down};
   if (-reactions[all[1]] > above_ties * reactions[all[0]]) std::swap(all[0], all[1]);
   const auto [most, other] = std::pair(reactions[all[0]], reactions[all[1]]);
   if (most * other >= 0.0 || std::abs(other) <= tie_of(0.0, std::abs(most))) all.pop_back();

@@ -1,7 +1,6 @@
 // The results of a state: extremes, reactions, contact forces, the results of beds.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -87,10 +86,6 @@ class step_results {
 
 /// True for a support of a slope, or of a rotation of a matrix, whose reaction is a moment.
 [[nodiscard]] bool is_turning(const problem& p, const support& s);
-
-/// The first support with the largest force (side = 1) or the least (-1); moments do not count.
-[[nodiscard]] std::optional<std::size_t> extreme_support(const problem& p, int side,
-                                                         const std::function<double(std::size_t)>& force_of);
 
 /// The sums of the upward forces on a structure, which add up to 0 in equilibrium, except for rounding.
 struct force_balance {

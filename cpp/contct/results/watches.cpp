@@ -28,12 +28,6 @@ class watcher {
   bool begun_ = false;
 };
 
-placed_value at_node(const problem& p, double value, int node, std::string_view name = {}) {
-  if (std::holds_alternative<assembled>(p.geometry.kind)) return {value, 0.0, 0.0, node, name};
-  const place at = place_of_node(p.geometry, node);
-  return {value, at.x, at.y, node, name};
-}
-
 void add_range(const step_results& r, std::size_t part, std::vector<watched_range>& all) {
   const problem& p = r.what;
   const watched_part& within = p.watches[part];
@@ -77,6 +71,12 @@ void add_named(const step_results& r, std::size_t part, std::vector<watched_rang
 }
 
 }  // namespace
+
+placed_value at_node(const problem& p, double value, int node, std::string_view name) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return {value, 0.0, 0.0, node, name};
+  const place at = place_of_node(p.geometry, node);
+  return {value, at.x, at.y, node, name};
+}
 
 std::vector<watched_range> watched_in(const step_results& r) {
   std::vector<watched_range> all;

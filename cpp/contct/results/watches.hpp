@@ -17,6 +17,9 @@ struct watched_range {
   placed_value least, most;
 };
 
+/// A value at a node; `name`: of the entry that has it.
+[[nodiscard]] placed_value at_node(const problem& p, double value, int node, std::string_view name = {});
+
 /// All quantities of all parts, part after part. A range of places has the extremes of the structure and the
 /// pressure of beds there; names have reactions, contact forces, gaps, and pressures of beds.
 [[nodiscard]] std::vector<watched_range> watched_in(const step_results& r);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "contct/results/envelope.hpp"
@@ -314,49 +315,34 @@ class table_printer {
 
   /// Prints the extremes of each support, bed, hinge and pair, or of all of them together if there are many.
   void print_listed(const envelope::listed& list) {
-    constexpr std::size_t most_listed = 12;
+    constexpr std::ptrdiff_t most_listed = 12;
     const quantity_row& row = *list.row;
-    const std::string_view name = row.key.substr(row.key.rfind('_') + 1);
-    const std::size_t count = list_of(row.where).count(problem_);
+    const auto count = static_cast<std::ptrdiff_t>(list_of(row.where).count(problem_));
     for (const auto bound : {&envelope::range<double>::least, &envelope::range<double>::most}) {
       const bool is_least = bound == &envelope::range<double>::least;
-      const auto size_of = [&](std::size_t i) {
-        const envelope::reached<double>& v = list.at[i].*bound;
-        return v.step == 0 ? -std::numeric_limits<double>::infinity() : is_least ? -v.value : v.value;
-      };
-      std::vector<std::size_t> told;
-      for (std::size_t i = 0; i < count; ++i)
-        if (count <= most_listed || told.empty())
-          told.push_back(i);
-        else if (size_of(i) > size_of(told[0]) + tie_of(std::abs(size_of(i)), 0.0))
-          told[0] = i;
-      for (const std::size_t i : told) {
-        const auto& [value, step, increment, first] = list.at[i].*bound;
+      const auto size_of = [&](const auto& r) { return is_least ? -(r.*bound).value : (r.*bound).value; };
+      std::span told(list.at.begin(), count);
+      if (count > most_listed) told = {std::ranges::max_element(told, {}, size_of), 1};
+      for (const auto& at : told) {
+        const auto& [value, step, increment, first] = at.*bound;
         const bool is_known = step > 0 && (row.where != on::pairs || value > 0.0) &&
                               !(is_least && row.words.starts_with("largest"));
-        if (is_known)
-          print_extreme(is_least ? "least" : "largest", name, value, unit_of(row, i), entry_place(row, i),
-                        step);
+        const auto i = static_cast<std::size_t>(&at - list.at.data());
+        if (is_known) print_entry(is_least ? "least" : "largest", row, i, value, step);
       }
     }
   }
 
-  [[nodiscard]] std::string unit_of(const quantity_row& row, std::size_t i) const {
-    const auto node = list_of(row.where).node;
-    return unit_words(problem_, row.in, node == nullptr ? -1 : node(problem_, i));
-  }
-
-  /// A support, bed, hinge or pair in words, with its place.
-  [[nodiscard]] std::string entry_place(const quantity_row& row, std::size_t i) const {
+  /// Prints a number of a support, bed, hinge or pair, with its place.
+  void print_entry(std::string_view bound, const quantity_row& row, std::size_t i, double value, int step) {
     const list_row& list = list_of(row.where);
-    std::string number = list.entry.empty() ? "" : numbered_words(problem_, row.where, i);
-    if (list.node == nullptr) return number;
-    const int node = list.node(problem_, i);
-    const std::string before = list.entry.empty() ? name_before(problem_, row.where, i) : number + ", ";
-    if (std::holds_alternative<assembled>(problem_.geometry.kind))
-      return before + place_words(problem_.geometry, node);
-    const place at = place_of_node(problem_.geometry, node);
-    return before + place_words(problem_.geometry, placed_value{0.0, at.x, at.y, node});
+    const int node = list.node == nullptr ? -1 : list.node(problem_, i);
+    std::string at =
+        list.entry.empty() ? name_before(problem_, row.where, i) : numbered_words(problem_, row.where, i);
+    if (node >= 0)
+      at += (list.entry.empty() ? "" : ", ") + place_words(problem_.geometry, at_node(problem_, value, node));
+    print_extreme(bound, row.key.substr(row.key.rfind('_') + 1), value, unit_words(problem_, row.in, node),
+                  at, step);
   }
 
   /// Prints a table for each quantity, with one row for each step.

@@ -205,7 +205,7 @@ function endTables() {
     ...(byEnvelope ? [] : [
       ...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)),
       ...tableOf(...bedTable), ...tableOf("Watched parts", ["Step", "Part", "Quantity", "Least", "Largest"], watched)]),
-    ...holdTable(endsOf(byEnvelope ? 3 : 6), byEnvelope),
+    ...(steps.some((s) => s.pairs) ? holdTable(endsOf(byEnvelope ? 3 : 6), byEnvelope) : []),
     ...(byEnvelope ? [] : hingeTable),
   ];
   return [governing, [
@@ -234,9 +234,9 @@ function holdTable(steps, envelope, most = 40) {
   const rows = [...places.supports.map((s, i) => [[where(s.label, "support", s.name) + kind(s), ...(envelope ? [...range(envelope.reactions[i]), null] : [])], (of) => of.reactions[i].value]),
     ...places.pairs.filter((p) => !p.bed).map((p) => [[where(p.label, `pair ${p.pair}`, p.name), ...(envelope ? [...range(envelope.pairs[p.pair - 1].force),
       ...range(envelope.pairs[p.pair - 1].gap).slice(1)] : [])], (of) => forceOrGap(of.pairs[p.pair - 1])])];
-  const title = `${inUnit("Reactions and contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${whole.length < result.steps.length ? `, ${envelope ? "of all combinations, and " : ""}${whole.length} of ${result.steps.length} steps` : ""}`;
+  const title = `${inUnit("Reactions and contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${steps.length > 0 && whole.length < result.steps.length ? `, ${envelope ? "of all combinations, and " : ""}${whole.length} of ${result.steps.length} steps` : ""}`;
   const sizeOf = (r) => Math.max(...r.slice(1, envelope ? 3 : undefined).map((v) => (Array.isArray(v) ? Math.abs(envelope ? v[0].number : 0) : Math.abs(v ?? 0))));
-  return whole.length === 0 ? [] : tableOf(title, ["Where", ...(envelope ? ["Least", "Largest", "Largest gap"] : []), ...whole.map((s) => `Step ${stepName(s)}`)], rows.map(([begin, read]) => [...begin, ...whole.map(read)]), most, sizeOf);
+  return tableOf(title, ["Where", ...(envelope ? ["Least", "Largest", "Largest gap"] : []), ...whole.map((s) => `Step ${stepName(s)}`)], rows.map(([begin, read]) => [...begin, ...whole.map(read)]), most, sizeOf);
 }
 
 // The sums of loads, reactions and contact forces of a matrix along each axis.
@@ -277,11 +277,10 @@ function withoutMeshError(name, range) {
 }
 
 // The governing values of the envelope, and its other tables.
-function envelopeTables({ pairs, reactions, beds = [], hinges = [], watch = [], states, curves, ...ranges }) {
+function envelopeTables({ pairs, reactions: _, beds = [], hinges = [], watch = [], states, curves, ...ranges }) {
   const lists = [["Bed", "bed", beds], ["Hinge", "hinge", hinges]].flatMap(([words, key, list]) => list.flatMap(({ [key]: number, name, ...numbers }) =>
     Object.entries(numbers).map(([what, range]) => [labelled(`${words} ${number}`, name), quantityHead(`${key}_${what}`), envelopeCell(range.min), envelopeCell(range.max)])));
-  const forces = (title, of, most, sizeOf) => tableOf(inUnit(title, "force"), ["Pair", ...placeHead(), "Surface", "Largest"],
-    pairs.flatMap((p, i) => (of(places.pairs[i]) ? [[...pairCells(places.pairs[i]), [{ number: p.force_max, at: whenReached(p) }]]] : [])), most, sizeOf);
+  const onBeds = pairs.flatMap((p, i) => (places.pairs[i].bed ? [[...pairCells(places.pairs[i]), [{ number: p.force_max, at: whenReached(p) }]]] : []));
   return states === 0 ? [[], []] : [[
     ...(curves ? [element("figure", {}, element("div", { id: "curves", class: "picture" }), element("figcaption", {}, "Least and largest values along the beam. ",
       element("span", { class: "screen-only" }, "Point at a curve to see which step it comes from; click it to show the end of that step.")))] : []),
@@ -291,11 +290,8 @@ function envelopeTables({ pairs, reactions, beds = [], hinges = [], watch = [], 
     ...tableOf(hinges.length > 0 ? "Beds and hinges: least and largest values" : "Beds: least and largest values", ["Where", "Quantity", "Least", "Largest"], lists),
     ...tableOf("Watched parts: least and largest values", ["Part", "Quantity", "Least", "Largest"], watchedRows(watch, (v) => `${placeOf(v)}; ${whenReached(v)}`)),
   ], [
-    ...forces("Largest contact force of each pair", (p) => !p.bed),
-    ...forces("Largest contact force of each pair of a bed", (p) => p.bed, 40, (r) => Math.abs(r[r.length - 1][0].number)),
-    ...tableOf(reactionsTitle, [...placeHead(), "What", "Least", "Largest"],
-      places.supports.map((s, i) => [...supportCells(s), whatHolds(s), envelopeCell(reactions[i].min), envelopeCell(reactions[i].max)]), mostReactions,
-      (r) => Math.max(...r.slice(-2).map(([v]) => Math.abs(v.number)))),
+    ...(startsFromZero() ? [] : holdTable([], result.envelope, mostReactions)),
+    ...tableOf(inUnit("Largest contact force of each pair of a bed", "force"), ["Pair", ...placeHead(), "Surface", "Largest"], onBeds, 40, (r) => Math.abs(r[r.length - 1][0].number)),
   ]];
 }
 
