@@ -315,14 +315,15 @@ class table_printer {
 
   /// Prints the extremes of each support, bed, hinge and pair, or of all of them together if there are many.
   void print_listed(const envelope::listed& list) {
-    constexpr std::ptrdiff_t most_listed = 12;
+    constexpr std::size_t most_listed = 12;
     const quantity_row& row = *list.row;
-    const auto count = static_cast<std::ptrdiff_t>(list_of(row.where).count(problem_));
+    const std::size_t count = list_of(row.where).count(problem_);
     for (const auto bound : {&envelope::range<double>::least, &envelope::range<double>::most}) {
       const bool is_least = bound == &envelope::range<double>::least;
       const auto size_of = [&](const auto& r) { return is_least ? -(r.*bound).value : (r.*bound).value; };
-      std::span told(list.at.begin(), count);
-      if (count > most_listed) told = {std::ranges::max_element(told, {}, size_of), 1};
+      std::span<const envelope::range<double>> told(list.at.data(), count);
+      if (count > most_listed)
+        told = told.subspan(std::ranges::max_element(told, {}, size_of) - told.begin(), 1);
       for (const auto& at : told) {
         const auto& [value, step, increment, first] = at.*bound;
         const bool is_known = step > 0 && (row.where != on::pairs || value > 0.0) &&
