@@ -78,7 +78,8 @@ bool is_turning(const problem& p, const support& s) {
 }
 
 std::vector<std::size_t> step_results::hardest_supports() const {
-  std::optional<std::size_t> up, down;  // the first with the largest and with the least force
+  std::optional<std::size_t> up;  // the first with the largest force
+  std::optional<std::size_t> down;
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     if (is_turning(what, what.supports[i])) continue;
     const double tie = tie_of(std::abs(reactions[i]), 0.0);
