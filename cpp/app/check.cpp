@@ -51,16 +51,16 @@ std::string bed_words(const problem& p, const bed& b) {
 constexpr std::size_t most_combinations_told = 20;
 
 std::string load_words(const load& l) {
-  const auto placed = [&l](load_kind kind, bool at_point = false) {
-    return static_cast<std::size_t>(std::ranges::count_if(l.placed, [&](const placed_load& p) {
-      return at_point ? p.is_at_point() : p.what == kind && !p.is_at_point();
-    }));
+  const auto spread = [&l](load_kind kind) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        l.placed, [kind](const placed_load& p) { return p.what == kind && !p.is_at_point(); }));
   };
+  const auto at_points = std::ranges::count_if(l.placed, &placed_load::is_at_point);
   const std::vector<std::pair<std::size_t, const char*>> parts = {
-      {l.distributed.size() + placed(load_kind::force), "distributed load"},
-      {l.points.size() + placed(load_kind::point, true), "point load"},
-      {placed(load_kind::moment), "spread moment"},
-      {placed(load_kind::curvature), "imposed curvature"},
+      {l.distributed.size() + spread(load_kind::force), "distributed load"},
+      {l.points.size() + static_cast<std::size_t>(at_points), "point load"},
+      {spread(load_kind::moment), "spread moment"},
+      {spread(load_kind::curvature), "imposed curvature"},
       {l.settlements.size(), "settlement"},
       {l.moves.size(), "moved face"}};
   std::vector<std::string> words;

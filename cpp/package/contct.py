@@ -291,7 +291,8 @@ class Result(Answer):
             raise ImportError(f"contct.Result.to_dataframe: {error}. It needs pandas (Debian: python3-pandas)") from error
         entries = {"pairs": "pairs", "supports": "reactions", "beds": "beds", "hinges": "hinges"}
         if on == "nodes" and ("structure" in self or self._again is not None):
-            of = self._with_structure().structure.nodes
+            structure = self._with_structure().structure
+            of = structure.dofs if structure.kind == "matrix" else structure.nodes
         else:
             of = self.steps[step][entries[on]] if on in entries else []
         places = [{key: value for key, value in entry.items() if key not in keys and isinstance(value, (str, int, float))} for entry in of]

@@ -293,6 +293,8 @@ def has_envelope():
     known = {v[bound]["value"] for v in envelope.values() if isinstance(v, dict) and "min" in v for bound in ("min", "max")}
     known |= {p["force_max"] for p in envelope["pairs"]} | {r[bound]["value"] for r in envelope["reactions"] for bound in ("min", "max")}
     check(all(p["gap"]["min"]["value"] <= p["gap"]["max"]["value"] for p in envelope["pairs"]), "each pair has the range of its gap")
+    told = tables("envelope", "Reactions and contact forces")
+    check(told and any("increment" in row for row in told[0]), f"extremes on the path have their increments: {told}")
     check(known <= shown and len(known) >= 10, f"the page has every number of the envelope, {len(known)}: {known - shown}")
 
 
@@ -397,6 +399,9 @@ def has_envelope_curves():
         for dot, extreme in zip(dots, sorted((envelope[quantity]["max"], envelope[quantity]["min"]), key=lambda v: -abs(v["value"]))):
             near = [words for words, at in pieces if min(math.dist(dot, point) for point in zip(at[::2], at[1::2])) < 0.05]
             check(any(f": step {extreme['step']}, " in words for words in near), f"{quantity}: the pointer is told step {extreme['step']}: {near}")
+    most = max(envelope["curves"]["pressure"]["max"])
+    check(f"{most:.5g} at x = " in words_of("curves"), f"the curve of the pressure tells its largest value, {most}")
+    check("mesh error" not in words_of("envelope"), "inside a path no error of the mesh is proved")
     value("document.querySelector('#curves g path.moment').dispatchEvent(new MouseEvent('click', { bubbles: true }))")
     told = every("#curves g:has(path.moment) title")[0]
     check(f"step {value('frames[current].step')}, " in told and value("frames[current].end"), f"a click shows the step: {told}")

@@ -211,6 +211,10 @@ def test_a_data_frame_has_a_column_for_each_quantity_of_a_list():
     assert isinstance(frame, pandas.DataFrame) and list(frame.columns)[-3:] == ["gap", "force", "face"]
     assert list(frame.index) == list(range(1, len(found.steps[0].pairs) + 1))
     assert list(frame["force"]) == [p.force for p in found.steps[0].pairs]
+    assert list(found.to_dataframe("nodes")["x"]) == [node.x for node in found._with_structure().structure.nodes]
+    assert len(found.to_dataframe("structure")) == 1
+    of_matrix = contct.run([[2000.0, -1000.0], [-1000.0, 1000.0]], pairs=[{"dof": 1, "surface": "below", "face": -0.002, "stiffness": 1000.0}], loads=[0.0, -3.0])
+    assert list(of_matrix.to_dataframe("nodes").columns) == ["dof", "w"] and len(of_matrix.to_dataframe("nodes")) == 2
     with pytest.raises(contct.InputError, match="found on='elements'; allowed: beds, "):
         found.to_dataframe("elements")
 

@@ -91,11 +91,11 @@ TEST_CASE(
   CHECK(e.values_watched[0].most.step == 2);
   CHECK(e.values_watched[0].least.step == 1);
   CHECK(e.values_watched[1].most.value.name == "T");
-  for (const envelope::listed& list : e.lists)
-    if (list.row->key == "gap") {
-      CHECK(list.at[1].most.step == 1);
-      CHECK(list.at[1].least.step == 2);
-    }
+  const auto gaps =
+      std::ranges::find(e.lists, "gap", [](const envelope::listed& list) { return list.row->key; });
+  REQUIRE(gaps != e.lists.end());
+  CHECK(gaps->at[1].most.step == 1);
+  CHECK(gaps->at[1].least.step == 2);
   check_words(watch_lines(r.results())[0], {"ends:", "reaction", "at A, node 1"});
 }
 

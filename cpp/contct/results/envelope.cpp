@@ -79,8 +79,8 @@ int parts_of(const beam& b) {
   return (enough + b.elements() - 1) / b.elements();
 }
 
-/// The pressure of beds, which is linear between nodes; empty without beds.
-std::vector<const quantity_row*> of_beds(const problem& p) {
+/// The row of the pressure of beds, which is linear between nodes; none without beds.
+std::vector<const quantity_row*> rows_of_beds(const problem& p) {
   std::vector<const quantity_row*> rows = quantities_of(p, on::nodes);
   std::erase_if(rows, [](const quantity_row* row) { return row->kind.has_value(); });
   return rows;
@@ -97,12 +97,12 @@ envelope_curves begun(const problem& p, const beam& b) {
     all.curves.push_back({key, {all.x.size(), {{infinite}, {-infinite}}}});
   };
   for (const line_row& row : along_beam) add(row.key);
-  for (const quantity_row* row : of_beds(p)) add(row->key);
+  for (const quantity_row* row : rows_of_beds(p)) add(row->key);
   return all;
 }
 
 /// Widens the curves by one state. Values at ends of elements are not taken from polynomials, which round.
-/// `at_nodes`: the values of each quantity of_beds.
+/// `at_nodes`: the values of each row of rows_of_beds.
 void take(envelope_curves& all, const beam& b, const beam_lines& lines, const structure_state& s,
           const std::vector<std::vector<double>>& at_nodes) {
   constexpr std::size_t lines_of_beam = std::size(along_beam);
@@ -171,7 +171,8 @@ envelope_curves curves_of(const run_result& r) {
   for_each_state_of_envelope(r, [&](const structure_state& s) {
     if (all.x.empty()) all = begun(r.what, *b);
     std::vector<std::vector<double>> at_nodes;
-    for (const quantity_row* row : of_beds(r.what)) at_nodes.push_back(row->values(step_results(r.what, s)));
+    for (const quantity_row* row : rows_of_beds(r.what))
+      at_nodes.push_back(row->values(step_results(r.what, s)));
     const load acting = load_at(r.what, s.step, s.fraction);
     take(all, *b, beam_lines(*b, acting, s.displacement, s.numbers.element_values), s, at_nodes);
   });

@@ -34,10 +34,9 @@ load_words words_for(const model& m, const placed_load& p) {
   const bool of_plate = std::holds_alternative<plate>(m.kind);
   const bool turns = p.what == load_kind::moment;
   const std::size_t larger = turns && std::abs(values[1]) > std::abs(values[0]) ? 1 : 0;
-  return {turns                        ? fmt::format("{} ", dof_names(m)[larger + 1])
-          : p.what == load_kind::force ? "uniform "
-                                       : "curvature ",
-          values[larger],
+  std::string before = p.what == load_kind::force ? "uniform " : "curvature ";
+  if (turns) before = fmt::format("{} ", dof_names(m)[larger + 1]);
+  return {before, values[larger],
           of_plate ? fmt::format(" from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", p.from.x, p.across[0].x,
                                  p.to.x, p.across[1].x)
                    : fmt::format(" from {:.6g} to {:.6g}", p.from.x, p.to.x)};

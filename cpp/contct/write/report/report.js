@@ -230,7 +230,8 @@ function holdTable(steps, envelope, most = 40) {
   const whole = steps.filter((s) => s.pairs);
   const kind = (s) => (kindOf(s) === "force" ? "" : `, ${whatHolds(s)}`);
   const where = (label, what, name) => (label ? `${label}, ${placed(name)}` : `${what}, ${placed(name)}`).replaceAll(" ", "\u00a0");
-  const range = (r) => [r?.min, r?.max].map((v) => (!v ? null : v.value === 0 ? [{ number: 0 }] : envelopeCell(v, result.steps[v.step - 1].name || stepName(result.steps[v.step - 1]))));
+  const when = (v) => (startsFromZero() ? result.steps[v.step - 1].name : whenReached(v));
+  const range = (r) => [r?.min, r?.max].map((v) => (!v ? null : v.value === 0 ? [{ number: 0 }] : envelopeCell(v, when(v))));
   const rows = [...places.supports.map((s, i) => [[where(s.label, "support", s.name) + kind(s), ...(envelope ? [...range(envelope.reactions[i]), null] : [])], (of) => of.reactions[i].value]),
     ...places.pairs.filter((p) => !p.bed).map((p) => [[where(p.label, `pair ${p.pair}`, p.name), ...(envelope ? [...range(envelope.pairs[p.pair - 1].force),
       ...range(envelope.pairs[p.pair - 1].gap).slice(1)] : [])], (of) => forceOrGap(of.pairs[p.pair - 1])])];
@@ -262,11 +263,12 @@ function besideEachOther(steps, title, names, begins, read, most = Infinity) {
 
 const whenReached = (v) => (startsFromZero() ? nameOfStep(v.step) : `step ${v.step}, increment ${v.increment}`);
 const envelopeCell = (v, at = whenReached(v)) => [{ number: v.value, at }];
-const meshErrorIn = (name, v) => meshErrorOf(result.steps[v.step - 1].mesh, (of) => of[name]);
+// Mesh errors are proved at the ends of steps, which the envelope has only of combinations.
+const meshErrorIn = (name, v) => (startsFromZero() ? meshErrorOf(result.steps[v.step - 1].mesh, (of) => of[name]) : "");
 
 // The extremes without mesh error over all combinations, if one of them differs by more than 1 % of the largest.
 function withoutMeshError(name, range) {
-  const known = result.steps.filter((s) => s.mesh.extremes?.[name]);
+  const known = result.steps.filter((s) => startsFromZero() && s.mesh.extremes?.[name]);
   if (known.length === 0) return [];
   const found = [["min", -1], ["max", 1]].map(([bound, side]) => {
     const s = known.reduce((a, b) => (side * b.mesh.extremes[name][bound] > side * a.mesh.extremes[name][bound] ? b : a));
@@ -305,8 +307,8 @@ function drawEnvelope() {
   const X = (v) => 74 + ((v - ends[0]) / (ends[1] - ends[0])) * (width - 104);
   const root = canvas(holder, width, 144 * count + 44, "Envelope: least and largest values along the beam");
   Object.entries(curves).forEach(([name, { min, max, min_step, max_step }], k) => {
-    const ofCurve = (values, of) => { const i = values.indexOf(of(...values)); return { value: values[i], x: x[i] }; };
-    const range = result.envelope[name] ?? { min: ofCurve(min, Math.min), max: ofCurve(max, Math.max) };
+    const ofCurve = (values, value) => ({ value, x: x[values.indexOf(value)] });
+    const range = result.envelope[name] ?? { min: ofCurve(min, spread(min)[0]), max: ofCurve(max, spread(max)[1]) };
     const Y = scaleOfStrip(root, { X, ends }, 8 + 144 * k, name, width < 620 ? inUnit(["w", "M", "V", "p"][k], name) : quantityHead(name), spread([0, range.min.value, range.max.value]), toldOf(range));
     const spots = (values, [first, last]) => values.slice(first, last + 1).map((v, i) => [X(x[first + i]), Y(v)]);
     const whole = [0, x.length - 1];
@@ -396,9 +398,9 @@ function partsOfLoad(s) {
   const points = (load, words, what) => pointsOf({ load }).map((p) => [words + what(p), at(p), p.value, p.x]);
   const motion = (p) => (ofMatrix ? inUnit("along the dof", kindOf(p) === "force" ? "w" : "") : inUnit(p.dof, p.dof));
   const distributed = (d) => (d.self_weight ? "self-weight " : "") + inUnit(isBeam() ? "per length" : "per area", "load");
-  const spread = (m) => ["wx", "wy"].filter((dof) => m[dof]).map((dof) => [inUnit(`${dof}, over an area`, "couple"), part(m), m[dof]]);
+  const overArea = (m) => ["wx", "wy"].filter((dof) => m[dof]).map((dof) => [inUnit(`${dof}, over an area`, "couple"), part(m), m[dof]]);
   const rows = [...uniform.map((d) => [distributed(d), d.elements ? elementsWords(d.elements) : part(d), d.polynomial ? polynomial(d.polynomial) : d.value]),
-    ...points(s.load, "", whatHolds), ...moments.flatMap(spread), ...curvature.map((c) => ["imposed curvature", part(c), c.value]), ...points({ point: settlement }, "settlement ", motion), ...points({ point: move }, "face moved ", motion)];
+    ...points(s.load, "", whatHolds), ...moments.flatMap(overArea), ...curvature.map((c) => ["imposed curvature", part(c), c.value]), ...points({ point: settlement }, "settlement ", motion), ...points({ point: move }, "face moved ", motion)];
   return rows.length > 0 ? rows : [["resultant of all loads", "", sumOf(s)]];
 }
 
