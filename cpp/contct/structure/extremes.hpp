@@ -15,10 +15,10 @@
 
 namespace contct {
 
-/// The coefficients of a polynomial along an element, constant first. Up to six, as for w under a linear
-/// load, are stored without an allocation.
+/// The coefficients of a polynomial along an element, constant first. Up to 14, as a bed_line has, are stored
+/// without an allocation.
 template <class Number>
-using line_polynomial = boost::container::small_vector<Number, 6>;
+using line_polynomial = boost::container::small_vector<Number, 14>;
 
 /// The values at the left end of an element or of a piece.
 template <class Number>
