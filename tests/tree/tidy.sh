@@ -1,10 +1,10 @@
 #!/bin/sh
 # Runs clang-tidy on all C++ sources and tests. usage: tidy.sh [SOURCE...], for these sources only. Warnings are errors;
-# .clang-tidy and tests/.clang-tidy list the checks. The sources of a library are read together, as they are compiled,
-# so that a header is read once for a dozen of them.
+# .clang-tidy and tests/.clang-tidy list the checks. The sources of a room are read together, as they are compiled.
 set -eu
 cd "$(dirname "$0")/../.."
 echo "== clang-tidy"
+rm -rf build/tidy  # it may have unity sources of an older list
 cmake --preset tidy -DCONTCT_BUILD_TESTS=ON >/dev/null
 cp tests/.clang-tidy build/tidy/tests/.clang-tidy  # clang-tidy looks for it in the folders above a source
 work=$(mktemp -d)
