@@ -76,10 +76,13 @@ def quantities():
 
 
 def top():
-    """The top folder has exactly the allowed files and folders, apart from names that begin with a dot."""
+    """The top folder has exactly the allowed files and folders, apart from names with a dot first; presets name folders of tests."""
     names = {name.split("/")[0] for name in git_files()} if (ROOT / ".git").exists() else {file.name for file in ROOT.iterdir()} - {"build"}
     found = {name for name in names if name[0] != "."}
     must(found == TOP, f"{ROOT}: found {sorted(found - TOP)}, and missed {sorted(TOP - found)} at the top level")
+    filters = re.findall(r"\^\(([a-z|]+)\)/", (ROOT / "CMakePresets.json").read_text())
+    missing = [name for name in "|".join(filters).split("|") if not (ROOT / "tests" / name).is_dir()]
+    must(len(filters) == 3 and not missing, f"CMakePresets.json: found {len(filters)} filters of tests, with {missing}; allowed: 3, of folders in tests")
 
 
 def listing(file):

@@ -85,12 +85,12 @@ case $other in *OpenBLAS*) ;; *) fail "the other LAPACK is not OpenBLAS" ;; esac
 # Solves of two LAPACKs differ in their last digits, so paths without any difference would mean that only one was used.
 [ $different -gt 0 ] || fail "the numbers of every call are the same, so only one LAPACK was used"
 
-for room in compare model path certify lab solve; do
+for room in harness linear structure path proof results; do
   said=$(under openblas "$build/tests/contct_${room}_tests" 2>&1)
   [ $? = 0 ] || { fail "contct_${room}_tests fails under OpenBLAS"; echo "$said" | tail -n 40; }
   echo "   contct_${room}_tests under OpenBLAS: $(echo "$said" | grep -a 'assertion' | tail -n 1)"
 done
-LD_LIBRARY_PATH=$openblas ldd "$build/tests/contct_certify_tests" | grep -qF "$openblas" || fail "contct_certify_tests did not run under OpenBLAS"
+LD_LIBRARY_PATH=$openblas ldd "$build/tests/contct_proof_tests" | grep -qF "$openblas" || fail "contct_proof_tests did not run under OpenBLAS"
 
 [ $wrong = 0 ] || { echo "two LAPACKs: FAILED"; exit 1; }
 echo "two LAPACKs: passed: $problems problems, kernels $kernels, 0 mismatches; the numbers of $different problems differ"
