@@ -69,7 +69,6 @@ bed_line::bed_line(const problem& p, std::shared_ptr<const fine_mesh> fine, cons
   }
   for_each_exact_work<double_double>(on_, acting_,
                                      [this](int e, const auto& work) { elements[e].work = work; });
-  if (mesh->halvings == 0) u.assign(told.displacement.begin(), told.displacement.end());
   u.resize(rows_.size());
 }
 
@@ -363,17 +362,16 @@ std::vector<double> bed_line::ends_found() const {
 
 std::string bed_line::settle() {
   constexpr int most = 50;
-  const int first = mesh->halvings == 0 ? -1 : 0;  // -1: P begins with the state's displacements
-  for (int i = first; i < most; ++i) {
+  for (int i = 0; i < most; ++i) {
     if (!divide()) return "places are too close to each other";
-    if (i >= 0 && !solve()) return "nothing holds the beam";
+    if (!solve()) return "nothing holds the beam";
     evaluate();
     std::vector<int> pressing;
     for (std::size_t pair = 0; pair < pairs_.size(); ++pair)
       if (depth_of(pairs_[pair], u[pairs_[pair].dof]).hi > 0.0) pressing.push_back(static_cast<int>(pair));
     const bool pairs_stay = std::exchange(pressed, pressing) == pressing;
     std::vector<double> next = ends_found();
-    if (i > first && pairs_stay && is_settled(next)) {
+    if (i > 0 && pairs_stay && is_settled(next)) {
       settled = true;
       break;
     }
@@ -384,7 +382,7 @@ std::string bed_line::settle() {
 
 /// Is the pressure that P lacks negligible, and the distance of the ends of contact from `next`?
 bool bed_line::is_settled(const std::vector<double>& next) const {
-  constexpr double of_pressure = 1e-10;
+  constexpr double of_pressure = 1e-8;
   constexpr double of_length = 1e-8;
   double off = 0.0;
   double all = 0.0;
