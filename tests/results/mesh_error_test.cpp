@@ -172,7 +172,7 @@ TEST_CASE("Faces by list and their moves are linear between the nodes of a mesh,
 }
 
 TEST_CASE("The mesh error of every beam with beds in the cookbook and among the problems is proved") {
-  int proved = 0;
+  int told = 0;
   for (const char* const folder : {"/cookbook", "/problems"})
     for (const auto& file : std::filesystem::directory_iterator(std::string(CONTCT_REFERENCE) + folder)) {
       if (file.path().extension() != ".toml") continue;
@@ -183,10 +183,10 @@ TEST_CASE("The mesh error of every beam with beds in the cookbook and among the 
       for (const mesh_error& e : run.ends.result.mesh) {
         INFO(file.path() << ": " << e.not_proved);
         CHECK(e.not_proved.empty());
-        ++proved;
+        told += e.extremes.empty() ? 0 : 1;
       }
     }
-  CHECK(proved >= 12);
+  CHECK(told >= 28);  // all steps but the five of PB05 have extremes without mesh error
 }
 
 TEST_CASE("What is not proved about the mesh says why") {
