@@ -1,6 +1,6 @@
 """Verifies the bounds on the error of the mesh of a beam with beds, for check_proof.py, by the line w1 of mesh-error.md."""
 from fractions import Fraction as F
-from math import comb, inf, isqrt, nextafter
+from math import comb, inf, isqrt, lcm, nextafter
 from types import SimpleNamespace
 
 from check_definite import reach_of, up
@@ -20,9 +20,9 @@ def root(x):
 def along(p, a, h):
     """Returns the coefficients in s of the polynomial p(a + s h)."""
     out = []
-    for c in reversed(p):
+    for c in [] if (a, h) == (0, 1) else reversed(p):
         out = [c + a * out[0]] + [a * y + h * x for x, y in zip(out, out[1:] + [F(0)])] if out else [c]
-    return out
+    return out or p
 
 
 def plus(p, q, share=1):
@@ -30,9 +30,16 @@ def plus(p, q, share=1):
     return [a + share * b for a, b in zip([*p] + [F(0)] * (n - len(p)), [*q] + [F(0)] * (n - len(q)))]
 
 
+def whole(p):
+    """Returns p as integers over a denominator, with which Python computes several times faster than with fractions."""
+    below = lcm(*(c.denominator for c in p))
+    return [c.numerator * (below // c.denominator) for c in p], below
+
+
 def product(p, q):
     """Returns the integral of p q from 0 to 1."""
-    return sum(a * b / (i + j + 1) for i, a in enumerate(p) for j, b in enumerate(q))
+    (p, below), (q, also), all = whole(p), whole(q), lcm(*range(1, len(p) + len(q)))
+    return F(sum(a * b * (all // (i + j + 1)) for i, a in enumerate(p) for j, b in enumerate(q)), all * below * also)
 
 
 def grown(p, start, h):
@@ -42,7 +49,9 @@ def grown(p, start, h):
 
 def bernstein(p):
     n = len(p) - 1
-    return [sum(F(comb(j, i), comb(n, i)) * p[i] for i in range(j + 1)) for j in range(n + 1)]
+    (p, below), all = whole(p), lcm(*(comb(n, i) for i in range(n + 1)))
+    shares = [all // comb(n, i) * c for i, c in enumerate(p)]
+    return [F(sum(comb(j, i) * share for i, share in enumerate(shares[:j + 1])), all * below) for j in range(n + 1)]
 
 
 def most(p, reached=-inf):

@@ -1,4 +1,4 @@
-// Includes Catch2, version 2 or 3.
+// Includes Catch2, version 2 or 3, with the names that tests use most.
 #pragma once
 
 #if __has_include(<catch2/catch_all.hpp>)
@@ -7,3 +7,5 @@ using Catch::Approx;
 #else
 #include <catch2/catch.hpp>
 #endif
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;

@@ -9,8 +9,6 @@
 #include "contct/read/problem_file.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 
 namespace {
 

@@ -12,7 +12,6 @@
 
 namespace {
 
-using Catch::Matchers::Contains;
 using contct::check_like;
 using nlohmann::json;
 

@@ -7,7 +7,6 @@
 #include "contct/read/problem_file.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

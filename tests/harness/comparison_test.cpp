@@ -14,7 +14,6 @@
 #include "support/made_kernel.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

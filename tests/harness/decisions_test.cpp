@@ -18,8 +18,6 @@
 #include "support/one_pair.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 
 namespace {
 

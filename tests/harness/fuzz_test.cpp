@@ -10,7 +10,6 @@
 #include "contct/results/random_problem.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -14,7 +14,6 @@
 #include "support/one_pair.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -11,7 +11,6 @@
 #include "support/rows.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

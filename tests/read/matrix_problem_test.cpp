@@ -14,7 +14,6 @@
 #include "support/matrices.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

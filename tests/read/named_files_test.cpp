@@ -8,7 +8,6 @@
 #include "support/scratch_folder.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {

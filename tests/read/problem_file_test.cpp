@@ -21,7 +21,6 @@
 #include "support/scratch_folder.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

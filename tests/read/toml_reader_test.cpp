@@ -12,8 +12,6 @@
 #include "support/rows.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 
 namespace {
 

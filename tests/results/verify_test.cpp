@@ -12,7 +12,6 @@
 #include "support/scratch_folder.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -12,7 +12,6 @@
 #include "support/matrices.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 

@@ -13,7 +13,6 @@
 #include "support/scratch_folder.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("an input file is read completely, whatever its bytes are") {

@@ -13,7 +13,6 @@
 #include "support/words.hpp"
 
 using namespace contct;
-using Catch::Matchers::Contains;
 
 namespace {
 
