@@ -90,13 +90,7 @@ function some(what, all, most) {
 
 // ---- SVG ----
 
-function svg(name, attributes = {}, ...children) {
-  const e = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
-  e.append(...children);
-  return e;
-}
-
+const svg = (name, attributes = {}, ...children) => filled(document.createElementNS("http://www.w3.org/2000/svg", name), attributes, children);
 const line = (x1, y1, x2, y2, kind) => svg("line", { x1, y1, x2, y2, class: kind });
 const label = (x, y, words, attributes = {}) => svg("text", { x, y, ...attributes }, words);
 const axisWord = (x, y, words, anchor = "middle") => label(x, y, words, { "text-anchor": anchor, class: "axis-word" });

@@ -167,11 +167,13 @@ const whatHolds = (s) => inUnit(ofMatrix ? kindOf(s) || "along the dof" : s.dof,
 const mostReactions = 1000;  // there are more if every node has a spring
 const reactionsTitle = "Reactions: what supports exert on the structure";
 
+// What ranks steps that have states: the contact force, and the largest value of each quantity.
+const sizesOf = (steps) => [(s) => Math.abs(s.largest.pair?.force ?? 0), ...Object.keys(steps[0]?.extremes ?? {}).map((name) => (s) => Math.abs(largestOf(s.extremes[name]).value))];
+
 // At most `most` steps that have states: those with the largest values, relative to the largest value of a quantity.
 function endsOf(most) {
   const steps = result.steps.filter((s) => s.displacement);
-  if (steps.length <= most) return steps;
-  const sizes = [steps.map((s) => Math.abs(s.largest.pair?.force ?? 0)), ...Object.keys(steps[0].extremes).map((name) => steps.map((s) => Math.abs(largestOf(s.extremes[name]).value)))];
+  const sizes = sizesOf(steps).map((size) => steps.map(size));
   const share = steps.map((_, i) => Math.max(0, ...sizes.map((all) => all[i] / (Math.max(...all) || 1))));
   const kept = new Set(steps.map((_, i) => i).sort((a, b) => share[b] - share[a]).slice(0, most));
   return steps.filter((_, i) => kept.has(i));
@@ -196,20 +198,15 @@ function endTables() {
   const onBeds = bedPairs.length > 0 ? endsOf(6) : [];
   if (onBeds.length < whole.length && bedPairs.length > 0) cuts.add(`Contact forces of beds: the tables have ${onBeds.length} of ${steps.length} steps, those with the largest values.`);
   const beds = steps.flatMap((s) => (s.beds || []).map((b) => [stepName(s), labelled(b.bed, b.name), b.force, ...[b.pressure.min, b.pressure.max].map((v, i) => [{ number: v.value, at: placeOf(v) + (i === 1 ? meshErrorOf(s.mesh, (of) => of.pressure) : "") }]), b.contact]));
-  const bedTable = ["Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds];
   const hinges = steps.flatMap((s) => (s.hinges || []).map((h) => [stepName(s), String(h.hinge), h.x, h.rotation, h.moment]));
   const hingeTable = tableOf("Hinges: theta on the right minus theta on the left, and moment", ["Step", "Hinge", inUnit("x", "w"), ...(hinges.length > 0 ? ["hinge_rotation", "hinge_moment"].map(quantityHead) : [])], hinges, 200);
   const watched = steps.flatMap((s) => watchedRows(s.watch, (v) => placeOf(v)).map((row) => [stepName(s), ...row]));
+  const largestTables = [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)),
+    ...tableOf("Beds: resultant, pressure and contact", ["Step", "Bed", inUnit("Force", "force"), ...["Least", "Largest"].map((name) => inUnit(`${name} pressure`, "bed_pressure")), inUnit("In contact", "bed_contact")], beds)];
   const byEnvelope = startsFromZero() && result.envelope;  // combinations: their extremes are the governing results
-  const governing = [
-    ...(byEnvelope ? [] : [
-      ...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)),
-      ...tableOf(...bedTable), ...tableOf("Watched parts", ["Step", "Part", "Quantity", "Least", "Largest"], watched)]),
-    ...(steps.some((s) => s.pairs) ? holdTable(endsOf(byEnvelope ? 3 : 6), byEnvelope) : []),
-    ...(byEnvelope ? [] : hingeTable),
-  ];
-  return [governing, [
-    ...(!byEnvelope ? [] : [...tableOf("Largest values at the end of each step", headsOfLargest, steps.map(row)), ...tableOf(...bedTable), ...hingeTable]),
+  const held = whole.length > 0 ? holdTable(endsOf(byEnvelope ? 3 : 6), byEnvelope) : [];
+  return [byEnvelope ? held : [...largestTables, ...tableOf("Watched parts", ["Step", "Part", "Quantity", "Least", "Largest"], watched), ...held, ...hingeTable], [
+    ...(byEnvelope ? [...largestTables, ...hingeTable] : []),
     ...tableOf(inUnit("Sums of forces, positive up", "force"), ["Step", "Loads", "Reactions", "Contact forces"], sums),
     ...tableOf(inUnit("Sums by direction; if they do not add up to 0, give bearings that are inside the matrix as [[support]] with spring", "force"), ["Step", "Direction", "Loads", "Reactions", "Contact forces"], ofMatrix ? steps.flatMap(sumsByDirection) : []),
     ...besideEachOther(whole, `${inUnit("Contact forces", "force")}; for a separated pair the ${inUnit("gap", "w")}${someOf(whole)}`, ["Pair", ...placeHead(), "Surface"],
@@ -600,8 +597,8 @@ function drawSheets() {
 // The steps in which a quantity is largest, at most three.
 function governingEnds(most = 3) {
   const steps = result.steps.filter((s) => s.displacement);
-  const sizes = [...Object.keys(steps[0]?.extremes ?? {}).map((name) => (s) => Math.abs(largestOf(s.extremes[name]).value)), (s) => Math.abs(s.largest.pair?.force ?? 0)];
-  const governing = sizes.map((size) => steps.reduce((a, b) => (size(b) > size(a) * (1 + 1e-9) ? b : a)).step);
+  const [force, ...sizes] = sizesOf(steps);
+  const governing = [...sizes, force].map((size) => steps.reduce((a, b) => (size(b) > size(a) * (1 + 1e-9) ? b : a)).step);
   return new Set([...new Set(steps.length <= most ? steps.map((s) => s.step) : governing)].slice(0, most));
 }
 

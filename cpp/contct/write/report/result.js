@@ -4,12 +4,13 @@
 
 const byId = (id) => document.getElementById(id);
 
-function element(name, attributes = {}, ...children) {
-  const e = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
+function filled(e, attributes, children) {
+  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
   e.append(...children);
   return e;
 }
+
+const element = (name, attributes = {}, ...children) => filled(document.createElement(name), attributes, children);
 
 // The result, and what read() derives from it: dofs, pairs and supports with their positions, and states (frames).
 let result, structure, places, frames, increments, ofMatrix;
