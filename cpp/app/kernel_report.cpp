@@ -60,10 +60,11 @@ std::string first_json(const std::optional<mismatch_report>& m) {
 
 std::string report_json(const kernel_report& r) {
   std::vector<std::string> traces;
-  for (const replayed_trace& t : r.traces)
-    traces.push_back(
-        fmt::format("\n  {{ \"name\": {}, \"sha256\": \"{}\", \"calls\": {}, \"mismatches\": {} }}",
-                    quoted(t.name), t.sha256, t.calls, t.mismatches));
+  for (const compared_trace& t : r.traces)
+    if (!t.sha256.empty())
+      traces.push_back(
+          fmt::format("\n  {{ \"name\": {}, \"sha256\": \"{}\", \"calls\": {}, \"mismatches\": {} }}",
+                      quoted(t.name), t.sha256, t.calls, t.compared.mismatches));
   std::string text = "{\n \"format\": \"contct-report-1\",\n";
   text += fmt::format(" \"program\": \"contct {}\",\n \"listing_sha256\": \"{}\",\n \"vectors\": \"{}\",\n",
                       CONTCT_VERSION, CONTCT_LISTING_SHA256, CONTCT_VECTORS_VERSION);
@@ -106,14 +107,9 @@ std::vector<std::string> known_faults(const fault_finder& answers) {
   return found;
 }
 
-std::string replay_json(const std::vector<compared_trace>& traces,
-                        const std::vector<checked_kernel>& kernels) {
-  tally all;
-  std::int64_t calls = 0;
+std::string replay_json(const kernel_report& r, const std::vector<checked_kernel>& kernels) {
   std::vector<std::string> compared;
-  for (const compared_trace& t : traces) {
-    all += t.compared;
-    calls += t.calls;
+  for (const compared_trace& t : r.traces) {
     compared.push_back(fmt::format(
         "\n  {{ \"trace\": {}, \"kernel\": {}, \"verdict\": \"{}\", \"calls\": {}, \"values_compared\": "
         "{}, \"mismatches\": {}{}, {}: {} }}",
@@ -126,10 +122,10 @@ std::string replay_json(const std::vector<compared_trace>& traces,
   for (const checked_kernel& k : kernels)
     checked.push_back(fmt::format("\n  {{ \"kernel\": {}, \"at_fault\": {}, {}: {} }}", quoted(k.name),
                                   at_fault_json(k.at_fault), quoted("findings"), quoted_lines(k.findings)));
-  return json_escaped(
-      fmt::format("{{\n \"format\": \"contct-replay-1\",\n \"calls\": {},\n \"values_compared\": {},\n "
-                  "\"mismatches\": {},\n \"traces\": [{}],\n \"kernels\": [{}]\n}}\n",
-                  calls, all.values, all.mismatches, joined(compared, ","), joined(checked, ",")));
+  return json_escaped(fmt::format(
+      "{{\n \"format\": \"contct-replay-1\",\n \"calls\": {},\n \"values_compared\": {},\n "
+      "\"mismatches\": {},\n \"traces\": [{}],\n \"kernels\": [{}]\n}}\n",
+      r.calls, r.compared.values, r.compared.mismatches, joined(compared, ","), joined(checked, ",")));
 }
 
 void refuse_many_reported(std::size_t kernels, const std::string& outputs) {

@@ -13,10 +13,15 @@
 
 namespace contct {
 
-struct replayed_trace {
-  std::string name;  ///< the file's name without folder and extension
-  std::string sha256;
-  std::int64_t calls = 0, mismatches = 0;
+/// The comparison of a kernel with a trace.
+struct compared_trace {
+  std::string file, kernel;
+  std::string verdict;  ///< "equal", "mismatch", "environment" or "skipped"
+  std::int64_t calls = 0;
+  tally compared = {};
+  std::optional<mismatch_report> first = {};
+  std::string name = {};    ///< the file's name without folder and extension
+  std::string sha256 = {};  ///< of the file; empty if it is skipped
 };
 
 struct kernel_report {
@@ -25,18 +30,9 @@ struct kernel_report {
   std::string rung;  ///< the highest level of equality that the kernel reaches
   std::int64_t calls = 0;
   tally compared;
-  std::vector<replayed_trace> traces;
+  std::vector<compared_trace> traces;
   std::vector<std::string> first_mismatch;  ///< the first mismatch, in lines
   std::optional<faulty_line> at_fault = {};
-};
-
-/// The comparison of a kernel with a trace.
-struct compared_trace {
-  std::string file, kernel;
-  std::string verdict;  ///< "equal", "mismatch", "environment" or "skipped"
-  std::int64_t calls = 0;
-  tally compared = {};
-  std::optional<mismatch_report> first = {};
 };
 
 /// What all traces together show about a kernel: the line at fault, and lines of text.
@@ -47,8 +43,7 @@ struct checked_kernel {
 };
 
 /// The result of `contct replay` as JSON, format "contct-replay-1".
-[[nodiscard]] std::string replay_json(const std::vector<compared_trace>& traces,
-                                      const std::vector<checked_kernel>& kernels);
+[[nodiscard]] std::string replay_json(const kernel_report& r, const std::vector<checked_kernel>& kernels);
 
 /// Throws std::invalid_argument if `outputs`, the file names of --report and --badge, are not empty although
 /// the number of checked kernels is not 1.

@@ -29,19 +29,17 @@ std::string verdict_words(const std::string& verdict, const floating_point& fp) 
 /// The results of all traces, for the report about a kernel.
 struct replayed {
   kernel_report report = {"replay", "", "", 0, {}, {}, {}};
-  std::vector<compared_trace> traces;
   nearness near;
   std::map<std::string, fault_finder> faults;  // one for each kernel name
 
-  void add(const std::string& file, const std::string& text, std::int64_t calls, const follower& f) {
-    report.traces.push_back(
-        {std::filesystem::path(file).stem().string(), sha256(text), calls, f.compared.mismatches});
-    report.calls += calls;
-    report.compared += f.compared;
-    near.most_ulps = std::max(near.most_ulps, f.near.most_ulps);
-    near.same_events = near.same_events && f.near.same_events;
-    if (report.first_mismatch.empty() && f.first())
-      report.first_mismatch = {report.traces.back().name + ": " + words_of(*f.first())[0]};
+  void add(compared_trace t, const nearness& of) {
+    report.calls += t.calls;
+    report.compared += t.compared;
+    near.most_ulps = std::max(near.most_ulps, of.most_ulps);
+    near.same_events = near.same_events && of.same_events;
+    if (report.first_mismatch.empty() && t.first)
+      report.first_mismatch = {t.name + ": " + words_of(*t.first)[0]};
+    report.traces.push_back(std::move(t));
   }
 };
 
@@ -54,7 +52,7 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   const kernel_facts facts = facts_of_kernel(kernel);
   if (!comparable(h, facts)) {
     result.what = outcome::skipped;
-    all.traces.push_back({file, kernel, "skipped"});
+    all.report.traces.push_back({file, kernel, "skipped"});
     result.summary =
         fmt::format("skipped: recorded with {}-byte REAL and {}; {} has {}-byte REAL and {}", h.real_bytes,
                     rule_words(h.rule), kernel, facts.real_bytes, rule_words(facts.rule));
@@ -71,11 +69,13 @@ check_result replay_one(const std::string& file, const std::string& text, const 
   if (done == 0) throw input_error(file + ": found no call; allowed: a trace with one or more");
   const floating_point fp = probe_floating_point();
   result.what = passed_if(f.compared.mismatches == 0);
-  all.traces.push_back({file, kernel, verdict_of(f.compared, fp), done, f.compared, f.first()});
-  result.summary = fmt::format("{}; {}, {} compared, {}", verdict_words(all.traces.back().verdict, fp),
-                               counted(done, "call"), counted(f.compared.values, "value"),
-                               counted(f.compared.mismatches, "mismatch"));
-  all.add(file, text, done, f);
+  const std::string verdict = verdict_of(f.compared, fp);
+  all.add({file, kernel, verdict, done, f.compared, f.first(), std::filesystem::path(file).stem().string(),
+           sha256(text)},
+          f.near);
+  result.summary =
+      fmt::format("{}; {}, {} compared, {}", verdict_words(verdict, fp), counted(done, "call"),
+                  counted(f.compared.values, "value"), counted(f.compared.mismatches, "mismatch"));
   if (!f.first()) return result;
   result.details = joined(words_of(*f.first()), "\n") + "\n";
   if (!fp.strict()) result.details += "the cause is the environment, not the kernel: " + describe(fp) + "\n";
@@ -133,7 +133,7 @@ exit_status run_command(const replay_options& options) {
   flush_standard_output();
   all.report.kernel = kernels[0];
   all.report.rung = name_of(level_of(all.near, all.report.compared));
-  files.write("--json", replay_json(all.traces, checked));
+  files.write("--json", replay_json(all.report, checked));
   write_report(files, all.report);
   files.write(report);
   return report.count(outcome::failed) == 0 ? exit_status::solved : exit_status::kernels_differ;
