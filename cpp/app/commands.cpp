@@ -113,7 +113,7 @@ exit_status run_command(const exact_options& options) {
   const exact_progress tell = [&](int step, int increment, const rational& fraction) {
     shown.reached(step, increment, rounded(fraction));
   };
-  const exact_run run = run_exactly(p, {options.file, options.rule, options.kernels}, tell, &shown);
+  const exact_run run = run_exactly(p, options.file, options.rule, options.kernels, tell, &shown);
   shown.line.erase();
   const exact_path& path = run.path;
   if (!options.quiet && !takes_standard_output(outputs))

@@ -74,30 +74,19 @@ run_request read_run_request(const request& r) {
 /// Adds every number of the problem file with its place, and the pairs with the keys of their numbers.
 void put_places(json& out, const problem& p, const char* text, const std::string& file) {
   const toml::table document = parse_toml(text, file);
-  json& numbers = out["numbers"] = json::array();
-  for (const written_number& n : numbers_in(document, text))
-    numbers.push_back({{"key", n.key},
-                       {"value", n.value},
-                       {"whole", n.is_whole},
-                       {"line", n.line},
-                       {"column", n.column},
-                       {"length", n.literal.size()}});
-  json& pairs = out["pair_list"] = json::array();
-  for (std::size_t i = 0; i < p.pairs.size(); ++i) {
-    const contact_pair& at = p.pairs[i];
+  out["numbers"] = list_of(numbers_in(document, text), [](const written_number& n) -> json {
+    return {{"key", n.key},   {"value", n.value},   {"whole", n.is_whole},
+            {"line", n.line}, {"column", n.column}, {"length", n.literal.size()}};
+  });
+  out["pair_list"] = list_of(p.pairs, [&p, i = std::size_t{0}](const contact_pair& at) mutable {
     json pair = pair_json(p, i);
     pair.update({{"face", at.face}, {"stiffness", at.stiffness}});
     if (i < p.keys.size())
       pair.update({{"face_key", p.keys[i].face}, {"stiffness_key", p.keys[i].stiffness}});
-    pairs.push_back(std::move(pair));
-  }
+    ++i;
+    return pair;
+  });
 }
-
-/// The states of a request to contct_certify, with the statuses of the pairs.
-struct given_states {
-  std::vector<std::vector<double>> displacement;  // [states][dofs]
-  std::vector<std::vector<int>> isep;             // [states][pairs]
-};
 
 /// The statuses [pairs] if the request has none: a pair at its face, or beyond it, is in contact.
 std::vector<int> statuses_at(const problem& p, const load& l, std::span<const double> displacement) {
@@ -120,10 +109,11 @@ std::vector<int> statuses_in(const problem& p, const std::vector<double>& closed
   return isep;
 }
 
-given_states read_states(const request& r, const problem& p) {
-  given_states states{r.lists("displacement"), {}};
+/// The states of a request to contct_certify, each at the end of a step.
+std::vector<solved_step> read_states(const request& r, const problem& p) {
+  const std::vector<std::vector<double>> displacement = r.lists("displacement");
   const std::vector<std::vector<double>> closed = r.lists("closed");
-  const std::size_t count = states.displacement.size();
+  const std::size_t count = displacement.size();
   if (count == 0 || count > p.steps.size())
     throw std::invalid_argument(
         fmt::format("options: displacement: found {} states; allowed: 1 to {}, one for each of the "
@@ -132,13 +122,17 @@ given_states read_states(const request& r, const problem& p) {
   if (r.has("closed") && closed.size() != count)
     throw std::invalid_argument(fmt::format(
         "options: closed: found {} lists; allowed: {}, one for each state", closed.size(), count));
+  std::vector<solved_step> states;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::vector<double>& u = states.displacement[i];
+    const std::vector<double>& u = displacement[i];
     if (std::ssize(u) != dofs(p.geometry))
       throw std::invalid_argument(
           fmt::format("options: displacement: found {} numbers; allowed: {}, one for each dof", u.size(),
                       dofs(p.geometry)));
-    states.isep.push_back(closed.empty() ? statuses_at(p, p.steps[i], u) : statuses_in(p, closed[i]));
+    states.push_back({{.step = static_cast<int>(i) + 1,
+                       .fraction = 1.0,
+                       .displacement = u,
+                       .isep = closed.empty() ? statuses_at(p, p.steps[i], u) : statuses_in(p, closed[i])}});
   }
   return states;
 }
@@ -205,15 +199,15 @@ char* contct_check(const char* text, const char* options) {
 char* contct_exact(const char* text, const char* options) {
   return answered([&](served_answer& a) {
     const request r(options, {"file", "folder", "allow_outside", "rule", "kernels"});
-    const exact_request wanted{r.file(), r.text("rule", "corrected"), r.texts("kernels", {})};
-    if (wanted.rule != "corrected" && wanted.rule != "1989")
-      throw std::invalid_argument(
-          fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", wanted.rule));
-    for (const std::string& name : wanted.kernels) (void)facts_of_kernel(name);
+    const std::string rule = r.text("rule", "corrected");
+    const std::vector<std::string> kernels = r.texts("kernels", {});
+    if (rule != "corrected" && rule != "1989")
+      throw std::invalid_argument(fmt::format("options: rule: found \"{}\"; allowed: corrected, 1989", rule));
+    for (const std::string& name : kernels) (void)facts_of_kernel(name);
     const problem p = r.problem_in(text, a);
     std::unique_lock mine(turn(), std::defer_lock);
-    if (!wanted.kernels.empty()) mine.lock();
-    const exact_run run = run_exactly(p, wanted);
+    if (!kernels.empty()) mine.lock();
+    const exact_run run = run_exactly(p, r.file(), rule, kernels);
     output_file out(&a.result);
     write_exact_json(run, out);
     a.exit = status_of(run.path.status());
@@ -253,25 +247,21 @@ char* contct_certify(const char* text, const char* options) {
     const request asked(options, {"file", "folder", "allow_outside", "displacement", "closed"});
     const problem p = asked.problem_in(text, a);
     const linear_structure s = structure_of(p);
-    const given_states states = read_states(asked, p);
+    std::vector<solved_step> states = read_states(asked, p);
     run_result r(p, s);
     certifier proof(p, s, exact_means_of(p));
     r.engine = "given";
-    for (std::size_t i = 0; i < states.displacement.size(); ++i) {
+    for (solved_step& given : states) {
       const std::unique_ptr<stiffness_engine> factored = make_engine("refactor", s);
       for (std::size_t pair = 0; pair < p.pairs.size(); ++pair)
-        if ((states.isep[i][pair] == in_contact) != p.pairs[pair].closed)
-          factored->switch_spring(static_cast<int>(pair), states.isep[i][pair] == in_contact);
-      r.end.step = static_cast<int>(i) + 1;
-      solved_step given{{.step = r.end.step,
-                         .fraction = 1.0,
-                         .displacement = states.displacement[i],
-                         .isep = states.isep[i]}};
+        if (given.closed(pair) != p.pairs[pair].closed)
+          factored->switch_spring(static_cast<int>(pair), given.closed(pair));
+      r.end.step = given.step;
       given.rcond = factored->reciprocal_condition();
       given.judged = proof.certificate_of(given);
       proof.complete(given);
-      r.record.take({std::move(given)});
     }
+    r.record.take(std::move(states));
     output_file out(&a.result);
     write_result(r, out);
     a.tell(certificate_complaints(r));

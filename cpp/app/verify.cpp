@@ -43,17 +43,13 @@ json json_of(const verified_number& n) {
 }
 
 json json_of(const verified_case& c) {
-  json certificates = json::array();
-  for (const solved_step& s : c.steps) certificates.push_back(certificate_json(s));
-  json numbers = json::array();
-  for (const verified_number& n : c.numbers) numbers.push_back(json_of(n));
   return {{"file", c.file},
           {"title", c.title},
           {"calls", c.calls},
           {"mismatches", c.mismatches},
           {"failure", c.failure},
-          {"certificates", std::move(certificates)},
-          {"checks", std::move(numbers)}};
+          {"certificates", list_of(c.steps, certificate_json)},
+          {"checks", list_of(c.numbers, [](const verified_number& n) { return json_of(n); })}};
 }
 
 struct totals {

@@ -1,10 +1,9 @@
 // Tests the number of correct digits of a kernel's path.
-#include "contct/results/kernel_digits.hpp"
-
 #include <cmath>
 
 #include "catch.hpp"
 #include "contct/read/problem_file.hpp"
+#include "contct/results/exact_run.hpp"
 
 using namespace contct;
 
@@ -29,17 +28,17 @@ struct stop_run {
   /// deflection.
   [[nodiscard]] kernel_digits with(const std::vector<toggle>& toggles, double w_error = 0.0,
                                    path_status ended = path_status::solved) const {
-    digit_counter counter(what, exactly);
+    recorded_path path;
     int number = 0;
     for (const toggle& t : toggles) {
       const std::vector<event> events = {{0, t.what}};
-      counter.incremented({t.step, ++number, 0.0, t.share, events});
+      path.record.incremented({t.step, ++number, 0.0, t.share, events});
     }
-    counter.take(
-        {{.step = 1, .fraction = 1.0, .displacement = {0, 0, -2 + w_error, -3}, .isep = {in_contact}}});
-    if (what.steps.size() == 2)
-      counter.take({{.step = 2, .fraction = 1.0, .displacement = {0, 0, 0, 0}, .isep = {separated}}});
-    return counter.result("k", ended, 1e-9);
+    path.record.take(
+        {{{.step = 1, .fraction = 1.0, .displacement = {0, 0, -2 + w_error, -3}, .isep = {in_contact}}},
+         {{.step = 2, .fraction = 1.0, .displacement = {0, 0, 0, 0}, .isep = {separated}}}});
+    path.end.status = ended;
+    return digits_on(path, "k", what, exactly, 1e-9);
   }
 
   problem what;

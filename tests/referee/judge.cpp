@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "contct/read/problem_file.hpp"
-#include "contct/results/kernel_digits.hpp"
+#include "contct/results/exact_run.hpp"
 #include "support/bedded_beams.hpp"
 #include "support/judged_run.hpp"
 
@@ -136,15 +136,14 @@ std::optional<finding> compare_ends(const path_end& end, const exact_path& exact
 }
 
 void judge_run(const problem& p, const exact_answer& exactly, way how, judgement& j) {
-  digit_counter counter(p, exactly.path);
+  recorded_path recorded;
   const judged_run run(p,
                        how == way::final_only ? ""
                        : how == way::listing  ? "cpp"
                                               : "corrected",
-                       true, how == way::default_engine ? "" : "refactor", &counter);
+                       true, how == way::default_engine ? "" : "refactor", &recorded.record);
   comparing compared(p, exactly, how, j);
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
-    if (how != way::final_only) counter.take(run.steps[i]);
     if (const auto& c = run.steps[i].judged) compared.compare(i, run.u(i + 1), run.numbers(i + 1), *c);
   }
   if (how == way::listing) return;
@@ -156,7 +155,8 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
   if (auto wrong = compare_ends(run.end, exactly.path)) return j.findings.push_back(*wrong);
   if (how == way::final_only || exact || lost) return;  // these paths do not have all events
   constexpr double tie = 1e-9;
-  const kernel_digits r = counter.result("corrected", run.end.status, tie);
+  recorded.take(run);
+  const kernel_digits r = digits_on(recorded, "corrected", p, exactly.path, tie);
   if (!r.same_events) j.findings.push_back({fault::other_events, r.first_difference});
 }
 

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "contct/kernel/registry.hpp"
+#include "contct/path/solve_problem.hpp"
+#include "contct/proof/exact_means.hpp"
+
 namespace contct {
 
 void run_recorder::called(const answered_call& c) {
@@ -57,6 +61,17 @@ void run_recorder::take(std::vector<solved_step> ends) {
 void recorded_path::take(solved_path followed) {
   end = std::move(followed.end);
   record.take(std::move(followed.steps));
+}
+
+recorded_path path_of(const std::string& kernel, const problem& p, const linear_structure& s,
+                      const std::string& engine, observer* shown, int max_increments) {
+  recorded_path own;
+  std::vector<observer*> all = {&own.record, shown};
+  std::erase(all, nullptr);
+  certifier proof(p, s, exact_means_of(p));
+  own.take(follow(p, s, engine_for(facts_of_kernel(kernel), engine, s), *make_kernel(kernel), all, &proof,
+                  max_increments));
+  return own;
 }
 
 bool recorded_path::all_certified() const {

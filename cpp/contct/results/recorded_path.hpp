@@ -66,4 +66,10 @@ struct recorded_path {
   [[nodiscard]] bool all_certified() const;
 };
 
+/// Follows the path with a kernel, and records it. `shown` observes the path, too; it may be null. Others:
+/// see engine_for and follow.
+[[nodiscard]] recorded_path path_of(const std::string& kernel, const problem& p, const linear_structure& s,
+                                    const std::string& engine, observer* shown = nullptr,
+                                    int max_increments = 0);
+
 }  // namespace contct

@@ -35,6 +35,25 @@ run_request with_kernels(run_request r) {
 
 }  // namespace
 
+std::string_view run_result::status() const {
+  return status_name(end.status, equal);
+}
+
+const lockstep_on_path* run_result::compared_calls() const {
+  if (beside) return &beside->compared;
+  return compared ? &*compared : nullptr;
+}
+
+const run_recorder& run_result::record_of_calls() const {
+  return beside ? beside->record : record;
+}
+
+std::string title_of(const problem& p, const std::string& file) {
+  const bool named = p.title.find_first_not_of(" \t\r\n") != std::string::npos;
+  if (named) return on_one_line(p.title);
+  return file == "-" ? "A problem from standard input" : std::filesystem::path(file).filename().string();
+}
+
 run::run(const problem& p, const linear_structure& s, run_request request)
     : wanted(with_kernels(std::move(request))), result(p, s) {
   result.file = wanted.file;
@@ -122,13 +141,10 @@ void run::find_mesh_errors() {
 }
 
 const compared_path& run::follow_alone(const std::string& name) {
-  recorded_path own;
-  certifier proof(result.what, result.structure, exact_means_of(result.what));
-  const kernel_facts facts = facts_of_kernel(name);
-  own.take(follow(result.what, result.structure, engine_for(facts, wanted.engine, result.structure),
-                  *make_kernel(name), {&own.record}, &proof, wanted.max_increments));
-  const free_run_difference d =
-      compare_paths(result, own, free_run_bound(leader_facts_, facts), result.structure.dofs_per_node);
+  const recorded_path own =
+      path_of(name, result.what, result.structure, wanted.engine, nullptr, wanted.max_increments);
+  const free_run_difference d = compare_paths(
+      result, own, free_run_bound(leader_facts_, facts_of_kernel(name)), result.structure.dofs_per_node);
   result.free_runs.push_back({name, d, own.all_certified(),
                               fmt::format("shares of the step within {:.2g}, D within {:.2g} (bound {:.0e})",
                                           d.fraction, d.displacement, d.bound)});
