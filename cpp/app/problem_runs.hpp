@@ -12,7 +12,6 @@
 #include "contct/path/observer.hpp"
 #include "contct/path/path.hpp"
 #include "contct/structure/problem.hpp"
-#include "contct/text/strings.hpp"
 #include "contct/write/words.hpp"
 
 namespace contct {

@@ -337,7 +337,7 @@ TEST_CASE("States within a combination are computed from the unloaded structure"
 }
 
 TEST_CASE("The envelope of a load at two places has the extremes of the two states at each point") {
-  const envelope_curves all = curves_of(a_run(load_in_two_places, "corrected").result);
+  const envelope all = envelope_of(a_run(load_in_two_places, "corrected").result, true);
   REQUIRE(all.curves.size() == 3);
   CHECK(all.x.size() > 300);
   for (std::size_t i = 0; i < all.x.size(); ++i) {
@@ -358,7 +358,7 @@ TEST_CASE("Envelope curves have the pressure of beds, linear between nodes") {
              "name = 'G'\nuniform = [ { polynomial = [-2, -1] } ]\n[[combination]]\nname = 'A'\n"
              "terms = { G = 1 }\n[[combination]]\nname = 'B'\nterms = { G = 2 }\n"),
       "corrected");
-  const envelope_curves all = curves_of(r.result);
+  const envelope all = envelope_of(r.result, true);
   REQUIRE(all.curves.size() == 4);
   const auto& at = all.curves[3].at;
   const std::vector<double> in_a = bed_pressure(r.results());
@@ -373,7 +373,7 @@ TEST_CASE("Envelope curves have the pressure of beds, linear between nodes") {
 }
 
 TEST_CASE("Envelope curves have the shear on both sides of a jump, and each value has its step") {
-  const envelope_curves all = curves_of(a_run(load_in_two_places, "corrected").result);
+  const envelope all = envelope_of(a_run(load_in_two_places, "corrected").result, true);
   const auto at_node = std::find(all.x.begin(), all.x.end(), 2.0);
   const std::size_t left = at_node - all.x.begin();
   REQUIRE(all.x.at(left + 1) == 2.0);
@@ -382,6 +382,6 @@ TEST_CASE("Envelope curves have the shear on both sides of a jump, and each valu
   CHECK(shear[left].most.value == Approx(8.0));   // 12 * 4 / 6, of step 1
   CHECK(shear[left].least.value == Approx(4.0));  // 12 * 2 / 6, of step 2
   CHECK(shear[left + 1].most.value == Approx(4.0));
-  CHECK(shear[left + 1].least.value == Approx(-4.0));                              // 8 - 12, of step 1
-  CHECK(curves_of(a_run(std::string(good_plate), "corrected").result).x.empty());  // a plate has none
+  CHECK(shear[left + 1].least.value == Approx(-4.0));  // 8 - 12, of step 1
+  CHECK(envelope_of(a_run(std::string(good_plate), "corrected").result, true).x.empty());  // a plate has none
 }

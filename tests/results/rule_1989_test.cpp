@@ -191,7 +191,8 @@ TEST_CASE(
   CHECK(some.beside().differences.size() == 20);
   REQUIRE(some.run.result.record.steps.size() == 25);
   const envelope e = envelope_of(some.run.result);
-  for (const auto& v : e.values) CHECK((only.contains(v.least.step) && only.contains(v.most.step)));
+  for (const auto& v : e.values)
+    CHECK((only.contains(v.at[0].least.step) && only.contains(v.at[0].most.step)));
   for (const solved_step& s : some.run.result.record.steps)
     CHECK(some.beside().rows[s.step - 1].empty() == !only.contains(s.step));
   const std::vector<std::string> lines = rule_1989_words(some.run.result);

@@ -171,9 +171,9 @@ TEST_CASE("An envelope has the largest value of each quantity over all increment
     least = std::min(least, s.displacement[4]);
     force = std::max(force, step_results(run.what, s).pairs[0].force);
   }
-  CHECK(all.names.front() == "w");
-  const auto& w = all.values.front();
-  CHECK((w.least.value.value == least && w.least.step == 1 && w.most.step == 2));
+  CHECK(all.values.front().row->key == "w");
+  const auto& w = all.values.front().at[0];
+  CHECK((w.least.value == least && w.least.step == 1 && w.most.step == 2));
   CHECK(listed(all, "force").at(0).most.value == Approx(force).epsilon(1e-12));
   CHECK(listed(all, "force")[0].most.step == 1);
   REQUIRE(listed(all, "reaction").size() == 2);
@@ -229,8 +229,8 @@ TEST_CASE("an extreme of the envelope is in the first of the states with this va
       text += "[[step]]\nuniform = " + next + "\n";
     const a_run run(text.replace(text.find("-8.0"), 4, load));
     for (const auto& v : envelope_of(run.result).values)
-      for (const auto& at : {v.least, v.most}) {
-        CAPTURE(load, at.value.value, at.step);
+      for (const auto& at : {v.at[0].least, v.at[0].most}) {
+        CAPTURE(load, at.value, at.step);
         CHECK(at.step < 4);
         ++compared;
       }

@@ -1,8 +1,7 @@
 // Tests the extremes of the parts that [[watch]] tables name, against closed forms.
-#include "contct/results/watches.hpp"
-
 #include "catch.hpp"
 #include "contct/results/envelope.hpp"
+#include "contct/results/quantities.hpp"
 #include "contct/write/words.hpp"
 #include "support/a_run.hpp"
 #include "support/structures.hpp"
@@ -88,9 +87,9 @@ TEST_CASE(
   CHECK(found(all, 1, "gap").most.x == 3);
   const envelope e = envelope_of(r.result);
   REQUIRE(e.watched.size() == 3);
-  CHECK(e.values_watched[0].most.step == 2);
-  CHECK(e.values_watched[0].least.step == 1);
-  CHECK(e.values_watched[1].most.value.name == "T");
+  CHECK(e.watched[0].at[0].most.step == 2);
+  CHECK(e.watched[0].at[0].least.step == 1);
+  CHECK(e.watched[1].at[0].most.name == "T");
   const auto gaps =
       std::ranges::find(e.lists, "gap", [](const envelope::listed& list) { return list.row->key; });
   REQUIRE(gaps != e.lists.end());

@@ -80,7 +80,7 @@ struct a_run {
 };
 
 /// The ranges of a quantity in an envelope, by its key.
-inline const std::vector<envelope::range<double>>& listed(const envelope& all, std::string_view key) {
+inline const std::vector<envelope::range>& listed(const envelope& all, std::string_view key) {
   return std::ranges::find(all.lists, key, [](const auto& l) { return l.row->key; })->at;
 }
 

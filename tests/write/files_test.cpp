@@ -242,7 +242,7 @@ TEST_CASE("in pure bending, the table of states of a plate has the von Mises str
 TEST_CASE("the table of an envelope has the least and the largest value of each quantity at each place") {
   const a_run r(loaded_and_freed, "corrected");
   const std::vector<row> rows = rows_by(write_envelope_csv, r);
-  const envelope_curves curves = curves_of(r.result);
+  const envelope curves = envelope_of(r.result, true);
   REQUIRE(rows.size() == 1 + curves.x.size());
   CHECK(rows[0][7] == "moment_max");
   for (std::size_t i = 0; i < curves.x.size(); ++i) {

@@ -5,18 +5,10 @@
 
 namespace contct {
 
-std::vector<path_moment> moments_of(const run_result& r) {
-  std::vector<path_moment> all;
-  int at = 0;
-  for (const solved_step& s : r.record.steps) {
-    const bool ends_alone = s.number == 0;
-    for (const increment_record& i : s.increments)
-      all.push_back({&s, &i, !ends_alone && &i == &s.increments.back(), ++at});
-    if (ends_alone) all.push_back({&s, nullptr, true, at});
-  }
-  return all;
-}
+namespace {
 
+/// Keeps every second increment, then every fourth, and so on, until at most `most` moments are left. If ends
+/// of steps are more than half of `most`, keeps every second end, and so on. The last moment stays.
 std::vector<path_moment> thinned(std::vector<path_moment> all, std::size_t most) {
   int stride = 1;
   int step_stride = 1;
@@ -32,6 +24,7 @@ std::vector<path_moment> thinned(std::vector<path_moment> all, std::size_t most)
   return all;
 }
 
+/// Removes all but the last of the increments at the beginning of each step (see first_load).
 std::vector<path_moment> without_first_moves(std::vector<path_moment> all) {
   const auto begins = [](const path_moment& m) {
     return m.increment != nullptr && m.increment->fraction <= first_load;
@@ -41,6 +34,20 @@ std::vector<path_moment> without_first_moves(std::vector<path_moment> all) {
     if (i + 1 == all.size() || all[i + 1].step != all[i].step || !begins(all[i]) || !begins(all[i + 1]))
       kept.push_back(all[i]);
   return kept;
+}
+
+}  // namespace
+
+std::vector<path_moment> moments_of(const run_result& r) {
+  std::vector<path_moment> all;
+  int at = 0;
+  for (const solved_step& s : r.record.steps) {
+    const bool ends_alone = s.number == 0;
+    for (const increment_record& i : s.increments)
+      all.push_back({&s, &i, !ends_alone && &i == &s.increments.back(), ++at});
+    if (ends_alone) all.push_back({&s, nullptr, true, at});
+  }
+  return all;
 }
 
 std::size_t bytes_of_state(const problem& p) {

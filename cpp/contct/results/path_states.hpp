@@ -24,12 +24,6 @@ struct path_moment {
 
 /// Increments up to this share of a step are its beginning, where pairs separate that only touch their faces.
 inline constexpr double first_load = 1e-12;
-/// Removes all but the last of the increments at the beginning of each step (see first_load).
-[[nodiscard]] std::vector<path_moment> without_first_moves(std::vector<path_moment> all);
-
-/// Keeps every second increment, then every fourth, and so on, until at most `most` moments are left. If ends
-/// of steps are more than half of `most`, keeps every second end, and so on. The last moment stays.
-[[nodiscard]] std::vector<path_moment> thinned(std::vector<path_moment> all, std::size_t most);
 
 /// Finds the states at moments of a path whose recorder keeps states. A recorder keeps only D and the forces
 /// at the pairs of an increment, so the other displacements are solved for: K contains the springs of all

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <span>
@@ -249,6 +250,12 @@ std::vector<const quantity_row*> quantities_of(const problem& p, std::optional<o
   return all;
 }
 
+std::vector<quantity_column> columns_of(const step_results& r, on list) {
+  std::vector<quantity_column> all;
+  for (const quantity_row* row : quantities_of(r.what, list)) all.push_back({row, row->values(r)});
+  return all;
+}
+
 const quantity_row& row_named(const problem& p, std::string_view key) {
   for (const quantity_row& row : all_quantities())
     if (row.key == key && row.exists(p)) return row;
@@ -258,6 +265,70 @@ const quantity_row& row_named(const problem& p, std::string_view key) {
 bool has_kind(const problem& p, quantity kind) {
   if (kind == quantity::reaction) return !p.supports.empty();  // also if all reactions are moments
   return std::ranges::any_of(quantities_of(p), [kind](const auto* row) { return row->kind == kind; });
+}
+
+namespace {
+
+/// Widens the range of a quantity in a part, the last of `all`, or begins this range.
+void take(std::vector<watched_range>& all, std::size_t part, const quantity_row& row, const placed_value& v) {
+  if (std::isnan(v.value)) return;  // a support with the other kind of reaction
+  if (all.empty() || all.back().part != part || all.back().row != &row) all.push_back({part, &row, v, v});
+  watched_range& range = all.back();
+  if (v.value < range.least.value - tie_of(std::abs(v.value), 0.0)) range.least = v;
+  if (v.value > range.most.value + tie_of(std::abs(v.value), 0.0)) range.most = v;
+}
+
+void add_range(const step_results& r, std::size_t part, std::vector<watched_range>& all) {
+  const problem& p = r.what;
+  const watched_part& within = p.watches[part];
+  for (const value_range& v :
+       ranges_of(p.geometry, r.acting, r.state.displacement, {}, r.elements.values, &within))
+    all.push_back({part, &row_named(p, v.name), v.least, v.most});
+  for (const auto& [row, values] : columns_of(r, on::nodes)) {
+    if (row->kind) continue;
+    for (int node = 0; node < nodes(p.geometry); ++node)
+      if (const placed_value v = at_node(p, values[node], node); within.has(v.x, v.y))
+        take(all, part, *row, v);
+  }
+}
+
+void add_named(const step_results& r, std::size_t part, std::vector<watched_range>& all) {
+  const problem& p = r.what;
+  const auto is_named = [&](on list, std::size_t i) {
+    return std::ranges::count(p.watches[part].names, name_of_entry(p, list, i)) > 0;
+  };
+  for (const on list : {on::supports, on::pairs})
+    for (const auto& [row, values] : columns_of(r, list)) {
+      if (!row->kind) continue;  // faces are input
+      for (std::size_t i = 0; i < std::min(values.size(), list_of(list).count(p)); ++i)
+        if (is_named(list, i))
+          take(all, part, *row, at_node(p, values[i], list_of(list).node(p, i), name_of_entry(p, list, i)));
+    }
+  const std::vector<bed_reading> beds = beds_in(r);
+  for (const quantity_row* row : quantities_of(p, on::nodes)) {
+    if (row->kind) continue;
+    for (std::size_t i = 0; i < beds.size(); ++i)
+      if (is_named(on::beds, i))
+        for (placed_value v : {beds[i].pressure.least, beds[i].pressure.most}) {
+          v.name = name_of_entry(p, on::beds, i);
+          take(all, part, *row, v);
+        }
+  }
+}
+
+}  // namespace
+
+placed_value at_node(const problem& p, double value, int node, std::string_view name) {
+  if (std::holds_alternative<assembled>(p.geometry.kind)) return {value, 0.0, 0.0, node, name};
+  const place at = place_of_node(p.geometry, node);
+  return {value, at.x, at.y, node, name};
+}
+
+std::vector<watched_range> watched_in(const step_results& r) {
+  std::vector<watched_range> all;
+  for (std::size_t part = 0; part < r.what.watches.size(); ++part)
+    (r.what.watches[part].names.empty() ? add_range : add_named)(r, part, all);
+  return all;
 }
 
 }  // namespace contct

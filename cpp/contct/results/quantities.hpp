@@ -57,6 +57,14 @@ struct quantity_row {
 [[nodiscard]] std::vector<const quantity_row*> quantities_of(const problem& p,
                                                              std::optional<on> list = std::nullopt);
 
+/// The values of a quantity in a state.
+struct quantity_column {
+  const quantity_row* row;
+  std::vector<double> values;
+};
+/// The columns of all quantities on a list.
+[[nodiscard]] std::vector<quantity_column> columns_of(const step_results& r, on list);
+
 /// The row of a value_range, of an extreme of an element or a node, or of a column of a curve.
 [[nodiscard]] const quantity_row& row_named(const problem& p, std::string_view key);
 
@@ -70,5 +78,20 @@ inline constexpr line_row along_beam[] = {
 
 /// True if the problem has numbers of this kind.
 [[nodiscard]] bool has_kind(const problem& p, quantity kind);
+
+/// The least and largest value of a quantity in a part, from 0. `where` is the node's place; of a bed, the
+/// place with that pressure.
+struct watched_range {
+  std::size_t part = 0;
+  const quantity_row* row = nullptr;
+  placed_value least, most;
+};
+
+/// A value at a node; `name`: of the entry that has it.
+[[nodiscard]] placed_value at_node(const problem& p, double value, int node, std::string_view name = {});
+
+/// All quantities of all parts, part after part. A range of places has the extremes of the structure and the
+/// pressure of beds there; names have reactions, contact forces, gaps, and pressures of beds.
+[[nodiscard]] std::vector<watched_range> watched_in(const step_results& r);
 
 }  // namespace contct

@@ -29,7 +29,7 @@ struct row_of_1989 {
 };
 
 /// The number in which the end of a step by the 1989 rule differs most from the answer, beyond the error of
-/// the answer and, if a difference is not negligible, the rounding of doubles (path_rounding).
+/// the answer and, if a difference is not negligible, the rounding of doubles.
 struct state_difference {
   int step;                         ///< from 1
   quantity what = quantity::w;      ///< kind of the number

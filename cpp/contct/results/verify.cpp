@@ -190,11 +190,6 @@ std::optional<quantity> kind_of(const problem& p, const expected_number& e) {
   return {};
 }
 
-/// The double nearest to the exact number, or `value` for a state.
-double exact_value(const expected_number& e) {
-  return e.quantity == "state" ? e.value : nearest_to(e.exact).value();
-}
-
 }  // namespace
 
 std::vector<verification_case> read_verification(const std::string& path) {
@@ -259,7 +254,7 @@ std::string exact_disagreement(const expected_number& e, double computed, double
   if (e.quantity == "state")
     return e.exact == (e.value == in_contact ? "contact" : "separated") ? ""
                                                                         : "the exact state is " + e.exact;
-  const double exactly = exact_value(e);
+  const double exactly = nearest_to(e.exact).value();
   if (allowed == 0.0) allowed = e.tolerance * (exactly == 0.0 ? 1.0 : std::abs(exactly));
   if (!(std::abs(computed - exactly) <= allowed))
     return fmt::format("computed {:.17g}, exact value {}; allowed: a difference of {:.0e}", computed, e.exact,

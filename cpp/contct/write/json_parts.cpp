@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -21,52 +21,14 @@ json elements_json(const std::vector<int>& elements) {
   return fmt::format("{}..{}", elements.front() + 1, elements.back() + 1);
 }
 
-/// The number counted from 1; null if it is negative.
-json number_of(int from_0) {
-  return from_0 < 0 ? json(nullptr) : json(from_0 + 1);
-}
-
-void put_kind(json& out, const beam& b) {
-  out["kind"] = "beam";
-  for (const auto& [key, values, required] : element_keys)
-    if (!(b.*values).empty()) out[key] = b.*values;
-  if (!b.hinges.empty()) {
-    out["hinges"] = numbered(b.hinges);
-    out["hinge_stiffness"] = b.hinge_stiffness;
+/// Adds a node, from 0, to `entry`: "node": 3, or "dof": "185.3" and "other" in a matrix.
+void put_place(json& entry, const model& m, int node, int other = -1) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) {
+    entry["dof"] = a->label_of(node);
+    if (other >= 0) entry["other"] = a->label_of(other);
+  } else {
+    entry["node"] = node + 1;
   }
-  for (std::size_t e = 0; e < b.sections.size(); ++e) {
-    const beam_section& s = b.sections[e];
-    if (e > 0 && s == b.sections[e - 1]) continue;
-    json& entry = out["sections"].emplace_back();
-    entry = {{"element", e + 1}};
-    for (const section_key& key : section_keys)
-      if (s.*key.value > 0.0) entry[std::string(key.name)] = s.*key.value;
-  }
-}
-
-void put_kind(json& out, const plate& p) {
-  out["kind"] = "plate";
-  out.update({{"columns", p.columns()}, {"D", p.D}, {"nu", p.nu}});
-  if (p.E != 0) out.update({{"E", p.E}, {"thickness", p.thickness}});
-}
-
-/// Adds the dofs of a matrix, with their labels and, if positions are known, with node and direction.
-void put_kind(json& out, const assembled& a) {
-  out["kind"] = "matrix";
-  out.update({{"matrix", a.name}, {"matrix_entries", a.stiffness.stored}, {"matrix_sha256", a.sha256}});
-  if (!a.labels_from.empty()) out["labels_from"] = a.labels_from;
-  const placed_nodes& places = a.places;
-  if (places.known()) out["places_from"] = places.from;
-  json& all = out["dofs"] = json::array();
-  for (int dof = 0; dof < a.dofs(); ++dof) {
-    json& entry = all.emplace_back(json{{"dof", a.label_of(dof)}});
-    if (places.known())
-      entry.update({{"at", number_of(places.dofs[dof].node)}, {"direction", places.dofs[dof].direction}});
-  }
-  out["edges"] = list_of(places.edges, [](const mesh_edge& e) -> json {
-    return {e.from + 1, e.to + 1, e.elements};
-  });
-  out["notes"] = places.notes;
 }
 
 }  // namespace
@@ -136,16 +98,6 @@ json certificate_json(const solved_step& s) {
   return out;
 }
 
-json quantities_json(const problem& p) {
-  json out = json::array();
-  for (const quantity_row* row : quantities_of(p))
-    out.push_back({{"key", row->key},
-                   {"words", row->words},
-                   {"unit", unit_name(p, row->in)},
-                   {"on", list_of(row->where).name}});
-  return out;
-}
-
 json error_json(const problem& p, const std::optional<certificate>& c) {
   json out = json::object();
   for (std::size_t i = 0; i < quantity_names.size(); ++i) {
@@ -174,13 +126,12 @@ json range_json(const model& m, const value_range& r) {
   return {{"min", value_json(m, r.least)}, {"max", value_json(m, r.most)}};
 }
 
-json watched_json(const problem& p, const std::vector<watched_range>& all, const json& ranges) {
-  json out = list_of(p.watches, [](const watched_part& part) -> json {
-    return {{"name", part.name}, {"extremes", json::object()}};
-  });
-  for (std::size_t i = 0; i < all.size(); ++i)
-    out[all[i].part]["extremes"][std::string(all[i].row->key)] = ranges[i];
-  return out;
+json& watched_entry(json& out, const problem& p, std::size_t part, const quantity_row& row) {
+  if (out.is_null())
+    out = list_of(p.watches, [](const watched_part& watched) -> json {
+      return {{"name", watched.name}, {"extremes", json::object()}};
+    });
+  return out[part]["extremes"][std::string(row.key)];
 }
 
 json mesh_error_json(const mesh_error& e) {
@@ -261,15 +212,6 @@ json load_json(const problem& p, const load_path& loads, int step, double fracti
   return load_json(p.geometry, r, &l);
 }
 
-void put_place(json& entry, const model& m, int node, int other) {
-  if (const auto* a = std::get_if<assembled>(&m.kind)) {
-    entry["dof"] = a->label_of(node);
-    if (other >= 0) entry["other"] = a->label_of(other);
-  } else {
-    entry["node"] = node + 1;
-  }
-}
-
 void put_name(json& entry, const problem& p, on list, std::size_t i) {
   if (const std::string_view name = name_of_entry(p, list, i); !name.empty()) entry["name"] = name;
 }
@@ -308,42 +250,59 @@ json support_json(const problem& p, std::size_t i) {
   return entry;
 }
 
-std::size_t count_of_places(const model& m) {
-  const auto* a = std::get_if<assembled>(&m.kind);
-  return a != nullptr ? a->places.nodes.size() : nodes(m);
-}
+namespace {
 
-json node_json(const model& m, std::size_t node) {
-  if (const auto* a = std::get_if<assembled>(&m.kind)) {
-    const placed_node& n = a->places.nodes[node];
-    return {{"node", n.name}, {"x", n.at[0]}, {"y", n.at[1]}, {"z", n.at[2]}};
-  }
-  const place at = place_of_node(m, static_cast<int>(node));
-  json entry = {{"node", node + 1}, {"x", at.x}};
-  if (std::holds_alternative<plate>(m.kind)) entry["y"] = at.y;
+/// An entry of a list, with its place or number, and with its name.
+json begun_entry(const problem& p, on where, std::size_t i) {
+  if (where == on::supports) return support_json(p, i);
+  json entry = {{list_of(where).entry, i + 1}};
+  if (where != on::pairs || i < contacts_of(p)) put_name(entry, p, where, i);
   return entry;
 }
 
-json structure_json(const problem& p) {
-  json out = json::object();
-  std::visit([&out](const auto& kind) { put_kind(out, kind); }, p.geometry.kind);
-  json& all = out["nodes"] = json::array();
-  for (std::size_t node = 0; node < count_of_places(p.geometry); ++node)
-    all.push_back(node_json(p.geometry, node));
-  out["supports"] = list_of(p.supports, [&p, i = 0](const support& s) mutable {
-    json entry = support_json(p, i++);
-    entry["spring"] = s.fixed ? json(nullptr) : json(s.spring);
+}  // namespace
+
+json envelope_json(const problem& p, const envelope& e) {
+  const auto reached = [&p](const envelope::reached& at, bool placed) {
+    json entry = placed ? value_json(p.geometry, at) : json{{"value", at.value}};
+    entry.update({{"step", at.step}, {"increment", at.increment}});
     return entry;
-  });
-  out["pairs"] = list_of(p.pairs, [&p, i = 0](const contact_pair& at) mutable {
-    json entry = pair_json(p, i++);
-    entry.update({{"face", at.face},
-                  {"stiffness", at.stiffness},
-                  {"state", state_name(at.closed ? in_contact : separated)}});
-    return entry;
-  });
-  for (const bed& b : p.beds)
-    for (std::size_t i = 0; i < b.share.size(); ++i) out["pairs"][b.first_pair + i]["bed"] = b.share[i];
+  };
+  const auto range = [&reached](const envelope::range& r, bool placed) -> json {
+    return {{"min", reached(r.least, placed)}, {"max", reached(r.most, placed)}};
+  };
+  json out = {{"states", e.states}};
+  for (const auto& [row, at, part] : e.values) out[std::string(row->key)] = range(at[0], true);
+  std::map<on, json> lists = {{on::pairs, json::array()}, {on::supports, json::array()}};
+  for (const auto& [row, at, part] : e.lists) {
+    json& list = lists[row->where];
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (i == list.size()) list.push_back(begun_entry(p, row->where, i));
+      json& entry = list[i];
+      const envelope::reached& most = at[i].most;
+      if (row->kind == quantity::force)
+        entry.update({{"force_max", most.value}, {"step", most.step}, {"increment", most.increment}});
+      if (most.step == 0 || (row->where == on::pairs && i >= contacts_of(p))) continue;
+      if (row->where == on::supports)
+        entry.update(range(at[i], false));
+      else
+        entry[key_in_list(*row)] = range(at[i], false);
+    }
+  }
+  out.update({{"pairs", lists[on::pairs]}, {"reactions", lists[on::supports]}});
+  for (const on where : {on::beds, on::hinges})
+    if (lists.contains(where)) out[list_of(where).name] = lists[where];
+  for (const auto& [row, at, part] : e.watched)
+    watched_entry(out["watch"], p, part, *row) = range(at[0], true);
+  if (e.x.empty()) return out;
+  json& curves = out["curves"] = {{"x", e.x}};
+  for (const auto& [row, at, part] : e.curves) {
+    json& entry = curves[std::string(row->key)];
+    entry["min"] = list_of(at, [](const auto& r) { return r.least.value; });
+    entry["max"] = list_of(at, [](const auto& r) { return r.most.value; });
+    entry["min_step"] = list_of(at, [](const auto& r) { return r.least.step; });
+    entry["max_step"] = list_of(at, [](const auto& r) { return r.most.step; });
+  }
   return out;
 }
 

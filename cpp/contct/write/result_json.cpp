@@ -1,7 +1,5 @@
 #include "contct/write/result_json.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,6 +18,83 @@ namespace contct {
 namespace {
 
 using json = nlohmann::ordered_json;
+
+/// The rows of the table of quantities that a problem has: key, words, unit and list.
+json quantities_json(const problem& p) {
+  json out = json::array();
+  for (const quantity_row* row : quantities_of(p))
+    out.push_back({{"key", row->key},
+                   {"words", row->words},
+                   {"unit", unit_name(p, row->in)},
+                   {"on", list_of(row->where).name}});
+  return out;
+}
+
+/// The number counted from 1; null if it is negative.
+json number_of(int from_0) {
+  return from_0 < 0 ? json(nullptr) : json(from_0 + 1);
+}
+
+void put_kind(json& out, const beam& b) {
+  out["kind"] = "beam";
+  for (const auto& [key, values, required] : element_keys)
+    if (!(b.*values).empty()) out[key] = b.*values;
+  if (!b.hinges.empty()) {
+    out["hinges"] = numbered(b.hinges);
+    out["hinge_stiffness"] = b.hinge_stiffness;
+  }
+  for (std::size_t e = 0; e < b.sections.size(); ++e) {
+    const beam_section& s = b.sections[e];
+    if (e > 0 && s == b.sections[e - 1]) continue;
+    json& entry = out["sections"].emplace_back();
+    entry = {{"element", e + 1}};
+    for (const section_key& key : section_keys)
+      if (s.*key.value > 0.0) entry[std::string(key.name)] = s.*key.value;
+  }
+}
+
+void put_kind(json& out, const plate& p) {
+  out["kind"] = "plate";
+  out.update({{"columns", p.columns()}, {"D", p.D}, {"nu", p.nu}});
+  if (p.E != 0) out.update({{"E", p.E}, {"thickness", p.thickness}});
+}
+
+/// Adds the dofs of a matrix, with their labels and, if positions are known, with node and direction.
+void put_kind(json& out, const assembled& a) {
+  out["kind"] = "matrix";
+  out.update({{"matrix", a.name}, {"matrix_entries", a.stiffness.stored}, {"matrix_sha256", a.sha256}});
+  if (!a.labels_from.empty()) out["labels_from"] = a.labels_from;
+  const placed_nodes& places = a.places;
+  if (places.known()) out["places_from"] = places.from;
+  json& all = out["dofs"] = json::array();
+  for (int dof = 0; dof < a.dofs(); ++dof) {
+    json& entry = all.emplace_back(json{{"dof", a.label_of(dof)}});
+    if (places.known())
+      entry.update({{"at", number_of(places.dofs[dof].node)}, {"direction", places.dofs[dof].direction}});
+  }
+  out["edges"] = list_of(places.edges, [](const mesh_edge& e) -> json {
+    return {e.from + 1, e.to + 1, e.elements};
+  });
+  out["notes"] = places.notes;
+}
+
+/// The number of nodes whose positions are known.
+std::size_t count_of_places(const model& m) {
+  const auto* a = std::get_if<assembled>(&m.kind);
+  return a != nullptr ? a->places.nodes.size() : nodes(m);
+}
+
+/// A node whose position is known, from 0, with name and coordinates.
+json node_json(const model& m, std::size_t node) {
+  if (const auto* a = std::get_if<assembled>(&m.kind)) {
+    const placed_node& n = a->places.nodes[node];
+    return {{"node", n.name}, {"x", n.at[0]}, {"y", n.at[1]}, {"z", n.at[2]}};
+  }
+  const place at = place_of_node(m, static_cast<int>(node));
+  json entry = {{"node", node + 1}, {"x", at.x}};
+  if (std::holds_alternative<plate>(m.kind)) entry["y"] = at.y;
+  return entry;
+}
 
 json extremes_json(const model& m, const std::vector<value_range>& ranges) {
   json out = json::object();
@@ -49,27 +124,17 @@ json element_json(const model* m, std::size_t e) {
   return entry;
 }
 
-/// The numbers on a list of a state, by their keys.
-class columns {
- public:
-  columns(const step_results& r, on list) {
-    for (const quantity_row* row : quantities_of(r.what, list))
-      all_.emplace_back(key_in_list(*row), row->values(r));
+/// Adds the numbers of entry `i` of the `count` entries of a list; an element has a list of each.
+void put_numbers(json& entry, const std::vector<quantity_column>& all, std::size_t i, std::size_t count) {
+  for (const auto& [row, values] : all) {
+    const std::size_t places = values.size() / count;
+    json& numbers = entry[std::string(key_in_list(*row))];
+    if (places == 1)
+      numbers = values[i];
+    else
+      numbers = std::vector(values.begin() + i * places, values.begin() + (i + 1) * places);
   }
-  /// Adds the numbers of entry `i` of `count`; an element has a list of each.
-  void put(json& entry, std::size_t i, std::size_t count) const {
-    for (const auto& [key, values] : all_) {
-      const std::size_t places = values.size() / count;
-      if (places == 1)
-        entry[key] = values[i];
-      else
-        entry[key] = std::vector(values.begin() + i * places, values.begin() + (i + 1) * places);
-    }
-  }
-
- private:
-  std::vector<std::pair<std::string, std::vector<double>>> all_;
-};
+}
 
 /// The bounds on the errors of a state, including those of pressures and stresses if there are any.
 json errors_json(const std::optional<certificate>& c, const step_results& read) {
@@ -123,14 +188,14 @@ json rule_1989_json(const run_result& r) {
 /// The numbers of each entry of a list and, if it is at a node, its x.
 json entries_json(const step_results& r, on where) {
   const list_row& list = list_of(where);
-  const columns all(r, where);
+  const std::vector<quantity_column> all = columns_of(r, where);
   const std::size_t count = list.count(r.what);
   json out = json::array();
   for (std::size_t i = 0; i < count; ++i) {
     json& entry = out.emplace_back(json{{list.entry, i + 1}});
     put_name(entry, r.what, where, i);
     if (list.node != nullptr) entry["x"] = place_of_node(r.what.geometry, list.node(r.what, i)).x;
-    all.put(entry, i, count);
+    put_numbers(entry, all, i, count);
   }
   return out;
 }
@@ -267,18 +332,18 @@ class result_writer {
     const bool for_pictures = parts_ != result_parts::ends;
     const std::size_t elements = read.elements.elements();
     return {{"pairs", p.pairs.size(),
-             [&, all = columns(read, on::pairs)](auto i) {
+             [&, all = columns_of(read, on::pairs)](auto i) {
                json entry = pair_json(p, i);
                entry["state"] = state_name(read.state.isep[i]);
-               all.put(entry, i, p.pairs.size());
+               put_numbers(entry, all, i, p.pairs.size());
                return entry;
              }},
             {"reactions", p.supports.size(), [&](auto i) { return reaction_json(p, i, read.reactions[i]); }},
             {"elements", elements,
              [=, lines = read.lines(), m = is_end ? &p.geometry : nullptr,
-              all = columns(read, on::element_ends)](auto i) {
+              all = columns_of(read, on::element_ends)](auto i) {
                json entry = element_json(m, i);
-               all.put(entry, i, elements);
+               put_numbers(entry, all, i, elements);
                const int e = static_cast<int>(i);
                if (lines && (for_pictures || lines->is_broken(e)))
                  entry["pieces"] = list_of(lines->pieces(e), piece_json);
@@ -312,12 +377,10 @@ class result_writer {
                     {"extremes_at", places_of_extremes(m)},
                     {"beds", beds_json(at_end)}});
     if (const json hinges = entries_json(at_end, on::hinges); !hinges.empty()) members["hinges"] = hinges;
-    if (const std::vector<watched_range> watched = watched_in(at_end); !watched.empty())
-      members["watch"] = watched_json(r_.what, watched, list_of(watched, [&m](const watched_range& w) {
-                                        return range_json(m, {w.row->key, w.least, w.most});
-                                      }));
+    for (const watched_range& w : watched_in(at_end))
+      watched_entry(members["watch"], r_.what, w.part, *w.row) = range_json(m, {w.row->key, w.least, w.most});
     if (!std::holds_alternative<assembled>(m.kind))
-      columns(at_end, on::structure).put(members["balance"], 0, 1);
+      put_numbers(members["balance"], columns_of(at_end, on::structure), 0, 1);
     if (parts_ != result_parts::ends)
       members.update({{"load", load_in(s.step, s.fraction, true)}, {"largest", largest_json(at_end)}});
     if (s.from != origin::path) members["ended_by"] = s.from == origin::reference ? "reference" : "exact";
@@ -384,7 +447,7 @@ class result_writer {
       json& entry = members["refined"][std::string(c.kind)] = {{"change", c.change}, {"of", c.of}};
       if (c.order) entry.update({{"order", *c.order}, {"error", c.error ? json(*c.error) : json(nullptr)}});
     }
-    if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_), curves_of(r_));
+    if (r_.envelope) members["envelope"] = envelope_json(r_.what, envelope_of(r_, true));
     members["certified"] = end.status == path_status::solved && r_.all_certified();
     members["warnings"] = warnings_of(r_);
     if (parts_ != result_parts::report) return members;
@@ -432,6 +495,29 @@ class result_writer {
 };
 
 }  // namespace
+
+json structure_json(const problem& p) {
+  json out = json::object();
+  std::visit([&out](const auto& kind) { put_kind(out, kind); }, p.geometry.kind);
+  json& all = out["nodes"] = json::array();
+  for (std::size_t node = 0; node < count_of_places(p.geometry); ++node)
+    all.push_back(node_json(p.geometry, node));
+  out["supports"] = list_of(p.supports, [&p, i = 0](const support& s) mutable {
+    json entry = support_json(p, i++);
+    entry["spring"] = s.fixed ? json(nullptr) : json(s.spring);
+    return entry;
+  });
+  out["pairs"] = list_of(p.pairs, [&p, i = 0](const contact_pair& at) mutable {
+    json entry = pair_json(p, i++);
+    entry.update({{"face", at.face},
+                  {"stiffness", at.stiffness},
+                  {"state", state_name(at.closed ? in_contact : separated)}});
+    return entry;
+  });
+  for (const bed& b : p.beds)
+    for (std::size_t i = 0; i < b.share.size(); ++i) out["pairs"][b.first_pair + i]["bed"] = b.share[i];
+  return out;
+}
 
 void write_result(const run_result& r, output_file& out, result_parts parts) {
   result_writer(r, out, parts).write();

@@ -62,9 +62,6 @@ class json_document {
 /// The unit labels of a problem; null if it has none.
 [[nodiscard]] nlohmann::ordered_json units_json(const unit_labels& units);
 
-/// The rows of the table of quantities that a problem has: key, words, unit and list.
-[[nodiscard]] nlohmann::ordered_json quantities_json(const problem& p);
-
 /// The proved bounds on the errors at the end of a step, { "w": .., .. }; null for a kind without a proof.
 [[nodiscard]] nlohmann::ordered_json error_json(const problem& p, const std::optional<certificate>& c);
 
@@ -76,8 +73,7 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json range_json(const model& m, const value_range& r);
 
 /// An envelope, with its curves along a beam unless they are empty.
-[[nodiscard]] nlohmann::ordered_json envelope_json(const problem& p, const envelope& e,
-                                                   const envelope_curves& along);
+[[nodiscard]] nlohmann::ordered_json envelope_json(const problem& p, const envelope& e);
 
 /// `mesh` of a step of a beam with beds.
 [[nodiscard]] nlohmann::ordered_json mesh_error_json(const mesh_error& e);
@@ -95,10 +91,6 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json load_json(const problem& p, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 
-/// The number of nodes whose positions are known; and such a node, from 0, with name and coordinates.
-[[nodiscard]] std::size_t count_of_places(const model& m);
-[[nodiscard]] nlohmann::ordered_json node_json(const model& m, std::size_t node);
-
 /// The structure: positions of nodes, stiffnesses, supports and pairs, each in the order of the numbers.
 [[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
 
@@ -108,9 +100,9 @@ class json_document {
 /// Adds the name of an entry of a list, from 0, if it has one.
 void put_name(nlohmann::ordered_json& entry, const problem& p, on list, std::size_t i);
 
-/// The parts that the problem watches, with their quantities. `ranges` [all]: what to write of each.
-[[nodiscard]] nlohmann::ordered_json watched_json(const problem& p, const std::vector<watched_range>& all,
-                                                  const nlohmann::ordered_json& ranges);
+/// The entry of a quantity of a watched part in `out`, which then lists all parts.
+[[nodiscard]] nlohmann::ordered_json& watched_entry(nlohmann::ordered_json& out, const problem& p,
+                                                    std::size_t part, const quantity_row& row);
 
 /// Pair `i` (from 0); an event; a pair in a state. The keys are the same in results and exact paths.
 [[nodiscard]] nlohmann::ordered_json pair_json(const problem& p, std::size_t i);
@@ -122,9 +114,6 @@ void put_name(nlohmann::ordered_json& entry, const problem& p, on list, std::siz
 /// The reaction of support `i`, from 0.
 [[nodiscard]] nlohmann::ordered_json reaction_json(const problem& p, std::size_t i,
                                                    const nlohmann::ordered_json& value);
-
-/// Adds a node, from 0, to `entry`: "node": 3, or "dof": "185.3" and "other" in a matrix.
-void put_place(nlohmann::ordered_json& entry, const model& m, int node, int other = -1);
 
 /// The proof of the error bounds of a run, for independent checkers (--proof): format "contct-proof-2" of
 /// reference/proof-format.md.

@@ -142,15 +142,14 @@ std::vector<double> largest_at_nodes(const model& m, const std::vector<double>& 
 }
 
 std::string rows_of(const plate& p, const step_results& r) {
-  std::vector<std::vector<double>> columns;
-  for (const quantity_row* row : quantities_of(r.what, on::nodes)) columns.push_back(row->values(r));
-  for (const quantity_row* row : quantities_of(r.what, on::element_ends))
-    columns.push_back(largest_at_nodes(r.what.geometry, row->values(r)));
+  std::vector<quantity_column> columns = columns_of(r, on::nodes);
+  for (const auto& [row, values] : columns_of(r, on::element_ends))
+    columns.push_back({row, largest_at_nodes(r.what.geometry, values)});
   std::string rows;
   for (int node = 0; node < p.nodes(); ++node) {
     const place at = place_of_node(r.what.geometry, node);
     std::string numbers = fmt::format("{}", at.y);
-    for (const std::vector<double>& of : columns) numbers += fmt::format(",{}", of[node]);
+    for (const auto& [row, values] : columns) numbers += fmt::format(",{}", values[node]);
     rows += row_of(step_of(r), node + 1, at.x, numbers);
   }
   return rows;
@@ -266,16 +265,16 @@ void write_supports_csv(const run_result& r, output_file& out) {
 }
 
 void write_envelope_csv(const run_result& r, output_file& out) {
-  const envelope_curves all = curves_of(r);
+  const envelope all = envelope_of(r, true);
   std::string row = "x";
-  for (const envelope_curves::curve& c : all.curves)
-    row += fmt::format(",{0}_min,{0}_min_step,{0}_max,{0}_max_step", c.name);
+  for (const envelope::listed& c : all.curves)
+    row += fmt::format(",{0}_min,{0}_min_step,{0}_max,{0}_max_step", c.row->key);
   out.write(row_of(row));
   for (std::size_t i = 0; i < all.x.size(); ++i) {
     row = fmt::format("{}", all.x[i]);
-    for (const envelope_curves::curve& c : all.curves)
-      row += fmt::format(",{},{},{},{}", c.at[i].least.value, c.at[i].least.step, c.at[i].most.value,
-                         c.at[i].most.step);
+    for (const envelope::listed& c : all.curves)
+      for (const envelope::reached& at : {c.at[i].least, c.at[i].most})
+        row += fmt::format(",{},{}", at.value, at.step);
     out.write(row_of(row));
   }
   out.finish();

@@ -115,8 +115,7 @@ point_arrays point_data(const step_results& r) {
   for (int node = 0; node < nodes(m); ++node)
     displacement.insert(displacement.end(), {0.0, 0.0, deflection_of(r.what, r.state.displacement, node)});
   std::string arrays = data_array("displacement", 3, displacement);
-  for (const quantity_row* row : quantities_of(r.what, on::nodes))
-    arrays += data_array(row->key, 1, row->values(r));
+  for (const auto& [row, values] : columns_of(r, on::nodes)) arrays += data_array(row->key, 1, values);
   arrays += data_array("reaction", dofs_per_node(m), reactions_at_dofs(r));
   return {R"( Vectors="displacement" Scalars="w")", std::move(arrays)};
 }
@@ -134,10 +133,9 @@ std::string cell_data(const step_results& r, std::size_t elements, const std::ve
       column("state", -1, [&](const pair_cell& c) { return static_cast<int>(r.pairs[c.pair].look); }) +
       column("surface", 0, [&](const pair_cell& c) { return r.what.pairs[c.pair].surface; }) +
       column("direction", 0, [](const pair_cell& c) { return c.at.direction; });
-  for (const quantity_row* row : quantities_of(r.what, on::pairs))
-    arrays += column(row->key, 0.0, [of = row->values(r)](const pair_cell& c) { return of[c.pair]; });
-  for (const quantity_row* row : quantities_of(r.what, on::element_ends)) {
-    std::vector<double> values = row->values(r);
+  for (const auto& of : columns_of(r, on::pairs))
+    arrays += column(of.row->key, 0.0, [&of](const pair_cell& c) { return of.values[c.pair]; });
+  for (auto& [row, values] : columns_of(r, on::element_ends)) {
     const std::size_t places = values.size() / elements;
     values.resize((elements + cells.size()) * places);
     arrays += data_array(row->key, places, values);

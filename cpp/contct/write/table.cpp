@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <span>
@@ -291,59 +290,51 @@ class table_printer {
     if (e.states == 0) return;
     text_ += '\n';
     print_heading("all combinations");
-    const auto both = [&](const envelope::range<placed_value>& v, const quantity_row& row,
-                          const std::string& before = "") {
-      for (const auto* at : {&v.least, &v.most})
-        print_extreme(at == &v.least ? "least" : "largest", shown_name(row.key), at->value.value,
-                      unit_words(problem_, row.in, at->value.node),
-                      before + place_words(problem_.geometry, at->value), at->step);
-    };
-    for (std::size_t i = 0; i < e.names.size(); ++i) both(e.values[i], row_named(problem_, e.names[i]));
-    for (std::size_t i = 0; i < e.watched.size(); ++i)
-      both(e.values_watched[i], *e.watched[i].row,
-           on_one_line(problem_.watches[e.watched[i].part].name) + ", ");
-    for (const envelope::listed& list : e.lists)
-      if (list.row->where != on::pairs || contacts_of(problem_) > 0) print_listed(list);
+    for (const auto& [row, at, part] : e.values) print_range(*row, at[0], "");
+    for (const auto& [row, at, part] : e.watched)
+      print_range(*row, at[0], on_one_line(problem_.watches[part].name) + ", ");
+    for (const auto& [row, at, part] : e.lists)
+      if (row->where != on::pairs || contacts_of(problem_) > 0) print_listed(*row, at);
   }
 
-  void print_extreme(std::string_view bound, std::string_view name, double value, const std::string& in,
-                     const std::string& at, int step) {
+  void print_range(const quantity_row& row, const envelope::range& of, const std::string& before) {
+    for (const auto bound : {&envelope::range::least, &envelope::range::most})
+      print_extreme(bound, row, shown_name(row.key), of, before + place_words(problem_.geometry, of.*bound));
+  }
+
+  void print_extreme(envelope::reached envelope::range::*bound, const quantity_row& row,
+                     std::string_view name, const envelope::range& of, const std::string& at) {
+    const envelope::reached& reached = of.*bound;
     text_ +=
-        fmt::format("{:<17} {:<19} {:<22} {}\n", fmt::format("{} {}", bound, name),
-                    fmt::format("{:.6g}{}", value + 0.0, in), at, on_one_line(problem_.steps[step - 1].name));
+        fmt::format("{:<17} {:<19} {:<22} {}\n",
+                    fmt::format("{} {}", bound == &envelope::range::least ? "least" : "largest", name),
+                    fmt::format("{:.6g}{}", reached.value + 0.0, unit_words(problem_, row.in, reached.node)),
+                    at, on_one_line(problem_.steps[reached.step - 1].name));
   }
 
   /// Prints the extremes of each support, bed, hinge and pair, or of all of them together if there are many.
-  void print_listed(const envelope::listed& list) {
+  void print_listed(const quantity_row& row, std::span<const envelope::range> all) {
     constexpr std::size_t most_listed = 12;
-    const quantity_row& row = *list.row;
-    const std::size_t count = list_of(row.where).count(problem_);
-    for (const auto bound : {&envelope::range<double>::least, &envelope::range<double>::most}) {
-      const bool is_least = bound == &envelope::range<double>::least;
-      const auto size_of = [&](const auto& r) { return is_least ? -(r.*bound).value : (r.*bound).value; };
-      std::span<const envelope::range<double>> told(list.at.data(), count);
-      if (count > most_listed)
+    const list_row& list = list_of(row.where);
+    for (const auto bound : {&envelope::range::least, &envelope::range::most}) {
+      const bool is_least = bound == &envelope::range::least;
+      const auto size_of = [&](const envelope::range& r) { return (is_least ? -1 : 1) * (r.*bound).value; };
+      std::span<const envelope::range> told = all.first(list.count(problem_));
+      if (told.size() > most_listed)
         told = told.subspan(std::ranges::max_element(told, {}, size_of) - told.begin(), 1);
-      for (const auto& at : told) {
-        const auto& [value, step, increment, first] = at.*bound;
-        const bool is_known = step > 0 && (row.where != on::pairs || value > 0.0) &&
+      for (const envelope::range& of : told) {
+        const envelope::reached& reached = of.*bound;
+        const bool is_known = reached.step > 0 && (row.where != on::pairs || reached.value > 0.0) &&
                               !(is_least && row.words.starts_with("largest"));
-        const auto i = static_cast<std::size_t>(&at - list.at.data());
-        if (is_known) print_entry(is_least ? "least" : "largest", row, i, value, step);
+        if (!is_known) continue;
+        const auto i = static_cast<std::size_t>(&of - all.data());
+        std::string at =
+            list.entry.empty() ? name_before(problem_, row.where, i) : numbered_words(problem_, row.where, i);
+        if (reached.node >= 0)
+          at += (list.entry.empty() ? "" : ", ") + place_words(problem_.geometry, reached);
+        print_extreme(bound, row, row.key.substr(row.key.rfind('_') + 1), of, at);
       }
     }
-  }
-
-  /// Prints a number of a support, bed, hinge or pair, with its place.
-  void print_entry(std::string_view bound, const quantity_row& row, std::size_t i, double value, int step) {
-    const list_row& list = list_of(row.where);
-    const int node = list.node == nullptr ? -1 : list.node(problem_, i);
-    std::string at =
-        list.entry.empty() ? name_before(problem_, row.where, i) : numbered_words(problem_, row.where, i);
-    if (node >= 0)
-      at += (list.entry.empty() ? "" : ", ") + place_words(problem_.geometry, at_node(problem_, value, node));
-    print_extreme(bound, row.key.substr(row.key.rfind('_') + 1), value, unit_words(problem_, row.in, node),
-                  at, step);
   }
 
   /// Prints a table for each quantity, with one row for each step.

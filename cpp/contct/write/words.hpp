@@ -1,8 +1,6 @@
 // Words for statuses, events, certificates and the end of a run, which are the same in every output.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,9 +72,6 @@ constexpr std::string_view end_reason(path_status status) {
 /// For a run of both rules: lines that tell how the 1989 path ended early, which of its states are wrong (the
 /// first ones, a line each), or that its states agree with the answer. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
-
-/// Keeps the first 12 lines, because there may be hundreds of combinations.
-[[nodiscard]] std::vector<std::string> first_of(std::vector<std::string> lines);
 
 /// The end_words of every step that was not solved, a line each; of many lines only the first ones.
 [[nodiscard]] std::vector<std::string> words_of_ends(const problem& p, const path_end& end);
