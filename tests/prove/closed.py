@@ -53,7 +53,7 @@ KERNEL_ALONE = KERNEL.removeprefix(ABI).format("nop")
 SETS_ROUNDING = "ldmxcsr 4(%rsp)\nmov $1, %eax\nret\n"
 FILES = {  # a library, and the reason
     KERNEL_ALONE: "found no symbol contct_kernel_abi",
-    ABI.replace("$1", "$2") + KERNEL_ALONE: "contct_kernel_abi returns another number than 1",
+    ABI.replace("$1", "$2") + KERNEL_ALONE: "contct_kernel_abi must return 1 and do nothing else",
     ABI.replace("mov $1", "movl $1, changed(%rip)\nmov $1") + KERNEL_ALONE + ".data\nchanged: .long 0\n": "IMAGE is written",
     ABI.replace("mov $1, %eax\nret\n", SETS_ROUNDING) + KERNEL_ALONE: "this encoding is not known",
     KERNEL.format("nop") + '.section .init_array,"aw"\n.quad begin\n.text\nbegin:\n' + SETS_ROUNDING: "an initialiser may change how the kernel answers",
@@ -103,7 +103,7 @@ def check(expected: str, *command: str, status: int = 2) -> None:
 with tempfile.TemporaryDirectory() as folder:
     unknown = check_unknown(folder)
     library = f"{folder}/mine.so"
-    for body, expected in {**CASES, "ret": "differs: SMIN is "}.items():
+    for body, expected in {**CASES, "ret": "contct_kernel (contct_kernel): differs: call 1: "}.items():
         Path(f"{folder}/mine.s").write_text(KERNEL.format(body))
         run("cc", "-shared", "-o", library, f"{folder}/mine.s", status=0)
         check(expected, "/usr/bin/python3", *PROVE, library, status=1 if body == "ret" else 2)
@@ -111,7 +111,7 @@ with tempfile.TemporaryDirectory() as folder:
             found = contct.prove(library)["contct_kernel"]
             assert found.startswith("undecided: ") and expected in found, f"by the Python module: {found}"
     trace, verdicts = f"{folder}/call.trace", f"{folder}/verdicts.json"  # of the last case, which differs
-    check("differs: SMIN is ", "/usr/bin/python3", *PROVE, library, f"--trace={trace}", f"--json={verdicts}", status=1)
+    check("contct_kernel (contct_kernel): differs: call 1: ", "/usr/bin/python3", *PROVE, library, f"--trace={trace}", f"--json={verdicts}", status=1)
     assert [k["verdict"] for k in json.loads(Path(verdicts).read_text())["kernels"]] == ["differs"]
     run(str(build / "contct"), "replay", trace, status=0)
     run(str(build / "contct"), "replay", trace, "--kernel", "plugin:" + library, status=1)

@@ -95,15 +95,17 @@ class Concrete(Machine):
     def in_image(self, address: int) -> z3.BitVecRef:
         return z3.BitVecVal(address, 64)
 
-    def _go(self, s: State, target: z3.BitVecRef) -> list[State]:
+    def decide(self, s: State, claim: z3.BoolRef) -> bool:
+        return z3.is_true(constant(claim))
+
+    def _go(self, s: State, target: z3.BitVecRef) -> None:
         s.pc = z3.simplify(target).as_long()
-        return [s]
 
 
 def constant(term: z3.ExprRef) -> z3.ExprRef:
     """Returns the value of a term. Uninterpreted functions get the results of the processor's scalar instructions,
     which they represent."""
-    term = z3.simplify(term)
+    term = term if z3.is_bv_value(term) else z3.simplify(term)
     if z3.is_bv_value(term) or z3.is_true(term) or z3.is_false(term):
         return term
     known = [constant(child) for child in term.children()]
@@ -254,23 +256,20 @@ def interpreted(code: bytes, state: bytes) -> Outcome:
     """Returns the outcome of an instruction in the interpreter. Raises Undecided for what is not supported."""
     machine, held = Concrete(code, state[DATA - PAGE :]), struct.unpack_from("<16QQQ32Q", state)
     before = {(name, 0): value for name, value in zip(ORDER, held)} | {(f"xmm{k // 2}", k % 2 * 8): held[18 + k] for k in range(32)}
-    cells = {place: number_64(value) for place, value in before.items()}
-    s = State(processor.address, dict(cells))
+    s = State(processor.address, None)
+    s.cells = {(name, at + k): (number_64(value), k) for (name, at), value in before.items() for k in range(8)}
     start = s.flags = {name: lambda is_so=is_so: z3.BoolVal(is_so) for name, is_so in conditions(held[16]).items()}
-    (s,) = machine._step(s)
-    values = dict.fromkeys([*ORDER, *(f"xmm{k}" for k in range(16))], 0)
-    for (name, at), value in s.cells.items():
-        values[name] |= (before[name, at] if value is cells.get((name, at)) else constant(value).as_long()) << 8 * at
+    machine._step(s)
+    values = [constant(s.read(name, at, 8)).as_long() for name, at in before]
     assert s.pc in (processor.landing, processor.address + len(code)), "another jump"
     known = conditions(held[16]) if s.flags is start else {name: z3.is_true(constant(claim())) for name, claim in s.flags.items()}
-    return [*values.values(), s.pc == processor.landing], bytes(machine.data), known
+    return [*values, s.pc == processor.landing], bytes(machine.data), known
 
 
 def natively(code: bytes, state: bytes) -> Outcome:
     after = processor.run(code, state)
     held = struct.unpack_from("<16QQQ32Q", after)
-    vectors = [held[18 + 2 * k] | held[19 + 2 * k] << 64 for k in range(16)]
-    return [*held[:16], *vectors, held[17] == 1], after[DATA - PAGE :], conditions(held[16])
+    return [*held[:16], *held[18:], held[17] == 1], after[DATA - PAGE :], conditions(held[16])
 
 
 def differs(found: Outcome, expected: Outcome) -> bool:
@@ -311,7 +310,7 @@ def neighbours() -> Iterator[bytes]:
 SIMILAR = {"add": "sub", "sub": "add", "and": "or", "or": "and", "xor": "or", "cmp": "test", "test": "cmp", "movsx": "mov", "shl": "shr", "shr": "sar",
            "sar": "shr", "reals sub": "reals add", "reals div": "reals mul", "reals mul": "reals div", "reals min": "reals max", "reals max": "reals min",
            "reals add": "reals sub", "bits and": "bits andn", "bits andn": "bits and", "bits or": "bits xor", "bits xor": "bits or", "call": "jmp", "set": "not",
-           "cmov": "mov", "select 32": "select 64", "select 64": "select 32", "inc": "dec", "dec": "inc", "neg": "not", "not": "neg"}  # fmt: skip
+           "cmov": "mov", "inc": "dec", "dec": "inc", "neg": "not", "not": "neg"}  # fmt: skip
 
 
 def is_noticed(code: str, row: Row, name: str, cases: list[tuple[bytes, bytes, Outcome]]) -> bool:

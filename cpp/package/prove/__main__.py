@@ -10,7 +10,8 @@ import os
 import subprocess
 import sys
 import time
-from typing import Any, Callable, NamedTuple
+import traceback
+from typing import Callable, NamedTuple
 
 from . import Undecided
 
@@ -33,7 +34,6 @@ from .specification import PRECONDITIONS, Specification
 PROVED, DIFFERS, UNDECIDED = 0, 1, 2  # the exit status
 VERDICTS = ("proved", "differs", "undecided")
 PLUGIN = "contct_kernel"
-NOT_FOUND = "no call with a difference was found"
 CLAIM = f"""
 For every call within the preconditions, each kernel that is proved leaves the bits of the specification in SS, SMIN and
 ISEP and makes its events, by machine-checked induction.
@@ -69,9 +69,9 @@ def kernels_of(image: Image, symbol: str) -> list[Kernel]:
     if symbol:
         return [k for k in KERNELS if k.symbol == symbol] or [Kernel(image.symbol(symbol).name, 64, interfaces.plugin, symbol)]
     *ours, plugin = KERNELS
-    if plugin.symbol in image.symbols:
+    if image.find(plugin.symbol):
         return [plugin]
-    if not any(k.symbol in image.symbols for k in ours):
+    if not any(image.find(k.symbol) for k in ours):
         allowed = ", ".join(k.symbol for k in KERNELS)
         raise Undecided(f"{image.path}: found no kernel; allowed: a file with one of {allowed}, or --symbol")
     return ours
@@ -81,39 +81,34 @@ def judge(path: str, kernel: Kernel, trace: str = "") -> tuple[int, str]:
     """The verdict on one kernel of a file: exit status and words. `trace`: a file for a call with a difference."""
     gc.disable()  # Z3's terms have no cycles
     start, image = time.process_time(), Image(path)
-    machine = Machine(image, Specification(kernel.width))
+    machine, why = Machine(image, Specification(kernel.width)), ""
     try:
         startup.check(image)
         if kernel.symbol == PLUGIN:
             startup.check_abi(image)
         proof = Proof(machine, kernel.interface(machine), image.symbol(kernel.symbol).address)
         proof.prove()
-    except (Undecided, Differs, z3.Z3Exception, LookupError) as why:  # LookupError: unknown code
-        return _refuted(path, kernel, machine, str(why), trace)
-    if kernel.symbol == PLUGIN:
-        machine.constants = set()  # no calls for the constants of this code
-        status, words = _refuted(path, kernel, machine, "its code is proved", trace)
-        if NOT_FOUND not in words:  # a contradiction, or it does not run
-            return status, words
+    except (Undecided, Differs, z3.Z3Exception, LookupError) as error:  # LookupError: unknown code
+        why = str(error)
+    found, failure = _run(path, trace, machine.constants if why else set()) if kernel.symbol == PLUGIN else ("", "")
+    if found:
+        return DIFFERS, f"differs: {found}"
+    if why or failure:
+        return UNDECIDED, "; ".join(filter(None, (f"undecided: {why or 'its code is proved'}", failure)))
     code = image.code_of(kernel.symbol)
     return PROVED, (f"proved: {len(code)} bytes of SHA-256 {hashlib.sha256(code).hexdigest()}; {len(proof.heads)} loops, "
                     f"{machine.paths} paths, {machine.questions} questions, {time.process_time() - start:.1f} s of "
                     "processor time")  # fmt: skip
 
 
-def _refuted(path: str, kernel: Kernel, machine: Machine, why: str, trace: str) -> tuple[int, str]:
-    """The verdict without a proof. Only a call that the kernel and FORTRAN answer differently when run is a
-    difference."""
-    if kernel.symbol != PLUGIN:
-        return UNDECIDED, f"undecided: {why}"
-    # In a process of its own: it is small, so that children start quickly, and may crash.
-    command = [sys.executable, "-m", f"{__package__}.replay", os.path.abspath(path), trace, *map(str, sorted(machine.constants))]
+def _run(path: str, trace: str, constants: set[int]) -> tuple[str, str]:
+    """Run a plug-in: a call that it and FORTRAN answer differently, if one is found, and why no calls were compared.
+    `constants`: for them there are more calls."""
+    # In a process of its own: it is small, so that children start quickly.
+    command = [sys.executable, "-m", f"{__package__}.replay", os.path.abspath(path), trace, *map(str, sorted(constants))]
     said = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
-    if said.returncode:  # a missing library or a crash: no call was compared
-        failure = (said.stderr.splitlines() or [f"exit status {said.returncode}"])[-1]
-        return UNDECIDED, f"undecided: {why}; run with contct.py: {failure}"
-    found = said.stdout
-    return (DIFFERS, f"differs: {found}") if found else (UNDECIDED, f"undecided: {why}; {NOT_FOUND}")
+    failure = (said.stderr.splitlines() or [f"exit status {said.returncode}"])[-1]
+    return ("", f"run with contct.py: {failure}") if said.returncode else (said.stdout, "")
 
 
 def main() -> int:
@@ -124,21 +119,26 @@ def main() -> int:
     p.add_argument("--json", default="", metavar="FILE", help="write the verdicts to this file (- is standard output)")
     p.add_argument("--trace", default="", metavar="FILE", help="write a call that is answered differently to this file, for contct replay")
     o = p.parse_args()
-    say = functools.partial(print, file=sys.stderr if o.json == "-" else sys.stdout, flush=True)
     try:
-        if o.trace == "-":
-            raise Undecided("--trace: found -; allowed: the name of a file")
-        for name in filter(None, (o.json, o.trace)):
-            if os.path.realpath(name) == os.path.realpath(o.library):
-                raise Undecided(f"{name}: found the library; allowed: another file for the output")
-        image = Image(o.library)
-        kernels = kernels_of(image, o.symbol)
+        return _print_verdicts(o)
     except (OSError, Undecided) as error:
         print(f"contct prove: {error}", file=sys.stderr)
-        return UNDECIDED
-    digest, rows = hashlib.sha256(image.data).hexdigest(), []
+    except BaseException:  # Python's exit status 1 would mean a difference
+        traceback.print_exc()
+    return UNDECIDED
+
+
+def _print_verdicts(o: argparse.Namespace) -> int:
+    say = functools.partial(print, file=sys.stderr if o.json == "-" else sys.stdout, flush=True)
+    if o.trace == "-":
+        raise Undecided("--trace: found -; allowed: the name of a file")
+    for name in filter(None, (o.json, o.trace)):
+        if os.path.realpath(name) == os.path.realpath(o.library):
+            raise Undecided(f"{name}: found the library; allowed: another file for the output")
+    image = Image(o.library)
+    kernels, rows, found = kernels_of(image, o.symbol), [], set()
+    digest = hashlib.sha256(image.data).hexdigest()
     say(f"{o.library}\nSHA-256 {digest}\n")
-    found = set()
     with multiprocessing.Pool(2) as pool:
         for kernel, (status, words) in zip(kernels, pool.imap(functools.partial(judge, o.library, trace=o.trace), kernels)):
             found.add(status)
@@ -152,20 +152,9 @@ def main() -> int:
     if o.json == "-":
         print(text, end="")
     elif o.json:
-        try:
-            replay.write_whole(o.json, text)
-        except OSError as error:
-            print(f"contct prove: {error}", file=sys.stderr)
-            return UNDECIDED
+        replay.write_whole(o.json, text)
     return next(status for status in (DIFFERS, UNDECIDED, PROVED) if status in found)
 
 
-def fail_closed(*failure: Any) -> None:
-    """Exit as undecided after an error of the prover, because Python's exit status 1 would mean a difference."""
-    sys.__excepthook__(*failure)
-    os._exit(UNDECIDED)
-
-
 if __name__ == "__main__":
-    sys.excepthook = fail_closed
     sys.exit(main())

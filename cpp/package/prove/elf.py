@@ -1,8 +1,9 @@
 """An ELF file of x86-64 as the loader maps it: program headers and the dynamic table. Sections are not read."""
 
-import bisect
+import functools
+import itertools
 import struct
-from typing import Iterator, NamedTuple
+from typing import NamedTuple
 
 from . import Undecided
 
@@ -10,6 +11,7 @@ _X86_64 = 62
 _LOAD, _DYNAMIC, _RELRO = 1, 2, 0x6474E552  # kinds of program headers
 _EXECUTABLE, _WRITABLE = 1, 2
 _PAGE = 4096
+_MOST = 1 << 30  # bytes of memory
 _R_64, _R_COPY, _R_GLOB_DAT, _R_JUMP_SLOT, _R_RELATIVE = 1, 5, 6, 7, 8
 _DATA_OR_FUNCTION = (0, 1, 2)  # types of symbols: no type, datum, function; not TLS, not IFUNC
 _UNIQUE = 10  # a binding: one definition in the whole process
@@ -39,9 +41,16 @@ class Image:
         self.path = path
         with open(path, "rb") as file:
             self.data = file.read()
+        self._memory = bytearray()
+        self._constant: list[range] = []  # what nobody writes after the file is loaded: constant segments, and RELRO
+        self._writable: list[range] = []
+        self._code: list[range] = []
+        self.relocations: dict[int, str | int] = {}  # a symbol that may be of another object, or an address
+        self._relocated: set[int] = set()  # each byte that a relocation changes
+        self._replaceable: list[tuple[Symbol, int, int]] = []
         try:
             self._read()
-        except (struct.error, IndexError, ValueError) as broken:
+        except (struct.error, LookupError, ValueError) as broken:
             raise Undecided(f"{path}: found a broken ELF file: {broken}") from broken
 
     def _read(self) -> None:
@@ -51,15 +60,9 @@ class Image:
         _, self._type, _, programs, size, count = found
         if size != 56:
             raise ValueError(f"found program headers of {size} bytes; allowed: 56")
-        headers = [h for h in struct.iter_unpack("<IIQQQQQQ", self.data[programs : programs + size * count])]
-        self._segments = sorted((h for h in headers if h[0] == _LOAD), key=lambda h: h[3])
-        self._check_segments()
-        self._constant = [(start // _PAGE * _PAGE, (start + in_memory) // _PAGE * _PAGE)
-                          for kind, _, _, start, _, _, in_memory, _ in headers if kind == _RELRO]  # fmt: skip
-        self._touched: list[tuple[int, int]] = []  # first byte and end of each relocation
-        self.relocations: dict[int, str | int] = {}  # a symbol that may be of another object, or an address
-        self._replaceable: list[tuple[Symbol, int, int]] = []
-        self.symbols: dict[str, Symbol] = {}
+        headers = list(struct.iter_unpack("<IIQQQQQQ", self.data[programs : programs + size * count]))
+        self._map(sorted((h for h in headers if h[0] == _LOAD), key=lambda h: h[3]))
+        self._constant += [range(h[3] // _PAGE * _PAGE, (h[3] + h[6]) // _PAGE * _PAGE) for h in headers if h[0] == _RELRO]
         dynamic = [h for h in headers if h[0] == _DYNAMIC]
         if len(dynamic) != 1:
             raise Undecided(f"{self.path}: found {len(dynamic)} dynamic tables; allowed: 1, of a linked file")
@@ -67,28 +70,27 @@ class Image:
         for name in _REFUSED:
             if name in self._tags:
                 raise Undecided(f"{self.path}: found DT_{name} in the dynamic table, which is not supported")
-        self.symbols = {s.name: s for s in self._exported()}
         self._relocate()
 
-    def _check_segments(self) -> None:
-        end = 0
-        for _, flags, offset, start, _, in_file, in_memory, _ in self._segments:
+    def _map(self, segments: list[tuple]) -> None:
+        """Lay out the memory as the loader does."""
+        for _, flags, offset, start, _, in_file, in_memory, _ in segments:
             if flags & _EXECUTABLE and flags & _WRITABLE:
                 raise Undecided(f"{self.path}: found a segment at {start:#x} that is writable and executable")
-            if start // _PAGE * _PAGE < end or in_file > in_memory or offset + in_file > len(self.data) or (start - offset) % _PAGE:
+            end, first = -(-len(self._memory) // _PAGE) * _PAGE, start // _PAGE * _PAGE
+            if not end <= first <= start + in_memory <= _MOST or in_file > in_memory or offset + in_file > len(self.data) or (start - offset) % _PAGE:
                 raise Undecided(f"{self.path}: found a segment at {start:#x} that overlaps another or the end of the file")
-            end = -(-(start + in_memory) // _PAGE) * _PAGE
+            self._memory = self._memory.ljust(start, b"\0") + self.data[offset : offset + in_file].ljust(in_memory, b"\0")
+            (self._writable if flags & _WRITABLE else self._constant).append(range(start, start + in_memory))
+            self._code += [range(start, start + in_memory)] if flags & _EXECUTABLE else []
 
     def _dynamic(self, at: int, size: int) -> dict[str, int]:
-        names, tags = {tag: name for name, tag in _TAGS.items()}, {}
-        for tag, value in struct.iter_unpack("<Qq", self._bytes(at, size // 16 * 16)):
-            if tag == 0:
-                return tags
-            if tag in names and names[tag] in tags:
-                raise ValueError(f"DT_{names[tag]} stands twice")
-            if tag in names:
-                tags[names[tag]] = value
-        return tags
+        names = {tag: name for name, tag in _TAGS.items()}
+        rows = itertools.takewhile(lambda row: row[0], struct.iter_unpack("<Qq", self._bytes(at, size // 16 * 16)))
+        known = [(names[tag], value) for tag, value in rows if tag in names]
+        if len(dict(known)) < len(known):
+            raise ValueError("an entry of the dynamic table stands twice")
+        return dict(known)
 
     # Symbols.
 
@@ -98,47 +100,43 @@ class Image:
         return self._type == 2 or bool(self._tags.get("FLAGS_1", 0) & _PIE)
 
     def _symbol(self, index: int) -> Symbol:
-        name, info, other, section, value, size = struct.unpack("<IBBHQQ", self._bytes(self._tags["SYMTAB"] + 24 * index, 24))
-        begin, text = self._tags["STRTAB"] + name, b""
-        while b"\0" not in text:
-            text += self._some(begin + len(text), 64)
+        name, info, other, section, value, size = self._unpack("<IBBHQQ", self._tags["SYMTAB"] + 24 * index)
+        begin = self._tags["STRTAB"] + name
+        text = self._memory[begin : self._memory.index(b"\0", begin)].decode()
         is_bound = self.is_program or info >> 4 == 0 or other & 3 or "SYMBOLIC" in self._tags or self._tags.get("FLAGS", 0) & 2
         is_plain = 0 < section < _ABSOLUTE and info & 15 in _DATA_OR_FUNCTION
         is_here = is_plain and bool(is_bound) and info >> 4 != _UNIQUE
-        return Symbol(text[: text.index(b"\0")].decode(), value if section else 0, size, is_plain, is_here)
+        return Symbol(text, value if section else 0, size, is_plain, is_here)
 
-    def _exported(self) -> Iterator[Symbol]:
-        """The defined symbols that the loader finds by the GNU hash table. A name that stands twice has versions."""
+    def find(self, name: str) -> Symbol | None:
+        """The definition that the loader finds by the GNU hash table. A name that stands twice has versions."""
         if "GNU_HASH" not in self._tags:
             raise Undecided(f"{self.path}: found no GNU hash table; allowed: a file linked with --hash-style=gnu or both")
-        at, seen = self._tags["GNU_HASH"], set()
-        count, first, words, shift = struct.unpack("<IIII", self._bytes(at, 16))
-        bloom = struct.unpack(f"<{words}Q", self._bytes(at + 16, 8 * words))
-        buckets = struct.unpack(f"<{count}I", self._bytes(at + 16 + 8 * words, 4 * count))
-        chains = at + 16 + 8 * words + 4 * count
-        for bucket, index in enumerate(buckets):
-            last = index == 0
-            while not last:
-                (told,) = struct.unpack("<I", self._bytes(chains + 4 * (index - first), 4))
-                s, last = self._symbol(index), bool(told & 1)
-                hashed = _hash(s.name)
-                word = bloom[hashed // 64 % words]
-                if (hashed | 1, hashed % count) != (told | 1, bucket) or not word >> hashed % 64 & word >> (hashed >> shift) % 64 & 1:
-                    raise ValueError(f"the hash of {s.name} is another")
-                if s.name in seen:
-                    raise Undecided(f"{self.path}: found two versions of {s.name}; allowed: 1")
-                seen.add(s.name)
-                if s.address:
-                    yield s
-                index += 1
+        at, found = self._tags["GNU_HASH"], []
+        count, first, words, shift = self._unpack("<IIII", at)
+        if not count * words:
+            return None
+        hashed = functools.reduce(lambda value, c: (33 * value + c) % (1 << 32), name.encode(), 5381)
+        (word,) = self._unpack("<Q", at + 16 + 8 * (hashed // 64 % words))
+        buckets = at + 16 + 8 * words
+        (index,) = self._unpack("<I", buckets + 4 * (hashed % count))
+        while index and word >> hashed % 64 & word >> (hashed >> shift) % 64 & 1:
+            (told,) = self._unpack("<I", buckets + 4 * count + 4 * (index - first))
+            s = self._symbol(index)
+            found += [s] if told | 1 == hashed | 1 and s.name == name and s.address else []
+            index = 0 if told & 1 else index + 1
+        if len(found) > 1:
+            raise Undecided(f"{self.path}: found two versions of {name}; allowed: 1")
+        return found[0] if found else None
 
     def symbol(self, name: str) -> Symbol:
         """The function or datum `name`."""
-        if name not in self.symbols:
+        found = self.find(name)
+        if not found:
             raise Undecided(f"{self.path}: found no symbol {name}; a file has only exported symbols")
-        if not self.symbols[name].is_plain:
+        if not found.is_plain:
             raise Undecided(f"{self.path}: found {name} with a type of symbol that is not supported, such as IFUNC")
-        return self.symbols[name]
+        return found
 
     # Relocations.
 
@@ -150,21 +148,19 @@ class Image:
         for where, kind, addend in rows:
             s, kind = self._symbol(kind >> 32), kind & 0xFFFFFFFF
             is_address = kind == _R_64 or (kind in (_R_GLOB_DAT, _R_JUMP_SLOT) and addend == 0)
+            places = range(where, min(where + (s.size if kind == _R_COPY else 8), len(self._memory)))
+            value = f"the place of relocation {kind}"
             if kind == _R_RELATIVE:
-                self._touch(where, addend)
-            elif is_address and s.is_here:
-                self._touch(where, s.address + addend)
+                value = addend
+            elif is_address and s.is_here and self.find(s.name) == s:
+                value = s.address + addend
             elif is_address and not s.address and addend == 0:
-                self._touch(where, s.name)
+                value = s.name
             elif is_address and s.address:
-                self._touch(where, f"{s.name}, which another object may define,")
+                value = f"{s.name}, which another object may define,"
                 self._replaceable.append((s, where, s.address + addend))
-            else:
-                self._touch(where, f"the place of relocation {kind}", s.size if kind == _R_COPY else 8)
-        self._touched.sort()
-        for (a, end), (b, _) in zip(self._touched, self._touched[1:]):
-            if b < end:
-                self.relocations[a] = self.relocations[b] = "a place with two relocations"
+            self.relocations[where] = value if self._relocated.isdisjoint(places) else "a place with two relocations"
+            self._relocated.update(places)
 
     def take(self, name: str) -> int:
         """The address of the datum `name`, which is an argument, so that it does not matter where the loader puts it."""
@@ -173,69 +169,52 @@ class Image:
                 self.relocations[where] = address
         return self.symbol(name).address
 
-    def _touch(self, where: int, value: str | int, size: int = 8) -> None:
-        self._touched.append((where, where + size))
-        self.relocations[where] = value
-
-    def is_relocated(self, address: int, size: int) -> bool:
-        """Whether a relocation changes one of these bytes."""
-        k = bisect.bisect_left(self._touched, (address + size, 0))
-        return any(end > address for _, end in self._touched[max(0, k - 2) : k])
-
     # Bytes.
 
-    def _segment(self, address: int) -> tuple:
-        for segment in self._segments:
-            if segment[3] <= address < segment[3] + segment[6]:
-                return segment
-        raise Undecided(f"{self.path}: address {address:#x} is not in the file")
-
-    def _some(self, address: int, size: int) -> bytes:
-        """`size` bytes as they are loaded, or fewer at the end of the segment."""
-        _, _, offset, start, _, in_file, in_memory, _ = self._segment(address)
-        held = self.data[offset + address - start : offset + in_file][:size]
-        return held.ljust(min(size, start + in_memory - address), b"\0")
-
     def _bytes(self, address: int, size: int) -> bytes:
-        found = self._some(address, size) if size else b""
-        if len(found) < size:
-            raise ValueError(f"{size} bytes at {address:#x} are not in one segment")
-        return found
+        if not 0 <= address <= len(self._memory) - size:
+            raise Undecided(f"{self.path}: found {size} bytes at {address:#x}, which are not in a segment")
+        return bytes(self._memory[address : address + size])
 
-    def is_constant(self, address: int) -> bool:
-        """Whether nobody writes the byte after the file is loaded: it is in a segment that cannot be written, or in RELRO."""
-        return not self._segment(address)[1] & _WRITABLE or any(a <= address < b for a, b in self._constant)
+    def _unpack(self, form: str, address: int) -> tuple:
+        return struct.unpack(form, self._bytes(address, struct.calcsize(form)))
+
+    def _is_relocated(self, address: int, size: int) -> bool:
+        return not self._relocated.isdisjoint(range(address, address + size))
+
+    def is_constant(self, address: int, size: int) -> bool:
+        """Whether nobody writes these bytes after the file is loaded."""
+        return _are_within(self._constant, address, size)
 
     def constant(self, address: int, size: int) -> bytes | None:
         """`size` bytes that neither the loader nor the program changes; None if they may change."""
-        found = self._some(address, size)
-        ends = (address, address + size - 1)
-        return found if len(found) == size and all(map(self.is_constant, ends)) and not self.is_relocated(address, size) else None
+        return self._bytes(address, size) if self.is_constant(address, size) and not self._is_relocated(address, size) else None
 
     def is_free(self, address: int, size: int) -> bool:
         """Whether these bytes can be written without a change of a constant or of a place that the loader fills."""
-        return not any(map(self.is_constant, (address, address + size - 1))) and not self.is_relocated(address, size)
+        constants = any(self.is_constant(place, 1) for place in range(address, address + size))
+        return _are_within(self._writable, address, size) and not constants and not self._is_relocated(address, size)
 
     def code_at(self, address: int) -> bytes:
         """Up to 15 bytes of code that nothing changes."""
-        found = self._some(address, 15)
-        while found and self.constant(address, len(found)) is None:
-            found = found[:-1]
-        return found if self._segment(address)[1] & _EXECUTABLE else b""
+        sizes = (size for size in range(15, 0, -1) if _are_within(self._code, address, size) and not self._is_relocated(address, size))
+        return bytes(self._memory[address:][: next(sizes, 0)])
 
     def code_of(self, name: str) -> bytes:
         """The bytes of a function."""
-        return self._some(self.symbol(name).address, self.symbol(name).size)
+        return self._bytes(self.symbol(name).address, self.symbol(name).size)
 
-    def initialisers(self) -> list[int | str]:
-        """What the loader calls: DT_INIT and the entries of DT_INIT_ARRAY, as addresses or the names of symbols."""
+    def initialisers(self) -> list[int]:
+        """The addresses that the loader calls: DT_INIT and the entries of DT_INIT_ARRAY."""
         first = self._tags.get("INIT_ARRAY", 0)
         slots = range(first, first + self._tags.get("INIT_ARRAYSZ", 0), 8)
-        return [self._tags[name] for name in ("INIT",) if name in self._tags] + [self.relocations.get(at, f"the slot at {at:#x}") for at in slots]
+        entries = [self.relocations.get(at, f"the slot at {at:#x}") for at in slots]
+        for place in entries:
+            if isinstance(place, str):
+                raise Undecided(f"{self.path}: found {place} among the initialisers")
+        return entries + [self._tags[name] for name in ("INIT",) if name in self._tags]
 
 
-def _hash(name: str) -> int:
-    value = 5381
-    for c in name.encode():
-        value = (33 * value + c) & 0xFFFFFFFF
-    return value
+def _are_within(ranges: list[range], address: int, size: int) -> bool:
+    """Whether one range has all these bytes."""
+    return any(address in one and address + size - 1 in one for one in ranges)

@@ -10,10 +10,10 @@ from .state import GENERAL
 # prefix and a point; w if REX.W or VEX.W is 1; the map and opcode; then /n if ModRM.reg is n, =n if ModRM is n, + if the
 # last 3 bits of the opcode are a register, ? if its last 4 bits are a condition. An operand has a letter of the opcode
 # maps in the processor's manual, and a size. General registers: G in ModRM.reg, E in ModRM.rm or memory, Z in the opcode,
-# B in VEX.vvvv, A rax. Vectors: V in ModRM.reg, W in ModRM.rm or memory, U in ModRM.rm, H in VEX.vvvv or, in the legacy
-# form, the first operand, L in the last byte. M: memory. I: a number. J: an address, from the next instruction. Sizes:
-# b 8, w 16, d 32, q 64, x 128 bits, u 128 bits at any address, a at a multiple of 16, x as a in the legacy form, as u with
-# VEX; v 16 bits with prefix 66, 64 with W, else 32; y 64 bits with W, else 32; z 16 bits with prefix 66, else 32.
+# A rax. Vectors: V in ModRM.reg, W in ModRM.rm or memory, U in ModRM.rm, H in VEX.vvvv or, in the legacy form, the first
+# operand, L in the last byte. M: memory. I: a number. J: an address, from the next instruction. Sizes: b 8, w 16, d 32,
+# q 64, x 128 bits, u 128 bits at any address, a at a multiple of 16, x as a in the legacy form, as u with VEX; v 16 bits
+# with prefix 66, 64 with W, else 32; y 64 bits with W, else 32; z 16 bits with prefix 66, else 32.
 _ROWS = """
 mov: 88 Eb Gb, 89 Ev Gv, 8A Gb Eb, 8B Gv Ev, B0+ Zb Ib, B8+ Zv Iv, C6/0 Eb Ib, C7/0 Ev Iz, 0FB6 Gv Eb, 0FB7 Gv Ew
 mov: F3.0F6F Vx Wu, F3.0F7F Wu Vx, 66.0F6F Vx Wa, 66.0F7F Wa Vx, F3.0F7E Vx Wq, 66.0FD6 Mq Vq, 66.0FD6 Ux Vq
@@ -22,15 +22,14 @@ movsx: 0FBE Gv Eb, 0FBF Gv Ew, w63 Gq Ed; cdqe: w98; lea: 8D Gv Mv
 push: 50+ Zq, FF/6 Eq, 68 Id, 6A Ib; pop: 58+ Zq; leave: C9
 inc: FE/0 Eb, FF/0 Ev; dec: FE/1 Eb, FF/1 Ev; not: F6/2 Eb, F7/2 Ev; neg: F6/3 Eb, F7/3 Ev
 test: 84 Eb Gb, 85 Ev Gv, A8 Ab Ib, A9 Av Iz, F6/0 Eb Ib, F7/0 Ev Iz; imul: 0FAF Gv Ev, 69 Gv Ev Iz, 6B Gv Ev Ib
-shl: C0/4 Eb Ib, C1/4 Ev Ib, D0/4 Eb, D1/4 Ev, v66.0F38F7 Gy Ey By
-shr: C0/5 Eb Ib, C1/5 Ev Ib, D0/5 Eb, D1/5 Ev, vF2.0F38F7 Gy Ey By
-sar: C0/7 Eb Ib, C1/7 Ev Ib, D0/7 Eb, D1/7 Ev, vF3.0F38F7 Gy Ey By
+shl: C0/4 Eb Ib, C1/4 Ev Ib, D0/4 Eb, D1/4 Ev
+shr: C0/5 Eb Ib, C1/5 Ev Ib, D0/5 Eb, D1/5 Ev
+sar: C0/7 Eb Ib, C1/7 Ev Ib, D0/7 Eb, D1/7 Ev
 cmov: 0F40? Gv Ev; set: 0F90? Eb; j: 70? Jb, 0F80? Jd
 jmp: EB Jb, E9 Jd, FF/4 Eq; call: E8 Jd, FF/2 Eq; ret: C3; nop: 90, 0F1F/0 Ev, F3.0F1E=FA, v0F77
 bits and: 0F54 Vx Hx Wx, 66.0F54 Vx Hx Wx, 66.0FDB Vx Hx Wx; bits andn: 0F55 Vx Hx Wx, 66.0F55 Vx Hx Wx, 66.0FDF Vx Hx Wx
 bits or: 0F56 Vx Hx Wx, 66.0F56 Vx Hx Wx, 66.0FEB Vx Hx Wx; bits xor: 0F57 Vx Hx Wx, 66.0F57 Vx Hx Wx, 66.0FEF Vx Hx Wx
-double: F2.0F12 Vx Wq; insert: 66.0F3A22 Vx Hx Ed Ib; andn: v0F38F2 Gy By Ey
-select 64: v66.0F3A4B Vx Hx Wx Lx; select 32: v66.0F3A4A Vx Hx Wx Lx
+double: F2.0F12 Vx Wq; select: v66.0F3A4B Vx Hx Wx Lx
 """
 _OF_REALS = """
 mov: {0}0F10 Vx Wu, {0}0F11 Wu Vx, {0}0F28 Vx Wa, {0}0F29 Wa Vx, {1}0F10 Vx M{2}, {1}0F11 M{2} V{2}
@@ -86,7 +85,7 @@ class Instruction(NamedTuple):
 
 
 def _read(rows: str) -> Iterator[tuple[str, Row]]:
-    form = re.compile(r"(v?)(?:(..)\.)?(w?)((?:0F(?:38|3A)?)?)(..)(?:/(.)|=(..)|([+?]))?")
+    form = re.compile(r"(v?)(?:(..)\.)?(w?)((?:0F(?:3A)?)?)(..)(?:/(.)|=(..)|([+?]))?")
     for name, _, encodings in (row.partition(": ") for row in re.split("\n+|; ", rows.strip())):
         for encoding, *operands in map(str.split, encodings.split(", ")):
             vex, prefix, wide, map_, code, reg, modrm, many = form.fullmatch(encoding).groups("")
@@ -123,19 +122,19 @@ def decode(raw: bytes, address: int) -> Instruction:
         k += 3 if code[k] == 0xC4 else 2
         r, x, b = (8 * (high >> bit & 1 ^ 1) for bit in (7, 6, 5))
         wide, vector, is_known = last >> 7, ~last >> 3 & 15, not prefixes and not last & 4  # bit 2: vectors of 256 bits
-        map_, prefixes = {1: "0F", 2: "0F38", 3: "0F3A"}.get(high & 31, "none"), (b"", b"\x66", b"\xf3", b"\xf2")[last & 3]
+        map_, prefixes = {1: "0F", 3: "0F3A"}.get(high & 31, "none"), (b"", b"\x66", b"\xf3", b"\xf2")[last & 3]
     else:
         rex = code[k] if code[k] >> 4 == 4 else 0
         k += rex > 0
         wide, r, x, b = rex >> 3 & 1, *(8 * (rex >> bit & 1) for bit in (2, 1, 0))
-        map_ = code[k : k + (code[k] == 0x0F) * (1 + (code[k + 1] in (0x38, 0x3A)))].hex().upper()
-        k += len(map_) // 2
+        map_ = "0F" if code[k] == 0x0F else ""
+        k += bool(map_)
     opcode, modrm, short = code[k], code[k + 1], prefixes == b"\x66" and not wide
     for row in ROWS.get(map_ + f"{opcode:02X}", []):
         several = row.name == "nop" and not vex and not row.prefix and set(prefixes) <= {0x66, 0x2E}
         if (is_known and vex in row.forms and (not row.modrm or modrm in row.modrm) and (wide == row.wide or row.marks & set("vy"))
                 and (prefixes == row.prefix or several or (short and not row.prefix and "v" in row.marks))
-                and (row.operands or not r | x | b) and (not vector or row.marks & set("HB"))):  # fmt: skip
+                and (row.operands or not r | x | b) and (not vector or "H" in row.marks)):  # fmt: skip
             break
     else:
         return Instruction(address)
@@ -144,7 +143,7 @@ def decode(raw: bytes, address: int) -> Instruction:
     operands: list[Operand] = []
     for letter, size in row.operands:
         width, reg = widths[size], modrm >> 3 & 7 | r
-        registers = {"G": reg, "V": reg, "Z": opcode & 7 | b, "B": vector, "H": vector, "A": 0, "L": code[at] >> 4}
+        registers = {"G": reg, "V": reg, "Z": opcode & 7 | b, "H": vector, "A": 0, "L": code[at] >> 4}
         number = registers.get(letter, modrm & 7 | b)
         if letter in "IJ":
             number = int.from_bytes(code[at : at + width // 8], "little", signed=True)

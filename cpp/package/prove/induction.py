@@ -1,16 +1,16 @@
 """The proof that a kernel equals the specification from loop head to loop head, for any number of pairs."""
 
+import functools
 import itertools
-from typing import Iterator, NamedTuple
 
 import z3
 
 from . import Undecided
 from .interfaces import Interface, entry, fault_of_return
-from .machine import ARRAYS, BASE, Machine, NewCut, Split, symbols
+from .machine import ARRAYS, BASE, Machine, Split, symbols
 from .reals import are_ieee
-from .specification import Position, Toggle
-from .state import State
+from .specification import Position
+from .state import Start, State, fresh
 
 MOST_ROUNDS = 400
 MOST_TURNS = 8  # paths of a loop from which the growth of a value in a turn is guessed
@@ -32,22 +32,9 @@ class Head:
         self.version = 0  # number of changes of the assumptions
 
 
-class Arrival(NamedTuple):
-    """The end of a path, and its beginning: the head (0: the function's entry), the position, and the known facts."""
-
-    s: State
-    origin: int
-    at: Position
-    facts: list[z3.BoolRef]
-
-
-class Advance(NamedTuple):
-    """The listing along a path: its final position, the elements of SS and ISEP that it writes, and the toggles of DO
-    30."""
-
-    to: Position
-    elements: dict[tuple[str, int], z3.BitVecRef]
-    toggles: list[Toggle]
+# The end of a path with the listing along it: the listing's final position, and the elements of SS and ISEP and the
+# numbers of events that it writes.
+Case = tuple[State, Position, dict[tuple[str, int], z3.BitVecRef]]
 
 
 class Proof:
@@ -58,75 +45,65 @@ class Proof:
         self.machine, self.spec, self.interface, self.address = machine, machine.spec, interface, address
         machine.find_cuts(address)
         self.heads: dict[int, Head] = {}
-        self._varying: dict[int, tuple[z3.ExprRef, bool]] = {}
-        self.taken: dict[int, tuple[int, list[Arrival]]] = {}  # of each head, the version and the paths
+        self.taken: dict[int, tuple[int, list[State]]] = {}  # of each head, the version and the ends of its paths
 
     def prove(self) -> None:
         if not are_ieee(self.spec.width) or not self.spec.is_kept():
             raise Undecided("the lemmas of the specification are not proved")
         for _ in range(MOST_ROUNDS):
-            try:
-                arrivals = self._arrivals()
-                if not any([self._weaken(a) for a in arrivals if a.s.pc in self.heads]):
-                    new = [a for a in arrivals if a.s.pc and a.s.pc not in self.heads]
-                    if not new:
-                        return self._judge_all(arrivals)
-                    first = max((a.s.pc for a in new), key=lambda pc: self.machine.order.get(pc, 0))
-                    self._make_head([a for a in new if a.s.pc == first])  # earlier heads need no further change
-            except NewCut:
-                self.taken.clear()  # older paths may go on beyond the new cut
+            arrivals = self._arrivals()
+            if not any([self._weaken(s) for s in arrivals if s.pc in self.heads]):
+                new = [s for s in arrivals if s.pc and s.pc not in self.heads]
+                if not new:
+                    return self._judge_all(arrivals)
+                self._make_head([s for s in new if s.pc == new[0].pc])
         raise Undecided(f"no invariant after {MOST_ROUNDS} rounds")
 
     # Paths.
 
-    def _arrivals(self) -> list[Arrival]:
-        """All paths. Paths from a head whose assumptions did not change are reused."""
-        first = Position(1, z3.BitVecVal(0, 64), self.spec.one, z3.BitVecVal(0, 32))
+    def _arrivals(self) -> list[State]:
+        """The ends of all paths. Paths from a head whose assumptions did not change are reused."""
         if 0 not in self.taken:
-            self.taken[0] = 0, list(self._paths(entry(self.machine, self.interface, self.address), 0, first, []))
+            start = self._start(0, self.spec.first, [])
+            self.taken[0] = 0, list(self.machine.explore(entry(self.machine, self.interface, self.address, start)))
         for pc, head in self.heads.items():
             if self.taken.get(pc, (-1,))[0] != head.version:
-                s, at = State(pc), self.spec.here._replace(loop=head.loop)
+                s = State(pc, self._start(pc, self.spec.here._replace(loop=head.loop), head.facts))
                 for (region, place, size), options in head.guesses.items():
-                    s.write(region, place, options[0] if options else self.machine.fresh(8 * size))
-                self.taken[pc] = head.version, list(self._paths(s, pc, at, head.facts))
-        return [a for _, arrivals in self.taken.values() for a in arrivals]
+                    s.write(region, place, options[0] if options else fresh(8 * size))
+                self.taken[pc] = head.version, list(self.machine.explore(s))
+        return [s for _, arrivals in self.taken.values() for s in arrivals]
 
-    def _paths(self, s: State, origin: int, at: Position, facts: list[z3.BoolRef]) -> Iterator[Arrival]:
-        """The paths from a state in which `facts`, the preconditions and the specification's invariant hold."""
-        facts = facts + self.spec.of_call() + self.spec.of_position(at)
-        facts += [z3.ULT(BASE[name], 1 << 63) for name in ARRAYS]  # so that no address in an array overflows
-        self.machine.begin(at, facts)
-        return (Arrival(end, origin, at, facts) for end in self.machine.explore(s))
+    def _start(self, origin: int, at: Position, facts: list[z3.BoolRef]) -> Start:
+        """Where `facts`, the preconditions and the specification's invariant hold."""
+        within = [z3.ULT(BASE[name], 1 << 63) for name in ARRAYS]  # so that no address in an array overflows
+        return Start(origin, at, facts + self.spec.of_call() + self.spec.of_position(at) + within)
 
     # Assumptions.
 
-    def _make_head(self, arrivals: list[Arrival]) -> None:
+    def _make_head(self, arrivals: list[State]) -> None:
         """Make a head with assumptions that its arrivals do not refute: for every slot its value there, as it depends on
         the pair, or its growth in a turn of the loop."""
-        cases = [case for a in arrivals for case in self._cases(a)]
-        a, to = cases[0][0], cases[0][1].to
-        known = (self.heads[a.origin].facts if a.origin else []) + a.s.path
+        cases = [case for s in arrivals for case in self._cases(s)]
+        s, to, _ = cases[0]
+        known = (self.heads[s.start.origin].facts if s.start.origin else []) + s.path
         facts = [f for f in known if symbols(f).isdisjoint(VARYING | {"()"})]
-        facts += [z3.ULT(self.spec.here.i, self.spec.pairs)]
-        turns = self._turns(a, to) if z3.is_bv_value(to.i) else []
-        slots = [(region, at, value.size() // 8) for (region, at), value in a.s.cells.items()]
-        guesses = {slot: self._guesses(cases, slot, turns) for slot in slots}
-        head = self.heads[a.s.pc] = Head(to.loop, facts, guesses)
-        if not turns and z3.is_bv_value(to.i):
-            head.facts.append(self.spec.here.i == to.i)
+        turns = self._turns(s, to) if z3.is_bv_value(to.i) else []
+        guesses = {slot: self._guesses(cases, slot, turns) for slot in s.whole()}
+        self.heads[s.pc] = Head(to.loop, [*facts, z3.ULT(self.spec.here.i, self.spec.pairs)], guesses)
 
-    def _turns(self, a: Arrival, to: Position) -> list[tuple[State, int]]:
+    def _turns(self, s: State, to: Position) -> list[tuple[State, int]]:
         """Ends of some paths from this arrival back to the same place, with the numbers of their pairs."""
-        ends = self._paths(State(a.s.pc, dict(a.s.cells)), a.s.pc, to, a.facts + a.s.path)
-        turns = ((b.s, len(b.s.pairs)) for b in ends if b.s.pc == a.s.pc and b.s.pairs)
+        again = State(s.pc, self._start(s.pc, to, s.start.facts + s.path))
+        again.cells = s.cells.copy()
+        turns = ((end, len(end.pairs)) for end in self.machine.explore(again) if end.pc == s.pc and end.pairs)
         return list(itertools.islice(turns, MOST_TURNS))
 
-    def _guesses(self, cases: list[tuple[Arrival, Advance]], slot: Slot, turns: list[tuple[State, int]]) -> list[z3.BitVecRef]:
+    def _guesses(self, cases: list[Case], slot: Slot, turns: list[tuple[State, int]]) -> list[z3.BitVecRef]:
         """Possible values of a slot when the loop begins a pair: a value that depends on the pair, SMIN, or the number of
         events."""
-        here, guesses, fixed = self.spec.here, [], []
-        found = [(a.s.read(*slot), listing.to) for a, listing in cases]
+        here, guesses = self.spec.here, []
+        found = [(s.read(*slot), to) for s, to, _ in cases]
         if any(start is None for start, _ in found):
             return []
         for start, to in {(start.get_id(), to.i.get_id()): (start, to) for start, to in found}.values():
@@ -140,130 +117,97 @@ class Proof:
             if symbols(start).isdisjoint(VARYING - ({"i"} if z3.is_bv_value(before) else set())):
                 grown = [_growing(start, s.read(*slot), pairs, here.i - to.i) for s, pairs in turns] or [start]
                 guesses += grown[:1] if all(g is not None and g.eq(grown[0]) for g in grown) else []
-                fixed += [(start, to.i)] if z3.is_bv_value(to.i) else []
             guesses += least
             if z3.is_bv_value(start) and start.as_long() == 0 and start.size() >= 32:
                 guesses += [extend(start.size() - 32, here.toggled) for extend in (z3.ZeroExt, z3.SignExt)]
-        for (start, i), (after, j) in zip(fixed, fixed[1:]):
-            if i.as_long() < j.as_long():
-                start, after, i, j = after, start, j, i
-            grown = None if i.eq(j) else _growing(after, start, i.as_long() - j.as_long(), here.i - j)
-            guesses += [] if grown is None else [grown]
         return list({g.get_id(): g for g in guesses}.values())
 
-    def _weaken(self, a: Arrival) -> bool:
+    def _weaken(self, s: State) -> bool:
         """Remove the assumptions that this arrival refutes. True if any was removed."""
-        head = self.heads[a.s.pc]
-        if a.origin and self.heads[a.origin].version != self.taken[a.origin][0]:
+        head, origin = self.heads[s.pc], s.start.origin
+        if origin and self.heads[origin].version != self.taken[origin][0]:
             return False  # this path began with assumptions that are now removed
-        if a.s.judged.get("refutes nothing of version") == head.version:
+        if s.judged.get("refutes nothing of version") == head.version:
             return False
-        before, cases = head.version, self._cases(a)
-        while cases and head.version == before:  # further cases began with assumptions that are now removed
-            (case, listing), *cases = cases
-            there = list(zip(self.spec.here[1:], listing.to[1:]))
-            when = lambda term: z3.substitute(term, *there) if self._varies(term) else term  # the term there
-            kept = [fact for fact in head.facts if self.machine.holds(case.s, when(fact))]
-            refuted = [options for slot, options in head.guesses.items() if options and not self._holds(case, slot, when(options[0]))]
-            changed = len(kept) < len(head.facts) or bool(refuted)
-            head.facts, head.version = kept, head.version + changed
-            for slot, options in head.guesses.items():
-                if any(options is found for found in refuted):
+        for case, to, _ in self._cases(s):
+            there = list(zip(self.spec.here[1:], to[1:]))
+            kept = [fact for fact in head.facts if self.machine.holds(case, z3.substitute(fact, *there))]
+            refuted = [options for slot, options in head.guesses.items()
+                       if options and not self.machine.same(case, case.value(*slot), z3.substitute(options[0], *there))]  # fmt: skip
+            if refuted or len(kept) < len(head.facts):
+                for options in refuted:
                     del options[0]
-        if head.version == before:
-            a.s.judged["refutes nothing of version"] = before
-        return head.version > before
-
-    def _varies(self, term: z3.ExprRef) -> bool:
-        """Whether the meaning of a term depends on the position."""
-        if term.get_id() not in self._varying:  # with the term, whose number is the key
-            self._varying[term.get_id()] = term, not symbols(term).isdisjoint(VARYING)
-        return self._varying[term.get_id()][1]
-
-    def _holds(self, a: Arrival, slot: Slot, value: z3.BitVecRef) -> bool:
-        found = a.s.read(*slot)
-        return found is not None and self.machine.same(a.s, found, value)
+                head.facts, head.version = kept, head.version + 1
+                return True  # further cases may have begun with the assumptions that are now removed
+        s.judged["refutes nothing of version"] = head.version
+        return False
 
     # The listing along a path.
 
-    def _cases(self, a: Arrival) -> list[tuple[Arrival, Advance]]:
+    def _cases(self, s: State) -> list[Case]:
         """The path with the listing along it, once for each answer to the listing's conditions that it leaves open."""
-        self.machine.begin(a.at, a.facts)
-        key = "cases", a.s.pc in self.heads
-        if key not in a.s.judged:
+        key = "cases", s.pc in self.heads
+        if key not in s.judged:
             try:
-                a.s.judged[key] = [(a, self._advance(a))]
+                s.judged[key] = [(s, *self._advance(s))]
             except Split as split:
-                claims = [split.condition, z3.simplify(z3.Not(split.condition))]
-                halves = [a._replace(s=a.s.branch(a.s.pc, claim)) for claim in claims]
-                a.s.judged[key] = [case for half in halves for case in self._cases(half)]
-        return a.s.judged[key]
+                s.judged[key] = [case for half in s.halves(split.condition) for case in self._cases(half)]
+        return s.judged[key]
 
-    def _advance(self, a: Arrival) -> Advance:
+    def _advance(self, s: State) -> tuple[Position, dict[tuple[str, int], z3.BitVecRef]]:
         """Run the listing along this path, for as many pairs as have an element of SS read or written."""
-        at, elements, toggles = a.at, {}, []
-        holds = lambda *claims: self.machine.decide(a.s, *claims)
-        for k in sorted(a.s.pairs):
+        at, elements, events = s.start.at, {}, []
+        holds = functools.partial(self.machine.decide, s)
+        for k in sorted(s.pairs):
             if at.loop == 1:
                 elements["SS", k] = self.spec.scale_factor(at.i, holds)
                 at = at._replace(smin=self.spec.smaller(elements["SS", k], at.smin, holds))
             elif toggle := self.spec.toggle(at, holds):
-                toggles.append(toggle)
+                events += self.interface.events(toggle)
                 elements["ISEP", k] = z3.BitVecVal(-1 if toggle.makes else 1, 32)  # 55, 58
                 at = at._replace(toggled=z3.simplify(at.toggled + 1))
             at = at._replace(i=z3.simplify(at.i + 1))
-        return Advance(self._turned(a, at), elements, toggles)
+        to = self._turned(s, at)
+        if to.loop == 0 and s.start.at.loop == 1:
+            events = self.interface.no_event
+        return to, elements | {("EVENTS", k): value for k, value in enumerate(events)}
 
-    def _turned(self, a: Arrival, at: Position) -> Position:
+    def _turned(self, s: State, at: Position) -> Position:
         """Move to the next loop or to the end if the path implies that no pair remains. A new head may be in either
         loop."""
-        ended = lambda: self.machine.holds(a.s, at.i == self.spec.pairs)
-        smin_is_1 = lambda: self.machine.holds(a.s, at.smin == self.spec.one)
-        below_1 = lambda: self.machine.holds(a.s, at.smin != self.spec.one)
-        if a.s.pc == 0:
+        ended = lambda: self.machine.holds(s, at.i == self.spec.pairs)
+        smin_is_1 = lambda: self.machine.holds(s, at.smin == self.spec.one)
+        below_1 = lambda: self.machine.holds(s, at.smin != self.spec.one)
+        if s.pc == 0:
             if not ended() or (at.loop == 1 and not smin_is_1()):
                 raise Differs(f"the function returns in loop {at.loop} before the end of this loop")
             return at._replace(loop=0)
-        if a.s.pc in self.heads:
-            if self.heads[a.s.pc].loop != at.loop and not (at.loop == 1 and ended() and below_1()):
-                raise Differs(f"the loop at {a.s.pc:#x} is reached, but the listing is in loop {at.loop}")
-            turns = self.heads[a.s.pc].loop != at.loop
-        else:
-            turns = at.loop == 1 and a.s.pc != a.origin and ended() and below_1()
+        head = self.heads.get(s.pc)
+        turns = (head.loop == 2 if head else s.pc != s.start.origin) and at.loop == 1 and ended() and below_1()
+        if head and head.loop != (2 if turns else at.loop):
+            raise Differs(f"the loop at {s.pc:#x} is reached, but the listing is in loop {at.loop}")
         return at._replace(loop=2, i=z3.BitVecVal(0, 64)) if turns else at
 
     # The verdict.
 
-    def _judge_all(self, arrivals: list[Arrival]) -> None:
-        idle = {(a.origin, a.s.pc) for a in arrivals if a.origin and a.s.pc and not a.s.pairs and self.heads[a.s.pc].loop == a.at.loop}
-        while idle:  # paths without a pair, from head to head: every sequence of them must end
-            ended = {step for step in idle if step[1] not in {origin for origin, _ in idle}}
-            if not ended:
-                raise Undecided(f"the loop at {min(idle)[0]:#x} may never end")
-            idle -= ended
-        for a in arrivals:
-            try:
-                for case in self._cases(a):
-                    self._judge(*case)
-            except Differs as why:
-                to = f"to {a.s.pc:#x}" if a.s.pc else "to the end"
-                raise Differs(f"from {a.origin or self.address:#x} {to}: {why}") from why
+    def _judge_all(self, arrivals: list[State]) -> None:
+        for s in arrivals:
+            if s.start.origin and s.pc and not s.pairs and self.heads[s.pc].loop == s.start.at.loop:
+                raise Undecided(f"the loop at {s.start.origin:#x} may never end")  # from head to head without a pair
+            for case in self._cases(s):
+                if fault := self._fault(*case):
+                    to = f"to {s.pc:#x}" if s.pc else "to the end"
+                    raise Differs(f"from {s.start.origin or self.address:#x} {to}: {fault}")
 
-    def _judge(self, a: Arrival, listing: Advance) -> None:
-        s, same = a.s, self.machine.same
-        for key in listing.elements.keys() | {key for key in s.elements if key[0] != "EVENTS"}:
-            array, k = key
-            before = None if array == "SS" else self.spec.element(array, a.at.i + k)
-            found, value = s.elements.get(key, before), listing.elements.get(key, before)
-            if found is None or value is None or not same(s, found, value):
-                raise Differs(f"a pair has another {array}")
-        expected = self.interface.expected(listing.toggles, listing.to.loop == 0 and a.at.loop == 1)
-        found = self.interface.told(s)
-        if len(found) != len(expected) or not all(same(s, *both) for both in zip(found, expected)):
-            raise Differs("the events differ")
-        fault = "" if s.pc else fault_of_return(self.machine, self.interface, s, listing.to.smin, listing.to.toggled)
-        if fault:
-            raise Differs(fault)
+    def _fault(self, s: State, to: Position, right: dict[tuple[str, int], z3.BitVecRef]) -> str:
+        """What the path leaves otherwise than the listing; empty if all is right."""
+        for array, k in right.keys() | s.elements.keys():
+            before = self.spec.element(array, s.start.at.i + k) if array == "ISEP" else None
+            found, value = s.elements.get((array, k), before), right.get((array, k), before)
+            if found is None or value is None or not self.machine.same(s, found, value):
+                return f"another value of {array} is left"
+        results = {self.interface.smin: to.smin} | ({("rax", 0): to.toggled} if self.interface.returns_count else {})
+        return "" if s.pc else fault_of_return(self.machine, s, results)
 
 
 def _growing(start: z3.BitVecRef, after: z3.BitVecRef | None, pairs: int, i: z3.BitVecRef) -> z3.BitVecRef | None:

@@ -1,6 +1,8 @@
 """Reals as bits. Comparisons are exact. +, -, *, / and conversions are unknown functions: the same bits in the same
 order give the same bits."""
 
+import functools
+
 import z3
 
 z3.set_param("rewriter.elim_sign_ext", False)  # Z3 is faster with whole terms than with single bits
@@ -66,6 +68,7 @@ def less(a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BoolRef:
     return z3.And(z3.Not(unordered(a, b)), below)
 
 
+@functools.cache
 def follows(claim: z3.BoolRef, *facts: z3.BoolRef) -> bool:
     """True if Z3 proves that `claim` follows from `facts`."""
     solver = z3.Solver()

@@ -6,7 +6,7 @@ import re
 import z3
 
 from .specification import FORMATS
-from .state import KEPT, REGISTERS, State
+from .state import GENERAL, KEPT, State
 
 BLOCK = 0x218  # size of st_parameter_dt; the offsets of its fields that are read:
 FLAGS, UNIT, FORMAT, FORMAT_LENGTH = 0, 4, 0x50, 0x58
@@ -16,31 +16,33 @@ BEGIN, INTEGER, REAL, DONE = (
 )
 OF_START = ("__gmon_start__", "_ITM_registerTMCloneTable")  # called by the crt files of gcc and clang if they exist
 END = z3.BitVecVal(-1, 32)
-CHANGED = {region for region, _, _ in REGISTERS.values()} - {*KEPT, "rsp"}
+CHANGED = {*GENERAL, *(f"xmm{k}" for k in range(16))} - {*KEPT, "rsp"}
 
 
 def call(machine, s: State, name: str) -> None:
     """Apply the effect of a call of `name` to `s`. The return address is on the stack."""
-    if machine.starting and name in OF_START:
-        for region, at in [place for place in s.cells if place[0] in CHANGED]:
-            s.cells[region, at] = machine.fresh(s.cells[region, at].size())
-        s.flags = {}
-        return
-    if name not in (BEGIN, INTEGER, REAL, DONE) or not (s.events or name == BEGIN):
-        raise machine.undecided(s, f"{name} is called, whose effect is not known")
-    block, top = machine.stack_offset(s, "rdi"), machine.stack_offset(s, "rsp")
-    if name == BEGIN:
-        s.events.append(z3.BitVecVal(_label(machine, s, block), 32))
-    elif name == DONE:
-        s.events.append(END)
-    else:
-        s.events.append(_written(machine, s, 32 if name == INTEGER else machine.spec.width))
-    for (region, at), value in list(s.cells.items()):
-        if region == "STACK" and (at < top or block - value.size() // 8 < at < block + BLOCK):
-            del s.cells[region, at]  # the call may change the block and everything below the return address
-        elif region in CHANGED:
-            s.cells[region, at] = machine.fresh(value.size())
+    top = machine.stack_offset(s, "rsp")
+    lost = range(0) if machine.starting and name in OF_START else _write(machine, s, name)
+    for region, at in list(s.cells):
+        if region in CHANGED or (region == "STACK" and (at < top or at in lost)):
+            del s.cells[region, at]
     s.flags = {}
+
+
+def _write(machine, s: State, name: str) -> range:
+    """A part of a WRITE becomes the next number among the events. Returns the bytes of the stack that change."""
+    told = sum(array == "EVENTS" for array, _ in s.elements)
+    if name not in (BEGIN, INTEGER, REAL, DONE) or not (told or name == BEGIN):
+        raise machine.undecided(s, f"{name} is called, whose effect is not known")
+    block = machine.stack_offset(s, "rdi")
+    if name == BEGIN:
+        event = z3.BitVecVal(_label(machine, s, block), 32)
+    elif name == DONE:
+        event = END
+    else:
+        event = _written(machine, s, 32 if name == INTEGER else machine.spec.width)
+    s.elements["EVENTS", told] = event
+    return range(block, block + BLOCK)
 
 
 def _label(machine, s: State, block: int) -> int:
@@ -62,7 +64,7 @@ def _label(machine, s: State, block: int) -> int:
 
 
 def _written(machine, s: State, width: int) -> z3.BitVecRef:
-    size = s.register("edx")
+    size = s.value("rdx", 0, 4)
     if not size.eq(z3.BitVecVal(width // 8, 32)):
         raise machine.undecided(s, f"a value of {size} bytes is written; expected {width // 8}")
     return machine.load(s, s.register("rsi"), width)

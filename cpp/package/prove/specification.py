@@ -58,6 +58,7 @@ class Specification:
         self.nc, self.indof, self.ndofpn = z3.BitVecs("nc indof ndofpn", 32)
         self.pairs = z3.ZeroExt(32, self.nc)
         self.dofs = z3.BitVec("dofs", 64)  # length of DD and DTEST
+        self.first = Position(1, z3.BitVecVal(0, 64), self.one, z3.BitVecVal(0, 32))
         self.here = Position(0, z3.BitVec("i", 64), z3.BitVec("smin", width), z3.BitVec("toggled", 32))
         self.widths = dict.fromkeys(("DD", "DTEST", "CC", "SS"), width) | dict.fromkeys(("ID", "ISEP", "ISURF"), 32)
 

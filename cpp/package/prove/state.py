@@ -1,19 +1,17 @@
 """The state of a symbolic execution. Registers and memory are regions of bytes, which do not overlap."""
 
 import copy
+import itertools
 from typing import Callable
 
 import z3
 
+from .reals import EFFORT
+from .specification import Position
+
 GENERAL = ["rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"] + [f"r{k}" for k in range(8, 16)]  # by number
-LONGEST = 16  # bytes of a value: a register xmm
 KEPT = ["rbx", "rbp", "r12", "r13", "r14", "r15"]  # registers that a callee must preserve by the System V ABI
-REGISTERS = {f"xmm{k}": (f"xmm{k}", 0, 16) for k in range(16)}  # name: (full register, first byte, size)
-for _full in GENERAL:
-    _old = _full[1:]  # such as ax and si; for r8 to r15 the number
-    _parts = [f"r{_old}d", f"r{_old}w", f"r{_old}b"] if _old.isdigit() else [f"e{_old}", _old, _old.rstrip("x") + "l"]
-    REGISTERS |= {name: (_full, 0, size) for name, size in zip([_full, *_parts], (8, 4, 2, 1))}
-    REGISTERS |= {_old[0] + "h": (_full, 1, 1)} if _old.endswith("x") else {}
+_numbers = itertools.count(1)
 
 
 def bits(value: z3.BitVecRef, low: int, width: int) -> z3.BitVecRef:
@@ -21,79 +19,83 @@ def bits(value: z3.BitVecRef, low: int, width: int) -> z3.BitVecRef:
     return z3.simplify(z3.Extract(low + width - 1, low, value))
 
 
-def condition_of(value: z3.ExprRef) -> z3.BoolRef | None:
-    """The condition of a value that is one of two, perhaps with other bits above it."""
-    kind = value.decl().kind()
-    if kind == z3.Z3_OP_CONCAT:
-        return condition_of(value.arg(value.num_args() - 1))
-    return value.arg(0) if kind == z3.Z3_OP_ITE else None
+def fresh(width: int) -> z3.BitVecRef:
+    """An unknown value."""
+    return z3.BitVec(f"unknown {next(_numbers)}", width)
+
+
+class Start:
+    """The beginning of paths: the head (0: the function's entry), the position of the listing, the facts that hold, and
+    Z3 with these facts and the preconditions for the pairs that were told."""
+
+    def __init__(self, origin: int, at: Position, facts: list[z3.BoolRef]):
+        self.origin, self.at, self.facts = origin, at, facts
+        self.solver, self.told = z3.SimpleSolver(), set()
+        self.solver.set("rlimit", EFFORT)
+        self.solver.add(*facts)
 
 
 class State:
     """One symbolic state. Values are shared between copies and never changed."""
 
-    def __init__(self, pc: int, cells: dict[tuple[str, int], z3.BitVecRef] | None = None):
-        self.pc = pc
+    def __init__(self, pc: int, start: Start):
+        self.pc, self.start = pc, start
         self.steps = 0
-        self.cells = cells or {}  # stored values, by region and first byte
+        self.cells: dict[tuple[str, int], tuple[z3.BitVecRef, int]] = {}  # by region and place: a value, and which byte of it
         self.flags: dict[str, Callable[[], z3.BoolRef]] = {}  # the known conditions
-        self.elements: dict[tuple[str, int], z3.BitVecRef] = {}  # written values, by array and pair
+        self.elements: dict[tuple[str, int], z3.BitVecRef] = {}  # written values, by array and pair; the numbers of events
         self.pairs: set[int] = set()  # pairs with a read or written element of SS, from the path's first pair
-        self.events: list[z3.BitVecRef] = []  # labels and numbers written to unit 26
         self.path: list[z3.BoolRef] = []  # conditions of the taken branches
         self.models: list[tuple[int, z3.ModelRef]] = []  # examples of this path, with the number of pairs told: see Machine.holds
         self.known: dict[int, tuple[z3.BoolRef, bool]] = {}  # answers of Z3 on this path, by the number of the term
         self.judged: dict = {}  # what the proof found out about this state as the end of a path
-        self.choices: list[tuple[str, int]] = []  # cells of this instruction whose value depends on a condition
 
-    def branch(self, pc: int, *claims: z3.BoolRef) -> "State":
-        """A copy that continues at `pc`, where `claims` hold."""
-        other = copy.copy(self)
-        other.pc = pc
-        for name in ("cells", "elements", "pairs", "events", "path", "choices"):
-            setattr(other, name, getattr(self, name).copy())
-        other.path += claims
-        other.judged = {}
-        other.models = [m for m in self.models if all(z3.is_true(m[1].eval(claim, True)) for claim in claims)]
-        other.known = {key: told for key, told in self.known.items() if told[1]}
-        for claim in claims:
-            opposite = z3.simplify(z3.Not(claim))
-            other.known |= {claim.get_id(): (claim, True), opposite.get_id(): (opposite, False)}
-        return other
+    def learn(self, *claims: z3.BoolRef) -> None:
+        """Add facts about this path."""
+        self.path += claims
+        self.models = [m for m in self.models if all(z3.is_true(m[1].eval(claim, True)) for claim in claims)]
+        self.known = {key: told for key, told in self.known.items() if told[1]}
+        self.known |= {claim.get_id(): (claim, True) for claim in claims}
+
+    def halves(self, condition: z3.BoolRef) -> list["State"]:
+        """Two copies: where the condition holds, and where it does not."""
+        both = []
+        for claim in (condition, z3.simplify(z3.Not(condition))):
+            both.append(copy.copy(self))
+            for name in ("cells", "elements", "pairs", "path"):
+                setattr(both[-1], name, getattr(self, name).copy())
+            both[-1].judged = {}
+            both[-1].learn(claim)
+        return both
 
     def write(self, region: str, at: int, value: z3.BitVecRef) -> None:
-        """Store a value. If older values overlap the new value, their other bytes do not change."""
-        end = at + value.size() // 8
-        for place, start in [key for key in self.cells if key[0] == region and at - LONGEST < key[1] < end]:
-            old = self.cells[place, start]
-            above = start + old.size() // 8 - end
-            if above > at - end:
-                del self.cells[place, start]
-                if start < at:
-                    self.cells[place, start] = bits(old, 0, 8 * (at - start))
-                if above > 0:
-                    self.cells[place, end] = bits(old, old.size() - 8 * above, 8 * above)
-        self.cells[region, at] = value = z3.simplify(value)
-        if condition_of(value) is not None:
-            self.choices.append((region, at))
+        value = z3.simplify(value)
+        self.cells |= {(region, at + k): (value, k) for k in range(value.size() // 8)}
 
     def read(self, region: str, at: int, size: int) -> z3.BitVecRef | None:
         """The value of `size` bytes; None if any byte is unknown."""
-        whole = self.cells.get((region, at))
-        if whole is not None and whole.size() == 8 * size:
-            return whole
-        for start, value in [(key[1], value) for key, value in self.cells.items() if key[0] == region and at - LONGEST < key[1] <= at]:
-            held = start + value.size() // 8 - at  # number of bytes from `at`
-            if held > 0:
-                low = bits(value, 8 * (at - start), 8 * min(size, held))
-                rest = self.read(region, at + held, size - held) if held < size else None
-                return low if held >= size else None if rest is None else z3.simplify(z3.Concat(rest, low))
-        return None
+        cells = [self.cells.get((region, at + k)) for k in range(size)]
+        if None in cells:
+            return None
+        value, first = cells[0]
+        if all(cell[0] is value and cell[1] == first + k for k, cell in enumerate(cells)):
+            return value if 8 * size == value.size() else bits(value, 8 * first, 8 * size)
+        return z3.simplify(z3.Concat(*(z3.Extract(8 * k + 7, 8 * k, term) for term, k in reversed(cells))))
+
+    def value(self, region: str, at: int, size: int) -> z3.BitVecRef:
+        """The value of `size` bytes. Bytes that are unknown get a name."""
+        unknown = [place for place in range(at, at + size) if (region, place) not in self.cells]
+        if unknown:
+            self.write(region, unknown[0], fresh(8 * (unknown[-1] + 1 - unknown[0])))
+        return self.read(region, at, size)
+
+    def whole(self) -> list[tuple[str, int, int]]:
+        """The regions, first bytes and sizes of the values of which every byte is held."""
+        places = [(region, at, value.size() // 8) for (region, at), (value, k) in self.cells.items() if k == 0]
+        return [place for place in places if self.read(*place) is self.cells[place[:2]][0]]
 
     def register(self, name: str) -> z3.BitVecRef:
-        return self.read(*REGISTERS[name])
+        return self.value(name, 0, 8)
 
     def set_register(self, name: str, value: z3.BitVecRef) -> None:
-        """Write a register. A write of 32 bits clears the upper half of a 64-bit register; shorter writes do not."""
-        full, at, size = REGISTERS[name]
-        self.write(full, at, z3.ZeroExt(32, value) if size == 4 else value)
+        self.write(name, 0, value)

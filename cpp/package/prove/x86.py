@@ -34,7 +34,7 @@ class Operands:
             return self.machine.load(self.s, self.address(op), op.width)
         if op.where == "guard":
             return self.machine.guard
-        return self.s.read(op.where, op.first, op.width // 8)
+        return self.s.value(op.where, op.first, op.width // 8)
 
     def both(self) -> tuple[z3.BitVecRef, z3.BitVecRef]:
         """The last two operands."""
@@ -48,18 +48,22 @@ class Operands:
         if not to.where.startswith("xmm"):
             return self.s.write(to.where, to.first, z3.ZeroExt(32, value) if size == 4 else value)
         if size < 16 and self.list[1].where != to.where:
-            value = z3.Concat(self.s.read(self.list[1].where, size, 16 - size), value)
+            value = z3.Concat(self.s.value(self.list[1].where, size, 16 - size), value)
         if value.size() < 128:
             return self.s.write(to.where, 0, value)
         self.s.write(to.where, 0, bits(value, 0, real))
         self.s.write(to.where, real // 8, bits(value, real, 128 - real))
 
-    def condition(self) -> z3.BoolRef:
-        """The condition of jcc, setcc and cmovcc."""
+    def holds(self, claim: z3.BoolRef) -> bool:
+        """Whether a condition holds. Each instruction asks before it writes. See Machine.decide."""
+        return self.machine.decide(self.s, claim)
+
+    def condition(self) -> bool:
+        """Whether the condition of jcc, setcc or cmovcc holds."""
         known = self.s.flags.get(("o", "b", "e", "be", "s", "p", "l", "le")[self.ins.condition // 2])
         if known is None:
             raise self.machine.undecided(self.s, "the flag that the instruction reads is not known")
-        return z3.simplify(z3.Not(known()) if self.ins.condition % 2 else known())
+        return self.holds(known()) != bool(self.ins.condition % 2)
 
 
 def _compare(o: Operands, a: z3.BitVecRef, b: z3.BitVecRef) -> z3.BitVecRef:
@@ -95,8 +99,6 @@ def _multiply(o: Operands) -> None:
 
 
 def _shift(o: Operands, work: Callable) -> None:
-    if len(o.list) == 3:  # flags do not change
-        return o.set(work(o.get(1), o.get(2) & o.width(0) - 1))
     by = o.list[1].number if len(o.list) == 2 else 1
     if not 0 < by < o.width(0):
         raise o.machine.undecided(o.s, "a shift by a number that is not from 1 to the operand's width")
@@ -108,15 +110,11 @@ def _leave(o: Operands) -> None:
     o.s.set_register("rbp", o.machine.pop(o.s))
 
 
-def _insert(o: Operands) -> None:
-    low = 32 * (o.list[3].number % 4)
-    o.set(o.get(1) & ~(0xFFFFFFFF << low) | z3.ZeroExt(96, o.get(2)) << low)
-
-
-def _select(o: Operands, width: int) -> None:
+def _select(o: Operands) -> None:
+    """Each half from the third operand if the sign bit of the last operand's half is 1, else from the second."""
     a, b, mask = o.get(1), o.get(2), o.get(3)
-    part = lambda at: z3.If(bits(mask, at, width) < 0, bits(b, at, width), bits(a, at, width))
-    o.set(z3.Concat(*(part(at) for at in range(128 - width, -1, -width))))
+    low = bits(b if o.holds(bits(mask, 0, 64) < 0) else a, 0, 64)
+    o.set(z3.Concat(z3.If(mask < 0, bits(b, 64, 64), bits(a, 64, 64)), low))
 
 
 _BITWISE = {"and": lambda a, b: a & b, "andn": lambda a, b: ~a & b, "or": lambda a, b: a | b, "xor": lambda a, b: a ^ b}
@@ -128,7 +126,8 @@ def _compare_to_mask(o: Operands) -> None:
     a, b, order = o.get(1), o.get(2), o.list[3].number
     if not 0 <= order < 8:
         raise o.machine.undecided(o.s, "a comparison that only the VEX form has")
-    o.set(z3.If(_ORDERS[order % 4](a, b) != z3.BoolVal(order >= 4), ~(a ^ a), a ^ a))
+    is_so = o.holds(_ORDERS[order % 4](a, b)) != (order >= 4)
+    o.set(z3.BitVecVal(-is_so, a.size()))
 
 
 ACTIONS: dict[str, Callable[[Operands], None]] = {
@@ -146,23 +145,21 @@ ACTIONS: dict[str, Callable[[Operands], None]] = {
     "shr": lambda o: _shift(o, z3.LShR),
     "mov": lambda o: o.set(z3.ZeroExt(o.width(0) - o.width(1), o.get(1))),
     "movsx": lambda o: o.set(z3.SignExt(o.width(0) - o.width(1), o.get(1))),
-    "cdqe": lambda o: o.s.set_register("rax", z3.SignExt(32, o.s.register("eax"))),
+    "cdqe": lambda o: o.s.set_register("rax", z3.SignExt(32, o.s.value("rax", 0, 4))),
     "lea": lambda o: o.set(bits(o.address(o.list[1]), 0, o.width(0))),
     "push": lambda o: o.machine.push(o.s, o.get(0)),
     "pop": lambda o: o.set(o.machine.pop(o.s)),
     "leave": _leave,
     "nop": lambda o: None,
-    "set": lambda o: o.set(z3.If(o.condition(), z3.BitVecVal(1, 8), z3.BitVecVal(0, 8))),
-    "cmov": lambda o: o.set(z3.If(o.condition(), o.get(1), o.get(0))),
+    "set": lambda o: o.set(z3.BitVecVal(o.condition(), 8)),
+    "cmov": lambda o: o.set(o.both()[o.condition()]),
     "merge": lambda o: o.set(o.get(2)),
     "double": lambda o: o.set(z3.Concat(o.get(1), o.get(1))),
-    "insert": _insert,
-    "select 32": lambda o: _select(o, 32),
-    "select 64": lambda o: _select(o, 64),
+    "select": _select,
     "order": _compare_reals,
     "reals cmp": _compare_to_mask,
-    "reals min": lambda o: o.set(z3.If(reals.less(*o.both()), *o.both())),  # the second if both are equal or one is NaN
-    "reals max": lambda o: o.set(z3.If(reals.less(*reversed(o.both())), *o.both())),
+    "reals min": lambda o: o.set(o.both()[not o.holds(reals.less(*o.both()))]),  # the second if both are equal or one is NaN
+    "reals max": lambda o: o.set(o.both()[not o.holds(reals.less(*reversed(o.both())))]),
     "real": lambda o: o.set(reals.from_integer(o.get(2), o.width(0))),
 }
 for _name in ("add", "sub", "mul", "div"):
