@@ -21,7 +21,7 @@ struct stated_number {
 
 using enum path_status;
 
-struct stated_problem {
+struct stated_problem {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of the tables
   const char* file;
   path_status ends;
   std::vector<stated_number> numbers;
