@@ -143,9 +143,8 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
                                               : "corrected",
                        true, how == way::default_engine ? "" : "refactor", &recorded.record);
   comparing compared(p, exactly, how, j);
-  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+  for (std::size_t i = 0; i < run.steps.size(); ++i)
     if (const auto& c = run.steps[i].judged) compared.compare(i, run.u(i + 1), run.numbers(i + 1), *c);
-  }
   if (how == way::listing) return;
   const bool exact = std::ranges::count(run.steps, origin::exact_path, &solved_step::from) > 0;
   const bool lost =
@@ -155,7 +154,7 @@ void judge_run(const problem& p, const exact_answer& exactly, way how, judgement
   if (auto wrong = compare_ends(run.end, exactly.path)) return j.findings.push_back(*wrong);
   if (how == way::final_only || exact || lost) return;  // these paths do not have all events
   constexpr double tie = 1e-9;
-  recorded.take(run);
+  recorded.take(static_cast<const solved_path&>(run));
   const kernel_digits r = digits_on(recorded, "corrected", p, exactly.path, tie);
   if (!r.same_events) j.findings.push_back({fault::other_events, r.first_difference});
 }
