@@ -179,8 +179,7 @@ TEST_CASE("each compiler's run-time library has its own unit 26, of which only o
     CHECK_THROWS_AS(make_kernel(name), std::logic_error);
     const auto beside = name == "fortran" ? nullptr : make_kernel("fortran");
     CHECK_THAT(answer_of(*first, quarter).text,
-               Catch::Matchers::Contains(name == "f2c" ? "SCALE FACTOR =   .2500E+00"
-                                                       : "SCALE FACTOR =  0.2500E+00"));
+               Contains(name == "f2c" ? "SCALE FACTOR =   .2500E+00" : "SCALE FACTOR =  0.2500E+00"));
     if (beside) CHECK(beside->take_text().empty());
   }
 }

@@ -164,7 +164,7 @@ TEST_CASE("for each fault of a kernel, the reported line of the listing is the l
   for (const faulty_kernel_row& k : faulty_kernels()) {
     INFO(k.what);
     const std::string report = report_of(k.calls);
-    CHECK_THAT(report, Catch::Matchers::StartsWith(k.words));
+    CHECK_THAT(report, StartsWith(k.words));
     CHECK(report.empty() == (*k.words == '\0'));
   }
 }
@@ -180,9 +180,8 @@ TEST_CASE("flushed subnormals are reported instead of a line, but not for a kern
     tolerates.push_back({tiny, no_response});
     tolerates.push_back({quotient, equal});
   }
-  CHECK_THAT(report_of(flushes), Catch::Matchers::Contains("FTZ or DAZ") &&
-                                     Catch::Matchers::Contains("-ffast-math): explains all 6 values"));
-  CHECK_THAT(report_of(tolerates), Catch::Matchers::StartsWith("line 31,"));
+  CHECK_THAT(report_of(flushes), Contains("FTZ or DAZ") && Contains("-ffast-math): explains all 6 values"));
+  CHECK_THAT(report_of(tolerates), StartsWith("line 31,"));
 }
 #endif
 

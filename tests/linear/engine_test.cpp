@@ -140,7 +140,7 @@ TEST_CASE("a structure without supports ends in the same state with every engine
 TEST_CASE("an engine is made by its name, and the message about an unknown name lists the known names") {
   const linear_structure s = cantilever_over_a_stop().structure();
   for (const std::string& name : engine_names()) CHECK(make_engine(name, s) != nullptr);
-  CHECK_THROWS_WITH(make_engine("warp", s), Catch::Matchers::Contains("refactor"));
+  CHECK_THROWS_WITH(make_engine("warp", s), Contains("refactor"));
 }
 
 TEST_CASE("the response is proportional to the load, and depends on the springs of pairs in contact") {

@@ -39,7 +39,7 @@ TEST_CASE("a free run reports a different event, a missing event, a different en
     const free_run_difference d = compare_paths(leader, other, 1e-9, 2);
     CHECK_FALSE(d.within_bound());
     CHECK(d.same_events == r.same_events);
-    CHECK_THAT(d.first_difference, Catch::Matchers::Contains(r.words));
+    CHECK_THAT(d.first_difference, Contains(r.words));
     CHECK((d.displacement > 1e-4) == r.far);
   }
 }

@@ -411,5 +411,5 @@ TEST_CASE("a bed on a rectangle of a plate has the same stiffness and area on ev
 
 TEST_CASE("Refinement of a matrix is refused, and the message suggests a finer mesh") {
   CHECK_THROWS_WITH(refined(parsed(portal_frame())),
-                    Catch::Matchers::Contains("finer mesh with the program that wrote this one"));
+                    Contains("finer mesh with the program that wrote this one"));
 }

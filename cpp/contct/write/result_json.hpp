@@ -91,6 +91,12 @@ class json_document {
 [[nodiscard]] nlohmann::ordered_json load_json(const problem& p, const load_path& loads, int step,
                                                double fraction, bool whole = false);
 
+/// The number of nodes whose positions are known.
+[[nodiscard]] std::size_t count_of_places(const model& m);
+
+/// A node whose position is known, from 0, with name and coordinates.
+[[nodiscard]] nlohmann::ordered_json node_json(const model& m, std::size_t node);
+
 /// The structure: positions of nodes, stiffnesses, supports and pairs, each in the order of the numbers.
 [[nodiscard]] nlohmann::ordered_json structure_json(const problem& p);
 

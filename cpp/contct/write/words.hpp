@@ -73,6 +73,9 @@ constexpr std::string_view end_reason(path_status status) {
 /// first ones, a line each), or that its states agree with the answer. Empty for other runs.
 [[nodiscard]] std::vector<std::string> rule_1989_words(const run_result& r);
 
+/// Keeps the first 12 lines, because there may be hundreds of combinations.
+[[nodiscard]] std::vector<std::string> first_of(std::vector<std::string> lines);
+
 /// The end_words of every step that was not solved, a line each; of many lines only the first ones.
 [[nodiscard]] std::vector<std::string> words_of_ends(const problem& p, const path_end& end);
 
