@@ -375,7 +375,8 @@ TEST_CASE("every s of the problems PB1 to PB11 has an error of at most 2 ULP in 
       for (const json& i : all["increments"]) {
         std::vector<listing_pair> call;
         for (const json& p : i["pairs"])
-          call.push_back({number(p["c"]), number(p["d"]), number(p["d_star"]), p["before"] == "contact",
+          call.push_back({number(p["c"]), number(p["d"]), number(p["d_star"]),
+                          p["before"] == "contact" ? in_contact : separated,
                           p["surface"] == "above" ? face_above : face_below});
         const listing_answer exactly = answer_exactly(call);
         for (std::size_t pair = 0; pair < call.size(); ++pair) {

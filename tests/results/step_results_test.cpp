@@ -104,7 +104,7 @@ TEST_CASE("Far from x = 0, bearing pressures are within their bound, and lengths
       const rational pressure = 7 * truly.force[i] / exactly.pairs[i].stiffness;
       least = std::min(least, pressure);
       most = std::max(most, pressure);
-      if (truly.closed[i] != 0) length += exactly.pairs[i].stiffness / 7;
+      if (truly.isep[i] == in_contact) length += exactly.pairs[i].stiffness / 7;
     }
     CAPTURE(number, x);
     const double bound = run.result.record.steps[0].judged->pressure.value();

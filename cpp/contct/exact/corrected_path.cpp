@@ -71,7 +71,7 @@ class corrected_path final : public exact_rule {
  private:
   path_status follow_step() override {
     while (begin_increment(increments_.size() + 1)) {
-      const std::vector<char> before = at_.closed;
+      const std::vector<int> before = at_.isep;
       settle_statuses();
       const bool driven = !is_zero(response_[0]);
       if (std::vector<event> events = at_.events_since(before); !events.empty() || driven)
@@ -94,16 +94,16 @@ class corrected_path final : public exact_rule {
   /// the statuses cannot be decided.
   void settle_statuses() {
     std::vector<std::size_t> at_face;
-    for (std::size_t i = 0; i < at_.closed.size(); ++i)
+    for (std::size_t i = 0; i < at_.isep.size(); ++i)
       if (at_.gap(i) == 0) at_face.push_back(i);
     std::size_t fewest = at_face.size() + 1;
     int patience = 3;
-    std::set<std::vector<char>> seen;
+    std::set<std::vector<int>> seen;
     for (std::size_t terms = 2;;) {
       respond(terms);
       std::vector<std::size_t> wrong;
       for (const std::size_t i : at_face)
-        if (moves(i) == (at_.closed[i] != 0 ? -1 : 1)) wrong.push_back(i);
+        if (moves(i) == at_.isep[i]) wrong.push_back(i);
       if (wrong.empty()) return;
       if (wrong.size() < fewest) {
         fewest = wrong.size();
@@ -111,14 +111,14 @@ class corrected_path final : public exact_rule {
         seen.clear();
       } else if (patience > 0) {
         --patience;
-      } else if (!seen.insert(at_.closed).second) {  // statuses repeat: more terms are needed
+      } else if (!seen.insert(at_.isep).second) {  // statuses repeat: more terms are needed
         seen.clear();
         terms += 2;
         if (terms > most_terms)
           throw std::runtime_error("the status of the pairs at their faces could not be decided");
       }
       if (patience == 0) wrong.resize(1);
-      for (const std::size_t i : wrong) at_.closed[i] = at_.closed[i] != 0 ? 0 : 1;
+      for (const std::size_t i : wrong) at_.isep[i] *= -1;
     }
   }
 
@@ -139,8 +139,8 @@ class corrected_path final : public exact_rule {
   /// contact leaves its face. Empty if there is no event.
   [[nodiscard]] std::optional<rational> first_event_along(const rational_vector& v) const {
     std::optional<rational> way;
-    for (std::size_t i = 0; i < at_.closed.size(); ++i) {
-      const rational towards = at_.closed[i] != 0 ? rational(-at_.approach(i, v)) : at_.approach(i, v);
+    for (std::size_t i = 0; i < at_.isep.size(); ++i) {
+      const rational towards = at_.isep[i] * at_.approach(i, v);
       if (towards <= 0) continue;
       const rational reach = abs(at_.gap(i)) / towards;
       if (!way || reach < *way) way = reach;

@@ -53,7 +53,7 @@ struct exact_step_end {
   std::vector<exact_increment> increments;
   rational fraction;             ///< share of the step's load that was reached
   rational_vector displacement;  ///< [dofs]
-  std::vector<char> closed;      ///< [pairs]
+  std::vector<int> isep;         ///< the status of each pair [pairs]
   rational_vector gap, force;    ///< see gap_of and force_of [pairs]
   rational_vector reactions;     ///< forces of the supports on the structure [supports]
   path_status status = path_status::solved;
@@ -97,8 +97,8 @@ struct listing_pair {
   rational c;       ///< position of its face
   rational d;       ///< D at the pair
   rational d_star;  ///< d* at the pair
-  bool closed;
-  int surface;  ///< face_above or face_below
+  int isep;         ///< its status
+  int surface;      ///< face_above or face_below
 };
 
 struct listing_answer {

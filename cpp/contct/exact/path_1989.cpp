@@ -26,7 +26,7 @@ rational scale_factor(const listing_pair& p) {
   const rational gap = p.c - p.d;
   if (p.d_star == 0) return 1;
   if (abs(gap) >= epsgap()) return gap / p.d_star;
-  const rational s_chk = (p.closed ? -p.surface : p.surface) / p.d_star;
+  const rational s_chk = p.isep * p.surface / p.d_star;
   return s_chk > 0 ? rational(s_chk * delta()) : 1;
 }
 
@@ -45,15 +45,12 @@ class path_1989 final : public exact_rule {
 /// Calls CONTCT and toggles the pairs in its answer. Returns SMIN.
 rational path_1989::ask(const rational_vector& d_star) {
   std::vector<listing_pair> pairs;
-  for (std::size_t i = 0; i < at_.closed.size(); ++i) {
+  for (std::size_t i = 0; i < at_.isep.size(); ++i) {
     const exact_pair& c = at_.problem.pairs[i];
-    pairs.push_back({c.face, c.seen_in(at_.u), c.seen_in(d_star), at_.closed[i] != 0, c.surface});
+    pairs.push_back({c.face, c.seen_in(at_.u), c.seen_in(d_star), at_.isep[i], c.surface});
   }
   listing_answer answer = answer_exactly(pairs);
-  for (const int pair : answer.toggled) {
-    char& closed = at_.closed[pair];
-    closed = closed != 0 ? 0 : 1;
-  }
+  for (const int pair : answer.toggled) at_.isep[pair] *= -1;
   return std::move(answer.s_min);
 }
 
@@ -61,7 +58,7 @@ rational path_1989::ask(const rational_vector& d_star) {
 exact_increment path_1989::next() {
   rational_vector d_star = at_.response();
   for (rational& d : d_star) d *= 1 - at_.fraction;  // the response to the rest of the load
-  const std::vector<char> before = at_.closed;
+  const std::vector<int> before = at_.isep;
   s_min_ = ask(d_star);
   for (std::size_t dof = 0; dof < d_star.size(); ++dof) at_.u[dof] += s_min_ * d_star[dof];
   at_.fraction += s_min_ * (1 - at_.fraction);

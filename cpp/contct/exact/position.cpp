@@ -26,14 +26,13 @@ void position::begin_step(std::size_t number) {
 void position::unload() {
   u.assign(problem.dofs(), rational());
   before_ = {u, {}, u, u};
-  closed.clear();
-  for (const exact_pair& c : problem.pairs) closed.push_back(c.closed ? 1 : 0);
+  isep = statuses_at_start(problem.pairs);
 }
 
 void position::factor() {
   std::vector<added_spring> springs;
-  for (std::size_t i = 0; i < closed.size(); ++i)
-    if (closed[i] != 0)
+  for (std::size_t i = 0; i < isep.size(); ++i)
+    if (isep[i] == in_contact)
       springs.push_back({problem.pairs[i].dof, problem.pairs[i].stiffness, problem.pairs[i].other});
   solver_.factor(springs);
 }
@@ -47,31 +46,31 @@ rational_vector position::moved(const rational_vector& b, const rational_vector&
 
 rational_vector position::at_start_of_step() const {
   exact_step l = before_;
-  for (std::size_t i = 0; i < closed.size(); ++i) {
+  for (std::size_t i = 0; i < isep.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    if (closed[i] != 0) c.add_to(l.force, rational(c.stiffness * c.face));
+    if (isep[i] == in_contact) c.add_to(l.force, rational(c.stiffness * c.face));
   }
   l = problem.from_faces(std::move(l));
   return moved(l.force, l.settlement);
 }
 
-std::vector<event> position::events_since(const std::vector<char>& before) const {
+std::vector<event> position::events_since(const std::vector<int>& before) const {
   std::vector<event> events;
-  for (std::size_t i = 0; i < closed.size(); ++i)
-    if (closed[i] != before[i])
-      events.push_back({static_cast<int>(i), closed[i] != 0 ? change::make : change::break_});
+  for (std::size_t i = 0; i < isep.size(); ++i)
+    if (isep[i] != before[i])
+      events.push_back({static_cast<int>(i), isep[i] == in_contact ? change::make : change::break_});
   return events;
 }
 
 exact_step_end position::end(path_status status, std::vector<exact_increment> increments,
                              bool pairs_react) const {
-  exact_step_end e{std::move(increments), fraction, u, closed, {}, {}, {}, status};
+  exact_step_end e{std::move(increments), fraction, u, isep, {}, {}, {}, status};
   for (std::size_t dof = 0; dof < u.size(); ++dof) e.displacement[dof] += moved_face(dof);
   rational_vector pressing(u.size());  // the forces of the pairs, against the structure
-  for (std::size_t i = 0; i < closed.size(); ++i) {
+  for (std::size_t i = 0; i < isep.size(); ++i) {
     const exact_pair& c = problem.pairs[i];
-    e.gap.push_back(gap_of(c, c.seen_in(u), closed[i] != 0));
-    e.force.push_back(force_of(c, c.seen_in(u), closed[i] != 0));
+    e.gap.push_back(gap_of(c, c.seen_in(u), isep[i] == in_contact));
+    e.force.push_back(force_of(c, c.seen_in(u), isep[i] == in_contact));
     if (pairs_react) c.add_to(pressing, rational(c.surface * e.force.back()));
   }
   for (const exact_pair& h : problem.held) exact_problem::add_pressing(h, u, pressing);

@@ -43,7 +43,7 @@ class position {
   }
 
   /// The events that lead from the statuses `before` to the present ones, in order of pairs.
-  [[nodiscard]] std::vector<event> events_since(const std::vector<char>& before) const;
+  [[nodiscard]] std::vector<event> events_since(const std::vector<int>& before) const;
 
   /// The result of a step that ends in this state. `pairs_react`: pairs at fixed dofs carry a part of the
   /// reaction.
@@ -51,10 +51,10 @@ class position {
                                    bool pairs_react) const;
 
   const exact_problem& problem;
-  std::size_t step = 0;      ///< from 0
-  rational fraction;         ///< share of the step's load applied so far
-  rational_vector u;         ///< displacements less the moves of faces: see equations::from_faces [dofs]
-  std::vector<char> closed;  ///< [pairs]
+  std::size_t step = 0;   ///< from 0
+  rational fraction;      ///< share of the step's load applied so far
+  rational_vector u;      ///< displacements less the moves of faces: see equations::from_faces [dofs]
+  std::vector<int> isep;  ///< the status of each pair [pairs]
 
  private:
   void unload();

@@ -20,9 +20,8 @@ rational_vector exactly(const exact_problem& p, const exact_step& s, std::span<c
 }
 
 solved_step state_of(int step, const exact_step_end& end) {
-  solved_step s{{.step = step, .fraction = 1.0, .from = origin::exact_path}, end.status};
+  solved_step s{{.step = step, .fraction = 1.0, .isep = end.isep, .from = origin::exact_path}, end.status};
   for (const rational& u : end.displacement) s.displacement.push_back(contct::rounded(u));
-  for (const char closed : end.closed) s.isep.push_back(closed != 0 ? in_contact : separated);
   return s;
 }
 

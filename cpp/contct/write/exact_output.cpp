@@ -93,14 +93,15 @@ class exact_printer {
         std::ranges::max_element(w, [](const rational& x, const rational& y) { return abs(x) < abs(y); });
     out_ += fmt::format("  largest w {} at {}\n", number(*largest),
                         place_words(r_.what.geometry, static_cast<int>(largest - w.begin())));
-    if (s.closed.size() > most_rows) {
-      out_ += fmt::format("  {} of {} pairs in contact\n", std::count(s.closed.begin(), s.closed.end(), 1),
-                          s.closed.size());
+    if (s.isep.size() > most_rows) {
+      out_ +=
+          fmt::format("  {} of {} pairs in contact\n", std::ranges::count(s.isep, in_contact), s.isep.size());
       return;
     }
-    for (std::size_t i = 0; i < s.closed.size(); ++i) {
-      out_ += fmt::format("  {}: w {}, {}\n", pair_words(r_.what, i), number(w[r_.what.pairs[i].node]),
-                          s.closed[i] != 0 ? "force " + number(s.force[i]) : "gap " + number(s.gap[i]));
+    for (std::size_t i = 0; i < s.isep.size(); ++i) {
+      out_ +=
+          fmt::format("  {}: w {}, {}\n", pair_words(r_.what, i), number(w[r_.what.pairs[i].node]),
+                      s.isep[i] == in_contact ? "force " + number(s.force[i]) : "gap " + number(s.gap[i]));
     }
   }
 
@@ -161,10 +162,10 @@ void write_exact_json(const exact_run& r, output_file& out) {
     if (r.what.steps[step].from_zero) members["start"] = "zero";
     document.add(members, {{"increments", s.increments.size(),
                             [&](auto i) { return increment_json(r.what, s.increments[i], i); }},
-                           {"pairs", s.closed.size(),
+                           {"pairs", s.isep.size(),
                             [&](auto i) {
-                              return pair_state_json(r.what, i, s.closed[i] != 0 ? in_contact : separated,
-                                                     fraction_words(s.gap[i]), fraction_words(s.force[i]));
+                              return pair_state_json(r.what, i, s.isep[i], fraction_words(s.gap[i]),
+                                                     fraction_words(s.force[i]));
                             }},
                            {"reactions", s.reactions.size(), [&](auto i) {
                               return reaction_json(r.what, i, fraction_words(s.reactions[i]));
