@@ -11,7 +11,7 @@ namespace {
 
 using poly = line_polynomial<double>;
 
-constexpr stretch whole = {0.0, 1.0};
+constexpr stretch all_of_it = {0.0, 1.0};
 
 std::size_t dof_of(int node) {
   return std::size_t{beam::dofs_per_node} * node;
@@ -97,7 +97,7 @@ void bed_line::add_beds(line_part& part, int e) const {
       const auto of_face = part.hermite->products(face);
       part.beds.push_back({i, mesh->fine.pairs[beds[i].first_pair].surface,
                            number_of<double_double>(b.modulus), std::move(face), of_face,
-                           first.presses || last.presses ? whole : stretch()});
+                           first.presses || last.presses ? all_of_it : stretch()});
     }
 }
 
@@ -167,7 +167,7 @@ void bed_line::carry_over(const line_element& old, line_element& now) const {
     for (bed_along& b : part.beds) {
       const auto was = std::ranges::find(at.beds, b.bed, &bed_along::bed);
       b.pressed = {};
-      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle)) > 0.0) b.pressed = whole;
+      if (was != at.beds.end() && polynomial_at(at.depth(*was), in_old(middle)) > 0.0) b.pressed = all_of_it;
     }
   }
 }
