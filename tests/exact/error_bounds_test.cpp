@@ -222,12 +222,8 @@ TEST_CASE("if any one number of a state is wrong, the error bound of this number
   REQUIRE(certified(e.again()));
   const exact_step_end truly = e.truly().steps.back();
   CHECK(check_bounds(errors_of(e.what, truly, e.end), e.again().error) == 6);
-  struct {
-    const char* what;
-    double factor;
-    bool still_certified;
-    double& (*number)(told_end&);
-  } const faults[] = {
+  using row = std::tuple<const char*, double, bool, double& (*)(told_end&)>;
+  const row faults[] = {
       {"force", 1 + 1e-9, true, [](told_end& t) -> double& { return t.numbers.pair_forces[0]; }},
       {"force", 1 + 1e-5, false, [](told_end& t) -> double& { return t.numbers.pair_forces[0]; }},
       {"force", 0, false, [](told_end& t) -> double& { return t.numbers.pair_forces[0]; }},
@@ -237,13 +233,13 @@ TEST_CASE("if any one number of a state is wrong, the error bound of this number
       {"displacement", 1 + 1e-4, false, [](told_end& t) -> double& { return t.displacement[6]; }},
   };
   const told_end right = e.end;
-  for (const auto& fault : faults) {
-    INFO(fault.what << " times " << fault.factor);
+  for (const auto& [what, factor, still_certified, number] : faults) {
+    INFO(what << " times " << factor);
     e.end = right;
-    fault.number(e.end) *= fault.factor;
+    number(e.end) *= factor;
     const error_bounds b = e.again();
     check_bounds(errors_of(e.what, truly, e.end), b.error);
-    CHECK(certified(b) == fault.still_certified);
+    CHECK(certified(b) == still_certified);
   }
   // A state that was computed with a stiffness that is wrong by 1e-9:
   e.end =

@@ -54,20 +54,55 @@ std::pair<std::int64_t, std::string> replayed(const char* kernel, const std::str
   return {f.compared.mismatches, f.first() ? f.first()->where.field : "text"};
 }
 
+/// The traces in reference/traces: their names and texts.
+std::map<std::string, std::string> golden_set() {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : std::filesystem::directory_iterator(CONTCT_TRACES))
+    all[entry.path().filename().string()] = read_input(entry.path().string());
+  return all;
+}
+
+using fault = std::function<void(call<double>&, std::string&)>;
+
+/// Returns the C++ kernel with a fault that `put_in` puts into its answers.
+std::unique_ptr<kernel> faulty(const fault& put_in) {
+  const std::shared_ptr<kernel> cpp = make_kernel("cpp");
+  const auto text = std::make_shared<std::string>();
+  const auto answer = [=](call<double>& c) {
+    cpp->answer(c);
+    *text = cpp->take_text();
+    put_in(c, *text);
+  };
+  return std::make_unique<made_kernel>(answer, contact_rule::listing, text);
+}
+
+/// Follows PB1, which has 6 calls of one pair, with FORTRAN as the leader of kernels with these faults.
+lockstep_on_path with_faults(const std::vector<fault>& faults) {
+  const auto leader = make_kernel("fortran");
+  std::vector<std::unique_ptr<kernel>> all;
+  for (const fault& f : faults) all.push_back(faulty(f));
+  lockstep_on_path compared(leader->facts(), std::move(all));
+  (void)cantilever_over_a_stop().run(*leader, {&compared});
+  return compared;
+}
+
+const fault none = [](call<double>&, std::string&) {};
+const fault smin_up = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
+/// The fault `f` in the calls from `first` to `last`.
+fault in_calls(int first, int last, fault f) {
+  return [first, last, f = std::move(f), n = 0](call<double>& c, std::string& text) mutable {
+    if (++n >= first && n <= last) f(c, text);
+  };
+}
+
 }  // namespace
 
 TEST_CASE("a difference of one bit is a mismatch, except of NaNs, and the first difference is named") {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                least = std::numeric_limits<double>::denorm_min();
   const auto other_nan = std::bit_cast<double>(std::bit_cast<std::uint64_t>(nan) + 1);
-  struct row {
-    const char* what;
-    double leader_second, smin;
-    std::vector<double> ss;
-    std::vector<int> isep;
-    int mismatches;
-    const char* found;  // the first mismatch
-  };
+  using row =
+      std::tuple<const char*, double, double, std::vector<double>, std::vector<int>, int, const char*>;
   const row rows[] = {
       {"equal", 0.0, 0.5, {0.5, 0.0}, {1, -1}, 0, ""},
       {"NaN", nan, 0.5, {0.5, nan}, {1, -1}, 0, ""},
@@ -79,18 +114,16 @@ TEST_CASE("a difference of one bit is a mismatch, except of NaNs, and the first 
       {"SMIN and a status", 0.0, 0.25, {0.5, 0.0}, {1, 1}, 2, "SMIN(0): 0x1p-1, 0x1p-2"},
       {"all but SMIN", 0.0, 0.5, {0.25, 1.0}, {-1, 1}, 4, "SS(1): 0x1p-1, 0x1p-2"},
   };
-  for (const row& r : rows) {
+  for (const auto& [what, leader_second, smin, ss, isep, mismatches, found] : rows) {
     tally t;
-    const std::vector<double> ss = {0.5, r.leader_second};
-    const std::vector<int> isep = {1, -1};
-    const auto m =
-        compare_answers(call_outputs{0.5, ss, isep, ""}, call_outputs{r.smin, r.ss, r.isep, ""}, t);
-    INFO(r.what);
+    const call_outputs leader{0.5, {0.5, leader_second}, {1, -1}, ""};
+    const auto m = compare_answers(leader, call_outputs{smin, ss, isep, ""}, t);
+    INFO(what);
     CHECK((m ? m->field + "(" + std::to_string(m->index) + "): " + m->leader + ", " + m->follower : "") ==
-          r.found);
+          found);
     CHECK(t.values == 5);
-    CHECK(t.mismatches == r.mismatches);
-    if (r.what == std::string("one ULP")) CHECK(m->ulps == 1);
+    CHECK(t.mismatches == mismatches);
+    if (what == std::string("one ULP")) CHECK(m->ulps == 1);
   }
 }
 
@@ -112,10 +145,7 @@ TEST_CASE("texts of unit 26 are compared byte for byte, and the message names th
 
 TEST_CASE("texts of equal meaning may differ in blanks and in a number's leading zero only") {
   const char* line = " SCALE FACTOR =  0.2500E+00\n";
-  struct row {
-    const char *a, *b;
-    bool same;
-  };
+  using row = std::tuple<const char*, const char*, bool>;
   const row rows[] = {{line, " SCALE FACTOR =   .2500E+00\n", true},
                       {"-0.5\n", "  -.5\n", true},
                       {line, line, true},
@@ -127,12 +157,12 @@ TEST_CASE("texts of equal meaning may differ in blanks and in a number's leading
                       {line, "", false},
                       {"10.5\n", "1.5\n", false},
                       {"a\n", "a\nb\n", false}};
-  for (const row& r : rows) {
+  for (const auto& [a, b, same] : rows) {
     tally t;
-    INFO(r.a << r.b);
-    CHECK(compare_text(r.a, r.b, t, true).has_value() != r.same);
+    INFO(a << b);
+    CHECK(compare_text(a, b, t, true).has_value() != same);
     CHECK(t.values == 1);
-    CHECK(t.mismatches == (r.same ? 0 : 1));
+    CHECK(t.mismatches == (same ? 0 : 1));
   }
 }
 
@@ -146,19 +176,16 @@ TEST_CASE("unit 26 of gfortran and of C++ is compared by bytes, and only unit 26
   CHECK(texts_by_meaning(fortran, without_zeros));
   CHECK(texts_by_meaning(without_zeros, fortran));
   // The same for a replayed trace.
-  struct row {
-    const char *kernel, *scale_factor;
-    int mismatches;
-  };
-  for (const row& r : {row{"fortran", " 0.5000E+00", 0},
-                       {"fortran", "  .5000E+00", 1},
-                       {"another", " 0.5000E+00", 0},
-                       {"another", "  .5000E+00", 1},
-                       {"f2c", "  .5000E+00", 0},
-                       {"f2c", "  .5001E+00", 1},
-                       {"f2c", "  .5000E+01", 1}}) {
-    INFO(r.kernel << r.scale_factor);
-    CHECK(replayed(r.kernel, r.scale_factor) == std::pair<std::int64_t, std::string>(r.mismatches, "text"));
+  using row = std::tuple<const char*, const char*, int>;
+  for (const auto& [kernel, scale_factor, mismatches] : {row{"fortran", " 0.5000E+00", 0},
+                                                         {"fortran", "  .5000E+00", 1},
+                                                         {"another", " 0.5000E+00", 0},
+                                                         {"another", "  .5000E+00", 1},
+                                                         {"f2c", "  .5000E+00", 0},
+                                                         {"f2c", "  .5001E+00", 1},
+                                                         {"f2c", "  .5000E+01", 1}}) {
+    INFO(kernel << scale_factor);
+    CHECK(replayed(kernel, scale_factor) == std::pair<std::int64_t, std::string>(mismatches, "text"));
   }
 }
 
@@ -202,18 +229,6 @@ TEST_CASE("a mismatch report names call, kernels and place, and calls a decision
   CHECK(words_of(r) == std::vector<std::string>{"call 3: mine gave no answer: it ended with status 3"});
 }
 
-namespace {
-
-/// The traces in reference/traces: their names and texts.
-std::map<std::string, std::string> golden_set() {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : std::filesystem::directory_iterator(CONTCT_TRACES))
-    all[entry.path().filename().string()] = read_input(entry.path().string());
-  return all;
-}
-
-}  // namespace
-
 TEST_CASE("every kernel gives all answers of the traces to the bit, with every outcome of every IF") {
   std::map<std::string, branch_counts> reached;
   std::map<std::string, std::int64_t> calls;
@@ -254,51 +269,8 @@ TEST_CASE("a committed trace states a purpose, and has the same bytes if it is r
   }
 }
 
-namespace {
-
-using fault = std::function<void(call<double>&, std::string&)>;
-
-/// Returns the C++ kernel with a fault that `put_in` puts into its answers.
-std::unique_ptr<kernel> faulty(const fault& put_in) {
-  const std::shared_ptr<kernel> cpp = make_kernel("cpp");
-  const auto text = std::make_shared<std::string>();
-  const auto answer = [=](call<double>& c) {
-    cpp->answer(c);
-    *text = cpp->take_text();
-    put_in(c, *text);
-  };
-  return std::make_unique<made_kernel>(answer, contact_rule::listing, text);
-}
-
-/// Follows PB1, which has 6 calls of one pair, with FORTRAN as the leader of kernels with these faults.
-lockstep_on_path with_faults(const std::vector<fault>& faults) {
-  const auto leader = make_kernel("fortran");
-  std::vector<std::unique_ptr<kernel>> all;
-  for (const fault& f : faults) all.push_back(faulty(f));
-  lockstep_on_path compared(leader->facts(), std::move(all));
-  (void)cantilever_over_a_stop().run(*leader, {&compared});
-  return compared;
-}
-
-const fault none = [](call<double>&, std::string&) {};
-const fault smin_up = [](call<double>& c, std::string&) { c.smin = std::nextafter(c.smin, 2.0); };
-/// The fault `f` in the calls from `first` to `last`.
-fault in_calls(int first, int last, fault f) {
-  return [first, last, f = std::move(f), n = 0](call<double>& c, std::string& text) mutable {
-    if (++n >= first && n <= last) f(c, text);
-  };
-}
-
-}  // namespace
-
 TEST_CASE("in lockstep on PB1, a follower's fault is detected in its call and field, and counted") {
-  struct row {
-    const char* what;
-    fault f;
-    const char* field;
-    int call, mismatches;
-    bool last_call_equal;
-  };
+  using row = std::tuple<const char*, fault, const char*, int, int, bool>;
   const row rows[] = {
       {"no fault", none, "", 0, 0, true},
       {"one ULP in SMIN of call 2", in_calls(2, 2, smin_up), "SMIN", 2, 1, true},
@@ -313,20 +285,20 @@ TEST_CASE("in lockstep on PB1, a follower's fault is detected in its call and fi
       {"no answer", [](call<double>&, std::string&) { throw kernel_failure("it ended with status 3"); },
        "answer", 1, 6, false},
   };
-  for (const row& r : rows) {
-    const lockstep_on_path compared = with_faults({r.f});
-    INFO(r.what);
+  for (const auto& [what, f, field, call, mismatches, last_call_equal] : rows) {
+    const lockstep_on_path compared = with_faults({f});
+    INFO(what);
     const auto& first = compared.first();
-    CHECK((first ? first->where.field : "") == r.field);
-    CHECK((first ? first->call : 0) == r.call);
+    CHECK((first ? first->where.field : "") == field);
+    CHECK((first ? first->call : 0) == call);
     CHECK((first ? first->follower : "made") == "made");
     CHECK(compared.calls() == 6);
-    CHECK(compared.compared().mismatches == r.mismatches);
-    CHECK(compared.last_call_equal() == r.last_call_equal);
+    CHECK(compared.compared().mismatches == mismatches);
+    CHECK(compared.last_call_equal() == last_call_equal);
     const nearness& near = compared.followers()[0].near;
-    const bool failed = r.field == std::string("answer");
+    const bool failed = field == std::string("answer");
     CHECK(near.always_answered != failed);
-    CHECK(near.same_events == (r.field != std::string("ISEP") && !failed));
+    CHECK(near.same_events == (field != std::string("ISEP") && !failed));
     CHECK(compared.last_answers()[0].failed == failed);
     CHECK(compared.compared().values == (failed ? 6 : 24));  // SMIN, SS, ISEP and text
   }

@@ -39,6 +39,11 @@ small_call<double> three_pairs() {
   return small_call<double>({{0.0, 1.0, 0.5}, {0.0, 1e-3, 5e-10}, {0.0, 0.0, 0.25}}).ask();
 }
 
+explained_call explained(const std::vector<pair_at<double>>& pairs) {
+  double largest = 0.0;
+  return explain(small_call<double>(pairs).ask().answered(), 8, largest);
+}
+
 }  // namespace
 
 TEST_CASE("true and false outcomes of each IF of the listing are counted separately") {
@@ -63,12 +68,7 @@ TEST_CASE("true and false outcomes of each IF of the listing are counted separat
 
 TEST_CASE("the margin of a decision of the listing is its distance to the threshold in ULPs") {
   const double edge = 0.5 + 0.5 / 256;
-  struct row {
-    const char* what;
-    std::vector<pair_at<double>> pairs;
-    branch decision;
-    std::uint64_t margin;
-  };
+  using row = std::tuple<const char*, std::vector<pair_at<double>>, branch, std::uint64_t>;
   const row rows[] = {
       {"DIFF at EPSMUL", {{0, 1, 0.5}, {0, 1, edge}}, branch::within_epsmul, 0},
       // Below 2^-8 numbers are 2^-61 apart; one ULP of s = 0.5 is 2^-53, and changes DIFF by 2^-52.
@@ -79,9 +79,9 @@ TEST_CASE("the margin of a decision of the listing is its distance to the thresh
       {"the least response", {{0, std::numeric_limits<double>::denorm_min(), 0.5}}, branch::no_response, 1},
       {"D is NaN", {{std::nan(""), 1, 0.5}}, branch::stationary, most},
   };
-  for (const row& r : rows) {
-    INFO(r.what);
-    CHECK(margin_of(small_call<double>(r.pairs), r.decision, r.pairs.size() - 1) == r.margin);
+  for (const auto& [what, pairs, decision, margin] : rows) {
+    INFO(what);
+    CHECK(margin_of(small_call<double>(pairs), decision, pairs.size() - 1) == margin);
   }
   CHECK(words_of({branch::stationary, 0, false, std::nan(""), 1.0}) ==
         "pair 1: IF (ABS(GAP).LT.EPSGAP) was false, with NaN");
@@ -104,12 +104,7 @@ TEST_CASE("the narrowest decision of a wrong answer is one on which the wrong va
   const small_call<double> late = small_call<double>({{0.0, 1.0, 1.0 - 0x1p-53}, {0.0, 1.0, 4.0}}).ask();
   const small_call<double> odd = small_call<double>({{0.0, 1.0, 0.5, 2, face_above}}).ask();
   CHECK(odd.isep[0] == separated);
-  struct row {
-    const char* what;
-    small_call<double> c;
-    std::function<void(call_outputs&)> change;
-    const char* words;
-  };
+  using row = std::tuple<const char*, small_call<double>, std::function<void(call_outputs&)>, const char*>;
   const row rows[] = {
       {"SS of pair 2, although pair 3 is nearer", three_pairs(), [](call_outputs& o) { o.ss[1] = 1e-17; },
        "pair 2: IF (ABS(GAP).LT.EPSGAP) was false by "},
@@ -126,13 +121,13 @@ TEST_CASE("the narrowest decision of a wrong answer is one on which the wrong va
       {"ISEP, if both toggle to different statuses", odd, [](call_outputs& o) { o.isep[0] = in_contact; },
        "pair 1: IF (ISEP(I).EQ.1) was false"},
   };
-  for (row r : rows) {
-    INFO(r.what);
-    call_outputs other{r.c.smin, r.c.ss, r.c.isep, ""};
-    r.change(other);
-    const auto least = narrowest_decision(r.c.answered(), 8, other);
+  for (auto [what, c, change, words] : rows) {
+    INFO(what);
+    call_outputs other{c.smin, c.ss, c.isep, ""};
+    change(other);
+    const auto least = narrowest_decision(c.answered(), 8, other);
     REQUIRE(least);
-    CHECK_THAT(words_of(*least), StartsWith(r.words));
+    CHECK_THAT(words_of(*least), StartsWith(words));
   }
 }
 
@@ -152,30 +147,13 @@ TEST_CASE("if EPSGAP = 1e-9 makes an SS wrong, this is traced to IF (ABS(GAP).LT
                                           Contains("this smallest margin is too large for a tie"));
 }
 
-namespace {
-
-explained_call explained(const std::vector<pair_at<double>>& pairs) {
-  double largest = 0.0;
-  return explain(small_call<double>(pairs).ask().answered(), 8, largest);
-}
-
-}  // namespace
-
 TEST_CASE("an explanation gives the winner, the next pair, and why each pair is toggled") {
   using enum why_toggled;
-  struct expected_pair {
-    why_toggled why;
-    double distance;  // to the face
-    listing_line set_s;
-  };
-  struct row {
-    const char* what;
-    std::vector<pair_at<double>> pairs;
-    struct {
-      int winner, next;
-      std::vector<expected_pair> pairs;
-    } expected;
-  };
+  // Why a pair is toggled, its distance to the face, and the line that set its s.
+  using expected_pair = std::tuple<why_toggled, double, listing_line>;
+  using expected_call =
+      std::tuple<int, int, std::vector<expected_pair>>;  // with the winner and the next pair
+  using row = std::tuple<const char*, std::vector<pair_at<double>>, expected_call>;
   const row rows[] = {
       {"within EPSMUL",
        {{0, 1, 0.5}, {0, 1, 0.501}},
@@ -198,14 +176,15 @@ TEST_CASE("an explanation gives the winner, the next pair, and why each pair is 
        {0, 1, {{winner, 0, listing::if_check_positive}, {not_toggled, 0.5, listing::moving}}}},
       {"no event", {{0, 1, 2}}, {-1, 0, {{not_toggled, 1, listing::moving}}}},
   };
-  for (const row& r : rows) {
-    const explained_call e = explained(r.pairs);
-    INFO(r.what);
-    CHECK(e.winner == r.expected.winner);
-    CHECK(e.next == r.expected.next);
-    REQUIRE(e.pairs.size() == r.pairs.size());
+  for (const auto& [what, pairs, expected] : rows) {
+    const explained_call e = explained(pairs);
+    INFO(what);
+    const auto& [first, next, expected_pairs] = expected;
+    CHECK(e.winner == first);
+    CHECK(e.next == next);
+    REQUIRE(e.pairs.size() == pairs.size());
     for (std::size_t i = 0; i < e.pairs.size(); ++i) {
-      const auto& [why, distance, taken] = r.expected.pairs.at(i);
+      const auto& [why, distance, taken] = expected_pairs.at(i);
       CHECK(e.pairs[i].why == why);
       CHECK(e.pairs[i].toggled() == (why != not_toggled));
       CHECK(e.pairs[i].distance == Approx(distance).margin(1e-15));

@@ -115,14 +115,10 @@ TEST_CASE("a random problem depends only on its seed and number, and 300 of thes
 
 TEST_CASE("three pinned random problems keep their sizes, faces and stiffnesses in every version") {
   // Faces are computed by a solve and units by pow(), so the last digits of faces and units are not compared.
-  struct pinned {
-    std::uint64_t seed, number;
-    // Held; layout; numbers of nodes, supports, pairs and steps.
-    std::tuple<bool, face_layout, int, std::size_t, std::size_t, std::size_t> sizes;
-    struct {
-      double unit, last_face, last_stiffness;
-    } numbers;
-  };
+  // Seed and number; held; layout; numbers of nodes, supports, pairs and steps; unit, last face and
+  // stiffness.
+  using sizes_of = std::tuple<bool, face_layout, int, std::size_t, std::size_t, std::size_t>;
+  using pinned = std::tuple<std::uint64_t, std::uint64_t, sizes_of, std::array<double, 3>>;
   const pinned known[] = {
       {1, 0, {true, face_layout::mixed, 22, 2, 4, 1}, {0.0227337944608467, 0, 2.251095155184}},
       {1, 1, {true, face_layout::gaps, 6, 2, 2, 5}, {792067.46454214, -11560.1760943103, 9.93323884198174}},
@@ -131,14 +127,14 @@ TEST_CASE("three pinned random problems keep their sizes, faces and stiffnesses 
        {true, face_layout::near_ties, 23, 4, 20, 3},
        {1.68588277682789e-08, 3.256594026e-13, 55822045918044.2}},
   };
-  for (const pinned& k : known) {
-    const random_problem p = make_random_problem(k.seed, k.number);
-    INFO(k.seed << ", " << k.number);
-    CHECK((std::tuple(p.held, p.layout, nodes(p.geometry), p.supports.size(), p.pairs.size(),
-                      p.steps.size()) == k.sizes));
-    CHECK(p.unit == Approx(k.numbers.unit).epsilon(1e-10));
-    CHECK(p.pairs.back().face == Approx(k.numbers.last_face).epsilon(1e-6));
-    CHECK(p.pairs.back().stiffness == Approx(k.numbers.last_stiffness).epsilon(1e-10));
+  for (const auto& [seed, number, sizes, numbers] : known) {
+    const random_problem p = make_random_problem(seed, number);
+    INFO(seed << ", " << number);
+    CHECK((sizes_of(p.held, p.layout, nodes(p.geometry), p.supports.size(), p.pairs.size(), p.steps.size()) ==
+           sizes));
+    CHECK(p.unit == Approx(numbers[0]).epsilon(1e-10));
+    CHECK(p.pairs.back().face == Approx(numbers[1]).epsilon(1e-6));
+    CHECK(p.pairs.back().stiffness == Approx(numbers[2]).epsilon(1e-10));
   }
 }
 

@@ -44,6 +44,33 @@ void changes_its_input(const double dd[], const double dtest[], const double cc[
 
 const call_inputs one_pair{{0.0, 0.0}, {-2.0, 0.0}, {-1.0}, {1}, {separated}, {face_below}, {1, 2}};
 
+template <class Real>
+small_call<Real>& ask_fortran(small_call<Real>& c) {
+  return c.ask_by([](call<Real>& arguments) { fortran::contct(arguments); });
+}
+
+small_call<double> one_that_closes() {
+  return small_call<double>({{0.0, 1.0, 0.25}});
+}
+
+/// Returns the texts of gfortran and C++ for one pair at `node` with this gap and response.
+template <class Real>
+std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
+  small_call<Real> c({{Real(0), response, gap}});
+  c.dd.assign(static_cast<std::size_t>(node), Real(0));
+  c.dtest.assign(static_cast<std::size_t>(node), response);
+  c.id = {node};
+  fortran::unit_26 log;
+  ask_fortran(c);
+  c.isep = {separated};
+  c.ask();
+  call<Real> answered = c.arguments();
+  answered.smin = c.smin;
+  std::string cpp;
+  append_log_text(answered, std::span<const event>(c.events), cpp);
+  return {log.take(), cpp};
+}
+
 }  // namespace
 
 TEST_CASE("every built-in kernel states its facts, and gives the answer of a hand calculation") {
@@ -142,39 +169,38 @@ TEST_CASE("the name of a kernel function is refused if it is empty, has a colon 
 
 TEST_CASE("a call is refused if a dof is outside the arrays, or a dof or ISEP * ISURF exceeds 32 bits") {
   constexpr int least = std::numeric_limits<int>::min();
-  struct row {
-    struct {
-      int id = 0;
-      dof_layout layout;
-      int isep = 0, isurf = 0;
-    } pair;
-    const char* refused = nullptr;  // empty: accepted
-  };
+  using row = std::tuple<int, dof_layout, int, int, const char*>;  // the last one is empty: accepted
   const row rows[] = {
-      {{2, {1, 1}, 1, -1}, ""},
-      {{1, {2, 2}, 65536, -32768}, ""},
-      {{2, {1, 1}, 46341, 46340}, ""},
-      {{2, {1, 1}, least, 1}, ""},
-      {{0, {3, 2}, 1, 1}, ""},  // dof 1
-      {{2, {1, 1}, 65536, 65536},
+      {2, {1, 1}, 1, -1, ""},
+      {1, {2, 2}, 65536, -32768, ""},
+      {2, {1, 1}, 46341, 46340, ""},
+      {2, {1, 1}, least, 1, ""},
+      {0, {3, 2}, 1, 1, ""},  // dof 1
+      {2,
+       {1, 1},
+       65536,
+       65536,
        "call: pair 1: found ISEP 65536 and ISURF 65536, whose product is 4294967296; allowed: "
        "a product within 32 bits, -2147483648 to 2147483647"},
-      {{2, {1, 1}, least, -1}, "whose product is 2147483648"},
-      {{2, {1, 1}, 65536, -32769}, "whose product is -2147549184"},
-      {{3, {1, 1}, 1, 1},
+      {2, {1, 1}, least, -1, "whose product is 2147483648"},
+      {2, {1, 1}, 65536, -32769, "whose product is -2147549184"},
+      {3,
+       {1, 1},
+       1,
+       1,
        "call: pair 1: found ID 3, which is dof 3 with INDOF 1 and NDOFPN 1; allowed: a dof from 1 to "
        "2, computed within 32 bits"},
-      {{0, {1, 1}, 1, 1}, "found ID 0, which is dof 0"},
+      {0, {1, 1}, 1, 1, "found ID 0, which is dof 0"},
       // The dof would be 1 after a 32-bit overflow.
-      {{65537, {1, 65536}, 1, 1}, "which is dof 4294967297"},
-      {{65537, {-2147483647, 32768}, 1, 1}, "which is dof 1 with INDOF -2147483647"},
-      {{least, {1, 0}, 1, 1}, "which is dof 1 with INDOF 1 and NDOFPN 0"},
+      {65537, {1, 65536}, 1, 1, "which is dof 4294967297"},
+      {65537, {-2147483647, 32768}, 1, 1, "which is dof 1 with INDOF -2147483647"},
+      {least, {1, 0}, 1, 1, "which is dof 1 with INDOF 1 and NDOFPN 0"},
   };
-  for (const auto& [pair, refused] : rows) {
-    const call_inputs in{{0.0, 0.0}, {1.0, 1.0}, {0.5}, {pair.id}, {pair.isep}, {pair.isurf}, pair.layout};
+  for (const auto& [id, layout, isep, isurf, refused] : rows) {
+    const call_inputs in{{0.0, 0.0}, {1.0, 1.0}, {0.5}, {id}, {isep}, {isurf}, layout};
     call_outputs out;
     const call<double> c = out.prepare(in);
-    INFO(pair.id << ", " << pair.isep << " * " << pair.isurf);
+    INFO(id << ", " << isep << " * " << isurf);
     if (*refused == '\0')
       CHECK_NOTHROW(refuse_beyond_limits(c, in.isep));
     else
@@ -188,37 +214,6 @@ TEST_CASE("a call of 2147483647 pairs is refused at once, because the loop of th
   c.cc = {&one, 2'147'483'647};
   CHECK_THROWS_WITH(refuse_beyond_limits(c, {}), "call: NC: found 2147483647; allowed: 0 to 2147483646");
 }
-
-namespace {
-
-template <class Real>
-small_call<Real>& ask_fortran(small_call<Real>& c) {
-  return c.ask_by([](call<Real>& arguments) { fortran::contct(arguments); });
-}
-
-small_call<double> one_that_closes() {
-  return small_call<double>({{0.0, 1.0, 0.25}});
-}
-
-/// Returns the texts of gfortran and C++ for one pair at `node` with this gap and response.
-template <class Real>
-std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
-  small_call<Real> c({{Real(0), response, gap}});
-  c.dd.assign(static_cast<std::size_t>(node), Real(0));
-  c.dtest.assign(static_cast<std::size_t>(node), response);
-  c.id = {node};
-  fortran::unit_26 log;
-  ask_fortran(c);
-  c.isep = {separated};
-  c.ask();
-  call<Real> answered = c.arguments();
-  answered.smin = c.smin;
-  std::string cpp;
-  append_log_text(answered, std::span<const event>(c.events), cpp);
-  return {log.take(), cpp};
-}
-
-}  // namespace
 
 TEST_CASE("if unit 26 is not requested, the 1989 code writes no text and no file fort.26") {
   auto c = one_that_closes();
@@ -300,25 +295,21 @@ TEST_CASE("COMMON /DOF/ is set for every call, so that calls in several threads 
 }
 
 TEST_CASE("the C++ kernel writes the text of unit 26 byte for byte as gfortran does") {
-  struct row {
-    const char* what;
-    double gap, response;
-    int node;
-    std::string text;
-  };
+  using row = std::tuple<const char*, double, double, int, std::string>;
   const std::string makes = "  ******* MAKING CONTACT ********\n   CONTACT PAIR:   1 NODE: ";
+  const std::string no_event = "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n";
   const row rows[] = {
       {"an event", 0.25, 1.0, 7, makes + "  7 SURFACE:   1 SCALE FACTOR =  0.2500E+00\n"},
-      {"no event", 3.0, 1.0, 1, "  NO EVENTS. RETURNING. SCALE FACTOR =  0.100E+01\n"},
+      {"no event", 3.0, 1.0, 1, no_event},
       {"a node above 999 in FORMAT I3", 0.25, 1.0, 1000,
        makes + "*** SURFACE:   1 SCALE FACTOR =  0.2500E+00\n"},
       {"an exponent of three digits", 1.0, 3e200, 1, makes + "  1 SURFACE:   1 SCALE FACTOR =  0.3333-200\n"},
   };
-  for (const row& r : rows) {
-    INFO(r.what);
-    CHECK(texts(r.gap, r.response, r.node) == std::pair(r.text, r.text));
+  for (const auto& [what, gap, response, node, text] : rows) {
+    INFO(what);
+    CHECK(texts(gap, response, node) == std::pair(text, text));
   }
-  CHECK(texts(3.0F, 1.0F, 1) == std::pair(rows[1].text, rows[1].text));
+  CHECK(texts(3.0F, 1.0F, 1) == std::pair(no_event, no_event));
 }
 
 TEMPLATE_TEST_CASE("the C++ kernel rounds printed numbers as gfortran does, from the smallest subnormal to 1",

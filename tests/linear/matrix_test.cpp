@@ -27,6 +27,16 @@ std::vector<std::vector<double>> full(const stiffness_matrix& k) {
   return all;
 }
 
+/// Returns a simply supported beam of `n` elements of length h.
+linear_structure simple_span(int n, double h) {
+  const std::vector<support> ends = {{0, 0, true}, {n, 0, true}};
+  return build(even_beam(n * h, n, 1.0), ends, {});
+}
+
+double rcond_of(const linear_structure& s) {
+  return stiffness_factor(s.stiffness).reciprocal_condition({});
+}
+
 }  // namespace
 
 TEST_CASE("products, norms, supports and scales of K by columns are those of all entries of the matrix") {
@@ -163,20 +173,6 @@ TEST_CASE("if no other order of rows makes the band narrower, the order is kept"
 extern "C" void dpbcon_(const char* uplo, const int* n, const int* kd, const double* ab, const int* ldab,
                         const double* anorm, double* rcond, double* work, int* iwork, int* info,
                         std::size_t uplo_length);
-
-namespace {
-
-/// Returns a simply supported beam of `n` elements of length h.
-linear_structure simple_span(int n, double h) {
-  const std::vector<support> ends = {{0, 0, true}, {n, 0, true}};
-  return build(even_beam(n * h, n, 1.0), ends, {});
-}
-
-double rcond_of(const linear_structure& s) {
-  return stiffness_factor(s.stiffness).reciprocal_condition({});
-}
-
-}  // namespace
 
 TEST_CASE("a band factor solves K x = b, and gives the x from which b was computed") {
   band_matrix a(5, 2);

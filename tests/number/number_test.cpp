@@ -64,27 +64,24 @@ TEST_CASE("stands_for ignores zeros, signs and the form of the exponent of a num
     CHECK(stands_for(same, 0.25));
     CHECK_FALSE(stands_for(same, least));
   }
-  struct row {
-    const char* words;
-    double x;
-    bool stands;
-  };
-  for (const row& r : {row{"0", 0.0, true},
-                       {"-0.0", 0.0, true},
-                       {"0e999999999999999999", 0.0, true},
-                       {".0", 0.0, true},
-                       {"1.0000000000000000000000e-1", 0.1, true},
-                       {"0.10000000000000000555", 0.1, false},
-                       {"5e-324", 5e-324, true},
-                       {"4.9e-324", 5e-324, false},
-                       {"1e-400", 0.0, false},
-                       {"6283.1853069999997", 6283.185307, true},  // the 17 digits of this double
-                       {"6283.1853069999996", 6283.185307, false},
-                       {"6283.18530699999965", 6283.185307, false},
-                       {"2.9999999999999999e-1", 0.3, true},
-                       {"0.30000000000000001", 0.3, false}}) {
-    INFO(r.words);
-    CHECK(stands_for(r.words, r.x) == r.stands);
+  using row = std::tuple<const char*, double, bool>;
+  for (const auto& [words, x, stands] :
+       {row{"0", 0.0, true},
+        {"-0.0", 0.0, true},
+        {"0e999999999999999999", 0.0, true},
+        {".0", 0.0, true},
+        {"1.0000000000000000000000e-1", 0.1, true},
+        {"0.10000000000000000555", 0.1, false},
+        {"5e-324", 5e-324, true},
+        {"4.9e-324", 5e-324, false},
+        {"1e-400", 0.0, false},
+        {"6283.1853069999997", 6283.185307, true},  // the 17 digits of this double
+        {"6283.1853069999996", 6283.185307, false},
+        {"6283.18530699999965", 6283.185307, false},
+        {"2.9999999999999999e-1", 0.3, true},
+        {"0.30000000000000001", 0.3, false}}) {
+    INFO(words);
+    CHECK(stands_for(words, x) == stands);
   }
   // Text that is not a decimal has no shortest decimal.
   for (const char* none : {"", "-", ".", "inf", "0x10", "1e", "1e+", "1 ", "1.2.3", "e5"})

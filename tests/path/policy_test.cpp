@@ -185,22 +185,16 @@ TEST_CASE("a path goes on from the state it is given, which may have other statu
 
 TEST_CASE("only if certainly no equilibrium exists, a path that failed ends in a mechanism") {
   using enum path_status;
-  struct row {
-    path_status failed = cycle;
-    std::optional<bool> exists;
-    bool by_1989_rule = false;
-    path_status ends = cycle;
-  };
-  for (const row& r :
+  using row = std::tuple<path_status, std::optional<bool>, bool, path_status>;
+  for (const auto& [failed, exists, by_1989_rule, ends] :
        {row{mechanism, false, false, mechanism}, row{mechanism, {}, false, path_ended},
         row{mechanism, true, true, path_ended}, row{cycle, false, false, mechanism},
         row{cycle, false, true, cycle}, row{cycle, {}, false, cycle}, row{path_ended, false, true, mechanism},
         row{iteration_limit, true, false, iteration_limit}}) {
-    path_end end{
-        .status = r.failed, .opened = {3}, .has_equilibrium = r.exists, .by_1989_rule = r.by_1989_rule};
+    path_end end{.status = failed, .opened = {3}, .has_equilibrium = exists, .by_1989_rule = by_1989_rule};
     end.conclude();
-    CHECK(end.status == r.ends);
-    CHECK((end.pairs == std::vector<int>{3}) == (r.failed == cycle && r.ends == mechanism));
+    CHECK(end.status == ends);
+    CHECK((end.pairs == std::vector<int>{3}) == (failed == cycle && ends == mechanism));
   }
 }
 

@@ -27,11 +27,9 @@ error_bounds bounds(double w, double w_size, double force, double force_size, bo
 
 TEST_CASE("the allowed error is a millionth of the state's largest number, or of its path's if unloaded") {
   const error_bounds large = bounds(1e-9, 2.0, 1e-9, 50.0);
-  struct {
-    const char* what;
-    std::vector<error_bounds> states;  // of one path; the errors of the last are compared
-    double w, force;
-  } const rows[] = {
+  // The states are of one path; the errors of the last are compared with w and force.
+  using row = std::tuple<const char*, std::vector<error_bounds>, double, double>;
+  const row rows[] = {
       {"a state", {large}, 2e-6, 50e-6},
       {"a smaller state after it", {large, bounds(1e-9, 2e-3, 1e-9, 0.5)}, 2e-9, 0.5e-6},
       {"an unloaded state", {large, bounds(1e-12, 1e-12, 0, 0, true)}, 2e-6, 50e-6},
@@ -41,13 +39,13 @@ TEST_CASE("the allowed error is a millionth of the state's largest number, or of
       {"a state with small errors", {bounds(1e-30, 0, 1e-30, 200)}, 0, 200e-6},
       {"a state with large errors", {bounds(1e30, 0, 1e30, 200)}, 0, 200e-6},
   };
-  for (const auto& row : rows) {
-    INFO(row.what);
+  for (const auto& [what, states, w, force] : rows) {
+    INFO(what);
     allowed_errors sizes;
     by_quantity allowed;
-    for (const error_bounds& b : row.states) allowed = sizes.of(b, 10.0);
-    CHECK(allowed[quantity::w].value() == Approx(row.w).margin(1e-17));
-    CHECK(allowed[quantity::force].value() == Approx(row.force).margin(1e-17));
+    for (const error_bounds& b : states) allowed = sizes.of(b, 10.0);
+    CHECK(allowed[quantity::w].value() == Approx(w).margin(1e-17));
+    CHECK(allowed[quantity::force].value() == Approx(force).margin(1e-17));
     CHECK_FALSE(allowed[quantity::moment]);  // the states have no moments
   }
 }
@@ -99,21 +97,15 @@ TEST_CASE("without forces, the allowed error of forces follows from the largest 
 }
 
 TEST_CASE(
-    "the allowed error of a gap is relative to the larger one of the largest deflection and the largest "
-    "gap") {
-  for (const double size : {1.0, 30.0}) {
+    "the allowed error of a gap is relative to the larger one of the largest deflection and the largest gap, "
+    "and the size of moments is at least the largest force times the extent of the structure") {
+  for (const auto& [what, size, allowed] : {std::tuple(quantity::gap, 1.0, 2.0),
+                                            {quantity::gap, 30.0, 30.0},
+                                            {quantity::moment, 1.0, 50.0 * 10.0},
+                                            {quantity::moment, 900.0, 900.0}}) {
     error_bounds b = bounds(1e-9, 2.0, 1e-9, 50.0);
-    b.error[quantity::gap] = 1e-9;
-    b.size[quantity::gap] = size;
-    CHECK(allowed_errors().of(b, 10.0)[quantity::gap] == Approx(1e-6 * std::max(size, 2.0)));
-  }
-}
-
-TEST_CASE("the size of moments is at least the largest force times the extent of the structure") {
-  for (const double size : {1.0, 900.0}) {
-    error_bounds b = bounds(1e-9, 2.0, 1e-9, 50.0);
-    b.error[quantity::moment] = 1e-9;
-    b.size[quantity::moment] = size;
-    CHECK(allowed_errors().of(b, 10.0)[quantity::moment] == Approx(1e-6 * std::max(size, 50.0 * 10.0)));
+    b.error[what] = 1e-9;
+    b.size[what] = size;
+    CHECK(allowed_errors().of(b, 10.0)[what] == Approx(1e-6 * allowed));
   }
 }

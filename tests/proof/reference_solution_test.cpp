@@ -23,10 +23,6 @@ std::vector<exact_step_end> exact_ends(const problem& p) {
   return follow_corrected_path(exact_problem_of(p)).steps;
 }
 
-std::vector<double> forces_of(const model& m, const load& l) {
-  return nodal_loads(m, l).force;
-}
-
 load even_load(double q) {
   return {{}, {{{q}, {}}}};
 }
@@ -87,7 +83,7 @@ TEST_CASE(
                                          {-0.004 - pressed(30) / 5e4, in_contact},
                                          {20 * f, separated}};
   for (std::size_t step = 0; step < 4; ++step) {
-    const solved_step a = o.solve(forces_of(p.geometry, p.steps[step]));
+    const solved_step a = o.solve(nodal_loads(p.geometry, p.steps[step]).force);
     CHECK(a.status == solved);
     CHECK(a.displacement[4] == Approx(tips[step].first).epsilon(1e-14));
     CHECK(a.isep[0] == tips[step].second);
@@ -95,7 +91,8 @@ TEST_CASE(
   std::vector<double> infinite(6, 0.0);
   infinite[4] = std::numeric_limits<double>::infinity();
   CHECK(o.solve(infinite).status == not_factored);  // does not decide whether an equilibrium exists
-  CHECK(o.solve(forces_of(p.geometry, p.steps[0])).displacement[4] == Approx(tips[0].first).epsilon(1e-14));
+  CHECK(o.solve(nodal_loads(p.geometry, p.steps[0]).force).displacement[4] ==
+        Approx(tips[0].first).epsilon(1e-14));
 }
 
 TEST_CASE("the reference solution finds the exact equilibria of 800 beams with and without supports") {
@@ -113,7 +110,7 @@ TEST_CASE("the reference solution finds the exact equilibria of 800 beams with a
     INFO(number);
     for (std::size_t step = 0; step < ends.size(); ++step) {
       if (ends[step].fraction != 1) continue;
-      const solved_step a = o.solve(forces_of(p.geometry, p.steps[step]));
+      const solved_step a = o.solve(nodal_loads(p.geometry, p.steps[step]).force);
       REQUIRE(a.status == solved);
       if (!is_unique(s, a)) continue;
       c.take(a.displacement, rounded_all(ends[step].displacement));
@@ -145,7 +142,7 @@ TEST_CASE("the reference solution finds the correct state even if the active-set
                        {{{{1, 0, 19.0}, {2, 0, 1.0}, {3, 0, 4.0}}, {}}}};
   const linear_structure s = p.structure();
   reference_solver solver(s);
-  const solved_step a = solver.solve(forces_of(p.geometry, p.steps[0]));
+  const solved_step a = solver.solve(nodal_loads(p.geometry, p.steps[0]).force);
   CHECK(a.status == solved);
   CHECK(a.isep == std::vector<int>{separated, separated, in_contact, separated});
   CHECK(solver.factorisations() < 10);
@@ -159,14 +156,14 @@ TEST_CASE("the reference solution finds no equilibrium of a beam that its load l
   const beam_problem p = free_beam_on_springs(4.0, 4, 10.0, 1.0);
   const linear_structure s = p.structure();
   for (const load& l : {even_load(1.0), load{{{0, 0, -1.0}, {2, 0, 2.0}}, {}}, load{{{2, 1, 1.0}}, {}}}) {
-    const std::vector<double> f = forces_of(p.geometry, l);
+    const std::vector<double> f = nodal_loads(p.geometry, l).force;
     CHECK(reference_solver(s).solve(f).status == path_ended);  // rounded loads prove nothing
     CHECK(reference_solver(s).solve(f, s.truth->work_of(l)).status == mechanism);
   }
   reference_solver o(s);
-  CHECK(o.solve(forces_of(p.geometry, even_load(1.0))).status == path_ended);
-  const solved_step after = o.solve(forces_of(p.geometry, even_load(-1.0)));
-  const solved_step alone = reference_solver(s).solve(forces_of(p.geometry, even_load(-1.0)));
+  CHECK(o.solve(nodal_loads(p.geometry, even_load(1.0)).force).status == path_ended);
+  const solved_step after = o.solve(nodal_loads(p.geometry, even_load(-1.0)).force);
+  const solved_step alone = reference_solver(s).solve(nodal_loads(p.geometry, even_load(-1.0)).force);
   CHECK(after.status == solved);
   for (std::size_t dof = 0; dof < after.displacement.size(); ++dof)
     CHECK(after.displacement[dof] == Approx(alone.displacement[dof]).epsilon(1e-14).margin(1e-16));
@@ -175,11 +172,11 @@ TEST_CASE("the reference solution finds no equilibrium of a beam that its load l
 TEST_CASE("the reference solution finds the equilibrium of a beam balanced on one pair") {
   beam_problem p{even_beam(4.0, 4, 1e3), {}, {{2, face_below, -0.1, 50.0, false}}, {}};
   const linear_structure s = p.structure();
-  const solved_step a = reference_solver(s).solve(forces_of(p.geometry, even_load(-2.0)));
+  const solved_step a = reference_solver(s).solve(nodal_loads(p.geometry, even_load(-2.0)).force);
   CHECK(a.status == solved);
   CHECK(a.displacement[4] == Approx(-0.1 - 8.0 / 50).epsilon(1e-13));
   // A small moment rotates the beam without limit.
-  std::vector<double> f = forces_of(p.geometry, even_load(-2.0));
+  std::vector<double> f = nodal_loads(p.geometry, even_load(-2.0)).force;
   f[6] -= 1e-6;
   CHECK(reference_solver(s).solve(f).status == path_ended);
 }
@@ -190,7 +187,7 @@ TEST_CASE("the reference solution of an unloaded structure is 0, also after a lo
   const linear_structure free = p.structure();
   reference_solver o(free);
   CHECK(o.solve(nothing).displacement == nothing);
-  REQUIRE(o.solve(forces_of(p.geometry, even_load(-1.0))).status == solved);
+  REQUIRE(o.solve(nodal_loads(p.geometry, even_load(-1.0)).force).status == solved);
   const solved_step unloaded = o.solve(nothing);
   CHECK(unloaded.status == solved);
   for (const double w : unloaded.displacement) CHECK(std::abs(w) < 1e-15);
@@ -206,7 +203,7 @@ TEST_CASE(
   for (const int elements : {100, 400, 1000}) {
     const beam_problem p{even_beam(elements, elements, 1.0), {{0, 0, true}, {elements, 0, true}}, {}, {}};
     const linear_structure s = p.structure();
-    const std::vector<double> f = forces_of(p.geometry, even_load(-12.0));
+    const std::vector<double> f = nodal_loads(p.geometry, even_load(-12.0)).force;
     const solved_step a = reference_solver(s).solve(f);
     REQUIRE(a.status == solved);
 
@@ -230,7 +227,7 @@ TEST_CASE(
   for (std::uint64_t number = 0; number < 200; ++number) {
     const random_problem p = make_random_problem(7, number);
     const linear_structure s = build(p.geometry, p.supports, p.pairs);
-    const std::vector<double> before = forces_of(p.geometry, p.steps[0]);
+    const std::vector<double> before = nodal_loads(p.geometry, p.steps[0]).force;
     for (const double ratio : {-1.0, 1e-6, 1e-15}) {
       std::vector<double> f = before;
       for (double& force : f) force *= ratio;

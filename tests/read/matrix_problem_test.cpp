@@ -62,6 +62,27 @@ void check_same(const judged_run& native, const judged_run& matrix) {
   }
 }
 
+/// The certificate of three dofs under a load at dof 3, which has a face below. `d`, `b`, `end`: the entries
+/// on the diagonal, beside it, and at dof 3. `corner`: couples dofs 1 and 3; empty: no entry.
+certificate certificate_of(const std::array<std::string, 4>& entries, const std::string& more,
+                           const std::string& load) {
+  const scratch_folder to;
+  const auto& [d, b, end, corner] = entries;
+  (void)to.write("K.mtx",
+                 fmt::format("%%MatrixMarket matrix coordinate real symmetric\n3 3 6\n1 1 {0}\n2 1 {1}\n"
+                             "2 2 {0}\n3 2 {1}\n3 3 {2}\n3 1 {3}\n",
+                             d, b, end, corner.empty() ? "0" : corner));
+  const problem p = parse_problem(
+      fmt::format(
+          "[matrix]\nstiffness = \"K.mtx\"\n{}[[contact]]\ndof = \"3\"\nsurface = \"below\"\nface = -0.15\n"
+          "stiffness = 1000.0\n[[step]]\npoint = [{{ dof = \"3\", value = {} }}]\n",
+          more, load),
+      to.at("p.toml"));
+  const linear_structure s = structure_of(p);
+  const solved_path found = certifier(p, s, exact_means_of(p)).find_final_states();
+  return found.steps.empty() ? certificate{} : found.steps[0].judged.value();
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -155,31 +176,6 @@ TEST_CASE("on a matrix, the listing gets NDOFPN = INDOF = 1, so that ID is the n
   CHECK(watches.layout.indof == 1);
   CHECK(watches.dofs == 33);
 }
-
-namespace {
-
-/// The certificate of three dofs under a load at dof 3, which has a face below. `d`, `b`, `end`: the entries
-/// on the diagonal, beside it, and at dof 3. `corner`: couples dofs 1 and 3; empty: no entry.
-certificate certificate_of(const std::array<std::string, 4>& entries, const std::string& more,
-                           const std::string& load) {
-  const scratch_folder to;
-  const auto& [d, b, end, corner] = entries;
-  (void)to.write("K.mtx",
-                 fmt::format("%%MatrixMarket matrix coordinate real symmetric\n3 3 6\n1 1 {0}\n2 1 {1}\n"
-                             "2 2 {0}\n3 2 {1}\n3 3 {2}\n3 1 {3}\n",
-                             d, b, end, corner.empty() ? "0" : corner));
-  const problem p = parse_problem(
-      fmt::format(
-          "[matrix]\nstiffness = \"K.mtx\"\n{}[[contact]]\ndof = \"3\"\nsurface = \"below\"\nface = -0.15\n"
-          "stiffness = 1000.0\n[[step]]\npoint = [{{ dof = \"3\", value = {} }}]\n",
-          more, load),
-      to.at("p.toml"));
-  const linear_structure s = structure_of(p);
-  const solved_path found = certifier(p, s, exact_means_of(p)).find_final_states();
-  return found.steps.empty() ? certificate{} : found.steps[0].judged.value();
-}
-
-}  // namespace
 
 TEST_CASE("the entries of a matrix are the decimals of its file, whatever their form, and are certified") {
   const std::array<std::string, 4> all[] = {

@@ -42,10 +42,9 @@ TEST_CASE(
   fs::create_directory_symlink("../..", here.path() / "own/below/up");
   fs::create_symlink("K.mtx", here.path() / "own/inside");
   const std::string file = here.at("own/p.toml");
-  for (const std::string& name :
-       {std::string("../secret"), std::string("/etc/passwd"), here.at("secret"), std::string("link"),
-        std::string("below/up/secret"), std::string("below/../../secret"), std::string("../own-beside/K.mtx"),
-        std::string("none/../../secret"), std::string("/proc/self/environ"), std::string("..")}) {
+  for (const std::string& name : std::vector<std::string>{
+           "../secret", "/etc/passwd", here.at("secret"), "link", "below/up/secret", "below/../../secret",
+           "../own-beside/K.mtx", "none/../../secret", "/proc/self/environ", ".."}) {
     INFO(name);
     CHECK_THROWS_WITH(path_of(file, name, reach::own_folder),
                       Contains("p.toml:1:13: stiffness: found ") &&
@@ -53,9 +52,8 @@ TEST_CASE(
                           Contains("--allow-outside"));
     CHECK_NOTHROW(path_of(file, name, reach::anywhere));
   }
-  for (const std::string& name :
-       {std::string("K.mtx"), std::string("./K.mtx"), std::string("inside"), std::string("below/../K.mtx"),
-        std::string("none"), here.at("own/K.mtx"), std::string("../own/K.mtx")}) {
+  for (const std::string& name : std::vector<std::string>{"K.mtx", "./K.mtx", "inside", "below/../K.mtx",
+                                                          "none", here.at("own/K.mtx"), "../own/K.mtx"}) {
     INFO(name);
     CHECK_NOTHROW(path_of(file, name, reach::own_folder));
   }

@@ -75,11 +75,8 @@ TEST_CASE("a range of real numbers includes or excludes each of its ends as decl
 
 TEST_CASE("a value of another kind is refused with its place, what it is and what is allowed") {
   const std::string nested = "[[a]]\n[[a]]\nb = [ { c = 1 }, { c = 2, d = 3 } ]\n";
-  struct {
-    std::string text;
-    use with;
-    std::string expected;
-  } const rows[] = {
+  using row = std::tuple<std::string, use, std::string>;
+  const row rows[] = {
       // A whole number is accepted as a real number, but not the reverse.
       {"n = 3", real, "3"},
       {"n = 3", whole, "3"},
@@ -131,10 +128,10 @@ TEST_CASE("a value of another kind is refused with its place, what it is and wha
       {"n = [4,0]", real, "f:1:5: n: found an array of 2 (write a decimal point, 4.0 instead of 4,0)"},
       {"a = 1\nb = = 2\n", nothing, "f:2:5: not TOML: "},
   };
-  for (const auto& row : rows) {
-    const std::string it = result(row.text, row.with);
-    INFO(row.text << ": " << it);
-    CHECK((row.expected.starts_with("f:") ? it.starts_with(row.expected) : it == row.expected));
+  for (const auto& [text, with, expected] : rows) {
+    const std::string it = result(text, with);
+    INFO(text << ": " << it);
+    CHECK((expected.starts_with("f:") ? it.starts_with(expected) : it == expected));
   }
   for (const char* text :
        {"0..2", "4..6", "3..2", "..3", "2..", "2...3", "2.3", "1 ..2", "+1..2", "", "ALL"}) {

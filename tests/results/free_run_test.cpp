@@ -21,12 +21,8 @@ recorded_path free_run(const beam_problem& p, const char* kernel) {
 
 TEST_CASE("a free run reports a different event, a missing event, a different end and a wrong rotation") {
   const recorded_path leader = free_run(cantilever_over_a_stop(), "fortran");
-  struct row {
-    std::function<void(recorded_path&)> change;
-    bool same_events, far;
-    const char* words;
-  };
-  for (const row& r :
+  using row = std::tuple<std::function<void(recorded_path&)>, bool, bool, const char*>;
+  for (const auto& [change, same_events, far, words] :
        {row{[](recorded_path& p) { p.record.steps[3].increments[0].events[0].what = change::make; }, false,
             false, "the leader: step 4, pair 1 breaks contact; this kernel: step 4, pair 1 makes contact"},
         {[](recorded_path& p) { p.record.steps[3].increments[0].events.clear(); }, false, false,
@@ -35,12 +31,12 @@ TEST_CASE("a free run reports a different event, a missing event, a different en
         {[](recorded_path& p) { p.record.steps[2].displacement[5] *= 1.001; }, true, true,
          ""}}) {  // one rotation
     recorded_path other = leader;
-    r.change(other);
+    change(other);
     const free_run_difference d = compare_paths(leader, other, 1e-9, 2);
     CHECK_FALSE(d.within_bound());
-    CHECK(d.same_events == r.same_events);
-    CHECK_THAT(d.first_difference, Contains(r.words));
-    CHECK((d.displacement > 1e-4) == r.far);
+    CHECK(d.same_events == same_events);
+    CHECK_THAT(d.first_difference, Contains(words));
+    CHECK((d.displacement > 1e-4) == far);
   }
 }
 

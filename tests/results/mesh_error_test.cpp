@@ -77,19 +77,15 @@ TEST_CASE("Without mesh error, a beam in full contact and one that lifts off hav
   };
   // (cosh 2 + cos 2 + 2) / (sinh 2 + sin 2) / 8, (cosh 2 - cos 2) / (sinh 2 + sin 2) / 4, and coth(pi / 2)
   // over 8 and 4, from 40 digits
-  struct row {
-    int length;
-    double w, moment;
-  };
-  for (const row& r : {row{2, 0.147317648806035898, 0.230279824904519431},
-                       row{6, 0.136291426340921029, 0.272582852681842058}})
+  for (const auto& [length, w, moment] : {std::tuple(2, 0.147317648806035898, 0.230279824904519431),
+                                          {6, 0.136291426340921029, 0.272582852681842058}})
     for (const int elements : {4, 20}) {
-      const proved_run run = loaded(r.length, elements);
+      const proved_run run = loaded(length, elements);
       REQUIRE(run.error().not_proved.empty());
-      CHECK(run.without("w").least == Approx(-r.w).epsilon(1e-9));
-      CHECK(run.without("moment").most == Approx(r.moment).epsilon(1e-9));
+      CHECK(run.without("w").least == Approx(-w).epsilon(1e-9));
+      CHECK(run.without("moment").most == Approx(moment).epsilon(1e-9));
       CHECK(run.without("shear").most == Approx(0.5).epsilon(1e-9));
-      CHECK(std::abs(run.without("w").told_least + r.w) <= run.bound("w"));
+      CHECK(std::abs(run.without("w").told_least + w) <= run.bound("w"));
     }
 }
 

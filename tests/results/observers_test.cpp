@@ -14,26 +14,14 @@ using namespace contct;
 
 namespace {
 
-/// The explained increments of PB1, with `second` as the second kernel.
-struct explained_pb1 {
-  struct told {
-    int step, number;
-    double fraction_before, smin, other_smin;
-    int winner;
-    bool apart;
-  };
-  std::vector<told> increments;
-  explained_path path;
-
-  explicit explained_pb1(const std::vector<std::string>& second, increments_wanted wanted = {})
-      : path(facts_of_kernel("fortran"), second, wanted, [this](const explained_increment& i) {
-          increments.push_back({i.what.step, i.what.number, i.fraction_before, i.call.smin,
-                                i.other == nullptr ? std::nan("") : i.other->smin, i.call.winner,
-                                i.apart.has_value()});
-        }) {
-    (void)cantilever_over_a_stop().run("fortran", {&path});
-  }
-};
+/// Follows PB1 with `second` as the second kernel, and passes its explained increments to `take`.
+explained_path explained_pb1(
+    const std::vector<std::string>& second, increments_wanted wanted = {},
+    std::function<void(const explained_increment&)> take = [](const auto&) {}) {
+  explained_path path(facts_of_kernel("fortran"), second, wanted, std::move(take));
+  (void)cantilever_over_a_stop().run("fortran", {&path});
+  return path;
+}
 
 load from_zero(load l) {
   l.from_zero = true;
@@ -72,32 +60,34 @@ std::pair<recorder, recorder> with_and_without_first_step(const char* engine, co
 }  // namespace
 
 TEST_CASE("every increment of PB1 is explained and compared with a second kernel") {
-  const explained_pb1 all({"cpp"});
-  REQUIRE(all.increments.size() == 6);
-  CHECK(all.path.calls() == 6);
-  CHECK(all.path.explained() == 6);
-  CHECK(all.path.steps() == 4);
-  CHECK(all.path.most_increments() == 2);
-  CHECK(all.path.compared().values == 6L * 4);
-  CHECK(all.path.compared().mismatches == 0);
-  CHECK_FALSE(all.path.first());
-  for (const auto& i : all.increments) {
-    INFO("step " << i.step << ", increment " << i.number);
-    CHECK(i.other_smin == i.smin);
+  const explained_path all = explained_pb1({"cpp"}, {}, [](const explained_increment& i) {
+    INFO("step " << i.what.step << ", increment " << i.what.number);
+    REQUIRE(i.other != nullptr);
+    CHECK(i.other->smin == i.call.smin);
     CHECK_FALSE(i.apart);
-    CHECK((i.winner == 0) == (i.smin < 1.0));
-    CHECK((i.fraction_before > 0.0) == (i.number == 2));
-  }
+    CHECK((i.call.winner == 0) == (i.call.smin < 1.0));
+    CHECK((i.fraction_before > 0.0) == (i.what.number == 2));
+  });
+  CHECK(all.calls() == 6);
+  CHECK(all.explained() == 6);
+  CHECK(all.steps() == 4);
+  CHECK(all.most_increments() == 2);
+  CHECK(all.compared().values == 6L * 4);
+  CHECK(all.compared().mismatches == 0);
+  CHECK_FALSE(all.first());
 }
 
 TEST_CASE("one increment of one kernel can be explained without a second kernel") {
-  const explained_pb1 one({}, {2, 2});
-  REQUIRE(one.increments.size() == 1);
-  CHECK((one.increments[0].step == 2 && one.increments[0].number == 2));
-  CHECK(one.increments[0].fraction_before > 0.0);
-  CHECK(std::isnan(one.increments[0].other_smin));
-  CHECK(one.path.compared().values == 0);
-  CHECK(one.path.calls() == 6);
+  int increments = 0;
+  const explained_path one = explained_pb1({}, {2, 2}, [&increments](const explained_increment& i) {
+    ++increments;
+    CHECK((i.what.step == 2 && i.what.number == 2));
+    CHECK(i.fraction_before > 0.0);
+    CHECK(i.other == nullptr);
+  });
+  CHECK(increments == 1);
+  CHECK(one.compared().values == 0);
+  CHECK(one.calls() == 6);
   CHECK_THROWS_AS(explained_pb1({"corrected"}), std::invalid_argument);
 }
 

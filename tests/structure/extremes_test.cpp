@@ -42,15 +42,14 @@ TEST_CASE("The derivatives of an element's deflection line are slope, moment, sh
     CHECK(polynomial_at(line.slope, 1.0) == Approx(u[2 * e + 3]).epsilon(1e-10));
     CHECK(polynomial_at(line.moment, 1.0) == Approx(ends.at(e, 1)[1]).epsilon(1e-10).margin(1e-10));
     CHECK(polynomial_at(line.shear, 1.0) == Approx(ends.at(e, 0)[1]).epsilon(1e-10));
-    const double t = 0.3, d = 1e-4;
-    const auto slope_of = [&](const auto& p) {
-      return (polynomial_at(p, t + d) - polynomial_at(p, t - d)) / (2 * d * line.h);
-    };
-    const double x = line.left + t * line.h;
-    CHECK(slope_of(line.w) == Approx(polynomial_at(line.slope, t)).epsilon(1e-6));
-    CHECK(b.EI[e] * slope_of(line.slope) == Approx(polynomial_at(line.moment, t)).epsilon(1e-6));
-    CHECK(slope_of(line.moment) == Approx(polynomial_at(line.shear, t)).epsilon(1e-6));
-    CHECK(slope_of(line.shear) == Approx(4.0 + (e == 1 ? 1 - 2 * x + 0.5 * x * x : 0.0)).epsilon(1e-6));
+    const double t = 0.3, d = 1e-4, x = line.left + t * line.h;
+    const double q = 4.0 + (e == 1 ? 1 - 2 * x + 0.5 * x * x : 0.0);
+    for (const auto& [p, slope] : {std::pair(line.w, polynomial_at(line.slope, t)),
+                                   {line.slope, polynomial_at(line.moment, t) / b.EI[e]},
+                                   {line.moment, polynomial_at(line.shear, t)},
+                                   {line.shear, q}})
+      CHECK((polynomial_at(p, t + d) - polynomial_at(p, t - d)) / (2 * d * line.h) ==
+            Approx(slope).epsilon(1e-6));
   }
 }
 

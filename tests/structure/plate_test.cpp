@@ -160,12 +160,6 @@ struct loaded_quarter {
   std::vector<double> u;
 };
 
-/// Returns `s` with the absolute values of K, to measure the rounding in K u.
-linear_structure magnitudes(linear_structure s) {
-  for (double& entry : s.stiffness.values) entry = std::abs(entry);
-  return s;
-}
-
 load rectangle(double pressure, std::array<double, 2> x, std::array<double, 2> y) {
   load l;
   l.placed = {{load_kind::force, x[0], x[1], {pressure}, {y[0], y[1]}}};
@@ -174,6 +168,11 @@ load rectangle(double pressure, std::array<double, 2> x, std::array<double, 2> y
 
 std::vector<double> nodal_forces(const plate& p, const load& l) {
   return nodal_loads(p, l).force;
+}
+
+/// Returns the mean of the n-th power from a to b.
+double mean(double a, double b, int n) {
+  return (std::pow(b, n + 1) - std::pow(a, n + 1)) / (n + 1) / (b - a);
 }
 
 /// Returns a load's work on x^m y^n, which the elements reproduce exactly.
@@ -188,7 +187,8 @@ double work_on(const plate& p, const load& l, int m, int n) {
 TEST_CASE("the three rigid-body motions of a plate need no force") {
   for (const plate& p : {uneven_plate(), uneven_plate(1000, 1), uneven_plate(1e-12, 1e-12)}) {
     const linear_structure s = build(p, {}, {});
-    const linear_structure of_signs = magnitudes(s);
+    linear_structure magnitudes = s;  // to measure the rounding in K u
+    for (double& entry : magnitudes.stiffness.values) entry = std::abs(entry);
     REQUIRE(s.rigid_motions == 3);
     REQUIRE(s.rigid_rows.size() == static_cast<std::size_t>(p.dofs()));
     for (std::size_t motion = 0; motion < 3; ++motion) {
@@ -196,7 +196,7 @@ TEST_CASE("the three rigid-body motions of a plate need no force") {
       for (const rigid_row& row : s.rigid_rows) u.push_back(row[motion]);
       const auto force = multiply(s, u);
       for (double& x : u) x = std::abs(x);
-      const auto rounding = multiply(of_signs, u);
+      const auto rounding = multiply(magnitudes, u);
       for (std::size_t i = 0; i < u.size(); ++i) CHECK(std::abs(force[i]) <= 1e-14 * rounding[i]);
     }
     // The motions are a translation by 1, and rotations about the middle that lift the right edge or the
@@ -248,17 +248,13 @@ TEST_CASE("the corner moments of a plate are exact for cubic deflections and rig
 }
 
 TEST_CASE("a simply supported square plate (PP1) converges to Navier's series as h^2, and sags") {
-  struct {
-    int n;
-    double w, corner;
-  } const rows[] = {{4, 0.00412928, 0.05255},
-                    {8, 0.00407910, 0.06120},
-                    {16, 0.00406654, 0.06386},
-                    {24, 0.00406421, 0.06443}};
-  for (const auto& e : rows) {
-    const loaded_quarter q(e.n);
-    CHECK(q.middle() == Approx(-e.w).margin(5e-9));
-    CHECK(q.corner() == Approx(-e.corner).margin(5e-6));  // the support pulls the corner down
+  for (const auto& [n, w, corner] : {std::tuple(4, 0.00412928, 0.05255),
+                                     {8, 0.00407910, 0.06120},
+                                     {16, 0.00406654, 0.06386},
+                                     {24, 0.00406421, 0.06443}}) {
+    const loaded_quarter q(n);
+    CHECK(q.middle() == Approx(-w).margin(5e-9));
+    CHECK(q.corner() == Approx(-corner).margin(5e-6));  // the support pulls the corner down
   }
   double navier = 0.0;
   for (int m = 1; m < 400; m += 2) {
@@ -322,15 +318,12 @@ TEST_CASE("the dimensionless answer of a plate is the same in units of length fr
 
 TEST_CASE("A pressure on any rectangle of a plate does exact work on cubic polynomials, x^3 y and x y^3") {
   const load l = rectangle(3.0, {-0.3, 1.3}, {0.25, 1.05});
-  const auto moment = [](double a, double b, int n) {
-    return (std::pow(b, n + 1) - std::pow(a, n + 1)) / (n + 1);
-  };
   for (int m = 0; m <= 3; ++m) {
     for (int n = 0; n <= 3; ++n) {
       if (m + n > 4 || (m == 2 && n == 2)) continue;
       CAPTURE(m, n);
       CHECK(work_on(uneven_plate(), l, m, n) ==
-            Approx(3.0 * moment(-0.3, 1.3, m) * moment(0.25, 1.05, n)).epsilon(1e-13));
+            Approx(3.0 * 1.6 * 0.8 * mean(-0.3, 1.3, m) * mean(0.25, 1.05, n)).epsilon(1e-13));
     }
   }
   const resultant r = resultant_of(uneven_plate(), rectangle(0.5, {-0.3, 1.3}, {0.25, 1.05}));
@@ -339,10 +332,6 @@ TEST_CASE("A pressure on any rectangle of a plate does exact work on cubic polyn
 
 TEST_CASE(
     "A moment over a rectangle of a plate does the work of the mean slope, for every cubic deflection") {
-  // The mean of the n-th power along a side.
-  const auto mean = [](double from, double to, int n) {
-    return (std::pow(to, n + 1) - std::pow(from, n + 1)) / (n + 1) / (to - from);
-  };
   for (const std::array<double, 2>& total : {std::array{3.0, 0.0}, {0.0, -2.0}, {3.0, -2.0}}) {
     const load l{{}, {}, {}, {}, "", {{load_kind::moment, -0.3, 1.3, {total[0], total[1]}, {0.25, 1.05}}}};
     for (int m = 0; m <= 3; ++m)
@@ -361,20 +350,14 @@ TEST_CASE(
 
 TEST_CASE("A pressure on elements of a plate has its resultant, and equals one on a rectangle to the bit") {
   const plate p = uneven_plate();
-  struct {
-    load l;
-    double force = 0, along_x = 0, along_y = 0;
-  } const rows[] = {{{{}, {{{-2.0}, {}}}}, -2.0 * 9, -2.0 * 9 * 0.5, -2.0 * 9 * 1.5},
-                    // Element 4 is 0.3 by 0.3 with its middle at (0.35, 0.85).
-                    {{{{0, 2, 5.0}}, {{{1.0}, {4}}, {{2.0}, {4}}}},
-                     3.0 * 0.09,
-                     3.0 * 0.09 * 0.35,
-                     3.0 * 0.09 * 0.85 + 5.0}};
-  for (const auto& row : rows) {
-    CHECK(work_on(p, row.l, 0, 0) == Approx(row.force).epsilon(1e-14));
-    CHECK(work_on(p, row.l, 1, 0) == Approx(row.along_x).epsilon(1e-14));
-    CHECK(work_on(p, row.l, 0, 1) == Approx(row.along_y).epsilon(1e-14));
-  }
+  // The resultant: the force, and its moments. Element 4 is 0.3 by 0.3 with its middle at (0.35, 0.85).
+  const std::pair<load, std::array<double, 3>> rows[] = {
+      {{{}, {{{-2.0}, {}}}}, {-2.0 * 9, -2.0 * 9 * 0.5, -2.0 * 9 * 1.5}},
+      {{{{0, 2, 5.0}}, {{{1.0}, {4}}, {{2.0}, {4}}}},
+       {3.0 * 0.09, 3.0 * 0.09 * 0.35, 3.0 * 0.09 * 0.85 + 5.0}}};
+  for (const auto& [l, expected] : rows)
+    for (int i = 0; i < 3; ++i)
+      CHECK(work_on(p, l, i == 1 ? 1 : 0, i == 2 ? 1 : 0) == Approx(expected[i]).epsilon(1e-14));
   // With half lengths a and b, a pressure q has the corner moments q a^2 b / 3 and q a b^2 / 3.
   CHECK(nodal_forces({{0, 2}, {0, 4}, 1.0, 0.3}, {{}, {{{1.0}, {}}}}) ==
         std::vector<double>{2, 2.0 / 3, 4.0 / 3, 2, -2.0 / 3, 4.0 / 3, 2, 2.0 / 3, -4.0 / 3, 2, -2.0 / 3,

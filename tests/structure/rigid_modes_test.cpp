@@ -62,15 +62,6 @@ int rank_of(const assembled& a, const std::vector<int>& dofs, const std::vector<
   return build(a, supports, pairs).held_by([](std::size_t) { return true; }).rank();
 }
 
-std::string refusal_of(const assembled& a, const std::vector<support>& supports = {}) {
-  try {
-    (void)build(a, supports, {});
-  } catch (const std::invalid_argument& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-
 }  // namespace
 
 TEST_CASE("the rank of supports does not depend on the lengths of their rows, from 1e-200 to 1e200") {
@@ -234,28 +225,28 @@ TEST_CASE(
   }
   CHECK(motions_of(triangle(-0.5 + 1e-7)) == 0);
   assembled declared = triangle(-0.5 - 1e-7);
-  CHECK_THAT(refusal_of(declared), Contains("set free_motions = 1"));
+  CHECK_THROWS_WITH(build(declared, {}, {}), Contains("set free_motions = 1"));
   declared.free_motions = 1;
   CHECK(motions_of(declared) == 1);
 }
 
 TEST_CASE(
     "a matrix that is indefinite or has a dof without stiffness is refused, and the message names the file") {
-  CHECK_THAT(refusal_of(of({2, {{0, 0, 1.0}, {1, 0, 2.0}, {1, 1, 1.0}}})),
-             Contains("K.mtx: the matrix is not positive semidefinite"));
+  CHECK_THROWS_WITH(build(of({2, {{0, 0, 1.0}, {1, 0, 2.0}, {1, 1, 1.0}}}), {}, {}),
+                    Contains("K.mtx: the matrix is not positive semidefinite"));
   const assembled half = of({2, {{0, 0, 1.0}}});
-  CHECK_THAT(refusal_of(half), Contains("K.mtx: dof 2: found a row of zeros and no support"));
-  CHECK(refusal_of(half, {{1, 0, true}}) == "accepted");
-  CHECK(refusal_of(half, {{1, 0, false, 2.0}}) == "accepted");
+  CHECK_THROWS_WITH(build(half, {}, {}), Contains("K.mtx: dof 2: found a row of zeros and no support"));
+  CHECK_NOTHROW(build(half, std::vector<support>{{1, 0, true}}, {}));
+  CHECK_NOTHROW(build(half, std::vector<support>{{1, 0, false, 2.0}}, {}));
   assembled boxes = box();
   for (const matrix_entry& e : braced(box_at(5), 1e5).entries)
     boxes.stiffness.entries.push_back({e.row + 24, e.column + 24, e.value});
   boxes.stiffness.order = 48;
-  CHECK_THAT(refusal_of(boxes), Contains("has more than 6 rigid-body motions"));
+  CHECK_THROWS_WITH(build(boxes, {}, {}), Contains("has more than 6 rigid-body motions"));
   assembled declared = box();
   declared.free_motions = 7;
-  CHECK_THAT(refusal_of(declared), Contains("free_motions: found 7; allowed: 6, the number of rigid-body "
-                                            "motions of the matrix with its supports"));
+  CHECK_THROWS_WITH(build(declared, {}, {}), Contains("free_motions: found 7; allowed: 6, the number of "
+                                                      "rigid-body motions of the matrix with its supports"));
 }
 
 TEST_CASE("the order of the rows of a matrix does not change rigid-body motions or reactions") {

@@ -137,16 +137,12 @@ TEST_CASE("the Gauss rule of n points is exact for polynomials of degree 2 n - 1
 TEST_CASE(
     "a beam and a plate have counts of nodes, elements and dofs, names of dofs, and tributary shares of "
     "nodes") {
-  struct {
-    model m;
-    std::array<int, 4> counts;
-    std::vector<std::string> names;
-    std::vector<double> shares;
-  } const rows[] = {{two_spans, {3, 2, 2, 6}, {"w", "theta"}, {0.5, 1.5, 1.0}},
-                    {small, {6, 2, 3, 18}, {"w", "wx", "wy"}, {0.25, 0.75, 0.5, 0.25, 0.75, 0.5}}};
-  for (const auto& [m, counts, names, shares] : rows) {
+  using words = std::vector<std::string>;
+  for (const auto& [m, counts, names, shares] :
+       {std::tuple(model(two_spans), std::array{3, 2, 2, 6}, words{"w", "theta"}, std::vector{0.5, 1.5, 1.0}),
+        {small, {6, 2, 3, 18}, {"w", "wx", "wy"}, {0.25, 0.75, 0.5, 0.25, 0.75, 0.5}}}) {
     CHECK(std::array{nodes(m), elements(m), dofs_per_node(m), dofs(m)} == counts);
-    CHECK(std::vector<std::string>(dof_names(m).begin(), dof_names(m).end()) == names);
+    CHECK(words(dof_names(m).begin(), dof_names(m).end()) == names);
     CHECK(tributary_shares(m) == shares);
   }
 }
