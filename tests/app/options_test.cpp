@@ -37,9 +37,8 @@ Options parsed(const std::string& line) {
 /// A beam with pairs at nodes 2 to 11.
 const char* const ten_pairs =
     "[beam]\nlength = 10\nelements = 10\nEI = 1\n[[support]]\nnode = 1\nfix = ['w', 'theta']\n[[contact]]\n"
-    "nodes = '2..6'\nsurface = 'below'\nface = -1\nstiffness = 1\n[[contact]]\nnodes = '7..11'\nsurface = "
-    "'above'\n"
-    "face = 1\nstiffness = 1\n[[step]]\nuniform = 1\n";
+    "nodes = '2..6'\nsurface = 'below'\nface = -1\nstiffness = 1\n[[contact]]\nnodes = '7..11'\n"
+    "surface = 'above'\nface = 1\nstiffness = 1\n[[step]]\nuniform = 1\n";
 
 }  // namespace
 

@@ -275,11 +275,10 @@ TEST_CASE("The names of supports, pairs and beds are in every output of contct r
   const workplace here;
   here.write(
       "named.toml",
-      "project = 'Hall 3'\n[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = "
-      "'w'\n"
-      "name = ['north', 'south']\n[[contact]]\nx = 6\nsurface = 'below'\nface = -0.001\nstiffness = "
-      "1e4\nname = "
-      "'stop'\n[[bed]]\nfrom = 1\nto = 4\nmodulus = 100\nface = 0\nname = 'soil'\n[[step]]\nuniform = -10\n");
+      "project = 'Hall 3'\n[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\n"
+      "fix = 'w'\nname = ['north', 'south']\n[[contact]]\nx = 6\nsurface = 'below'\nface = -0.001\n"
+      "stiffness = 1e4\nname = 'stop'\n[[bed]]\nfrom = 1\nto = 4\nmodulus = 100\nface = 0\nname = 'soil'\n"
+      "[[step]]\nuniform = -10\n");
   here.check("run named.toml --detail --csv t.csv --json t.json --html t.html", 0,
              {"make 1: stop, node 7 below", "pair 1, stop, node 7 below", "bed 1, soil", "south"});
   const std::vector<std::string> names = {"north", "south", "stop", "soil"};
@@ -298,11 +297,9 @@ TEST_CASE("The names of supports, pairs and beds are in every output of contct r
 TEST_CASE("In combinations in which the 1989 rule was not followed, no increment says that it is the same") {
   const workplace here;
   here.write("places.toml",
-             "[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = "
-             "'w'\n[[contact]]\nx = 6\n"
-             "surface = 'below'\nface = -0.001\nstiffness = 1e5\n[[train]]\nname = 'axle'\naxles = [ { at = "
-             "0, w = -10 } "
-             "]\nfrom = 0.5\nto = 11.5\nby = 0.25\n");
+             "[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = 'w'\n"
+             "[[contact]]\nx = 6\nsurface = 'below'\nface = -0.001\nstiffness = 1e5\n[[train]]\n"
+             "name = 'axle'\naxles = [ { at = 0, w = -10 } ]\nfrom = 0.5\nto = 11.5\nby = 0.25\n");
   const std::string some = here.contct("run places.toml --detail").out;
   CHECK(count(some, "  same  ") > 0);
   CHECK(count(some, "  -  ") > 0);

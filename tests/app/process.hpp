@@ -34,9 +34,8 @@ inline const std::filesystem::path root = CONTCT_ROOT;
 
 /// A problem in which pair 1 separates at once, and the beam is then a mechanism.
 inline const std::string freed =
-    "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnodes = [2, 4]\nsurface = 'below'\nface = "
-    "0\nstiffness = 10\n"
-    "[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n";
+    "[beam]\nx = [0, 1, 2, 3, 4]\nEI = 100\n[[contact]]\nnodes = [2, 4]\nsurface = 'below'\nface = 0\n"
+    "stiffness = 10\n[[step]]\npoint = [ { node = 3, w = -4 }, { node = 5, w = -6 } ]\n";
 
 /// Runs a shell command; `out` has its standard output and standard error.
 finished shell(const std::string& line);

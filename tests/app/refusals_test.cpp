@@ -45,13 +45,11 @@ int escapes_shown(const scratch_folder& dir, const texts& arguments) {
 int escapes_of_all_outputs(const scratch_folder& dir, const std::string& file) {
   int escaped = 0;
   std::istringstream lines(
-      "check\nrun\nrun --detail --kernels corrected\nrun --final-only\nexplain --all\nexplain --increment "
-      "1.1\n"
-      "run --free-run --kernels fortran,corrected\nrun --kernels fortran,%\nrun --engine %\nrun --node "
-      "%\nrun --json %/x\n"
-      "explain --quiet --json -\nexact --kernels fortran\nexact --quiet --json -\nrun --json -\nrun --html "
-      "-\nrun --csv -\n"
-      "run --log -\nrun --trace -\nrun --proof -\nrun --junit -\nrun --markdown -\n");
+      "check\nrun\nrun --detail --kernels corrected\nrun --final-only\nexplain --all\n"
+      "explain --increment 1.1\nrun --free-run --kernels fortran,corrected\nrun --kernels fortran,%\n"
+      "run --engine %\nrun --node %\nrun --json %/x\nexplain --quiet --json -\nexact --kernels fortran\n"
+      "exact --quiet --json -\nrun --json -\nrun --html -\nrun --csv -\nrun --log -\nrun --trace -\n"
+      "run --proof -\nrun --junit -\nrun --markdown -\n");
   for (std::string line; std::getline(lines, line);) {
     texts arguments = words_of(line);
     for (std::string& word : arguments)

@@ -57,9 +57,8 @@ std::string mat(int n) {
   const double w = 0.25 * n * n / 256.0;
   return plate("mat", n) +
          fmt::format(
-             "[[bed]]\nmodulus = 0.00390625\nface = 0.0\n[[step]]\nuniform = -0.00390625\n[[step]]\nuniform "
-             "= "
-             "-0.00390625\npoint = [ {{ node = {}, w = {:.17g}, wx = {:.17g}, wy = {:.17g} }} ]\n",
+             "[[bed]]\nmodulus = 0.00390625\nface = 0.0\n[[step]]\nuniform = -0.00390625\n[[step]]\n"
+             "uniform = -0.00390625\npoint = [ {{ node = {}, w = {:.17g}, wx = {:.17g}, wy = {:.17g} }} ]\n",
              node, w, 0.137 * w, 0.311 * w);
 }
 

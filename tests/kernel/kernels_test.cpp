@@ -49,10 +49,6 @@ small_call<Real>& ask_fortran(small_call<Real>& c) {
   return c.ask_by([](call<Real>& arguments) { fortran::contct(arguments); });
 }
 
-small_call<double> one_that_closes() {
-  return small_call<double>({{0.0, 1.0, 0.25}});
-}
-
 /// Returns the texts of gfortran and C++ for one pair at `node` with this gap and response.
 template <class Real>
 std::pair<std::string, std::string> texts(Real gap, Real response, int node) {
@@ -216,7 +212,7 @@ TEST_CASE("a call of 2147483647 pairs is refused at once, because the loop of th
 }
 
 TEST_CASE("if unit 26 is not requested, the 1989 code writes no text and no file fort.26") {
-  auto c = one_that_closes();
+  small_call<double> c({{0.0, 1.0, 0.25}});
   for (int i = 0; i < 1000; ++i) ask_fortran(c);
   CHECK_FALSE(std::filesystem::exists("fort.26"));
 }

@@ -5,20 +5,21 @@ the engine `updated` for a beam, plates and matrices of REFERENCE, and D within 
 message with exit status 2 and leaves no file; and the exit status of a mechanism. Without MPIEXEC, if PETSc is not
 found, tests that the message says how to install PETSc. The program contct itself never links MPI or PETSc.
 """
-import json
 import os
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
+from testing import result_of, run  # noqa: E402
 
 PROBLEMS = ["problems/pb07-three-gap-supports.toml", "problems/pp01g-unilateral-edges-n16-k1e5.toml",
             "problems/pp02b-settled-column-n8.toml", "problems/pp05b-free-plate-on-bed-n12.toml", "structures/frame.toml",
             "structures/calculix/console.toml"]
 LEAST = {"events": 60, "numbers": 1000}
 # Open MPI needs two variables to run as root; on shared processors a waiting rank should yield to others.
-MPI = os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
-                    "ASAN_OPTIONS": "detect_leaks=0"}
+os.environ |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+               "ASAN_OPTIONS": "detect_leaks=0"}
 MECHANISM = """beam = { length = 1.0, elements = 1, EI = 1.0 }
 contact = [{ node = 1, surface = "below", face = 0.0, stiffness = 10.0 }]
 step = [{ point = [{ node = 2, w = -1.0 }] }]
@@ -26,20 +27,9 @@ step = [{ point = [{ node = 2, w = -1.0 }] }]
 
 
 def mpirun(mpiexec, ranks):
-    said = subprocess.run([mpiexec, "--version"], capture_output=True, text=True, env=MPI).stdout
+    said = run(mpiexec, "--version").stdout
     more = ["--oversubscribe", "--bind-to", "none"] if "Open MPI" in said or "OpenRTE" in said else []
     return [mpiexec, *more, "-n", str(ranks)]
-
-
-def run(line, folder):
-    return subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, text=True, env=MPI, cwd=folder)
-
-
-def solved(line, folder):
-    finished = run([*line, "--json", "out.json", "--quiet"], folder)
-    if finished.returncode != 0:
-        sys.exit(f"{line}: found exit status {finished.returncode}, allowed: 0\n{finished.stdout}{finished.stderr}")
-    return json.loads((Path(folder) / "out.json").read_text())
 
 
 def events_of(step):
@@ -71,11 +61,11 @@ def compare(contct, reference, job):
     counts = dict.fromkeys(LEAST, 0)
     with tempfile.TemporaryDirectory() as folder:
         for name in PROBLEMS:
-            line = [contct, "run", reference / name, "--kernels", "corrected", "--engine"]
-            many = solved([*job, *line, "petsc"], folder)
+            line = [contct, "run", reference / name, "--quiet", "--kernels", "corrected", "--engine"]
+            many = result_of(*job, *line, "petsc", cwd=folder)
             if many["engine"] != "petsc":
                 sys.exit(f"{name}: found the engine {many['engine']}")
-            if found := difference(solved([*line, "updated"], folder), many, counts):
+            if found := difference(result_of(*line, "updated", cwd=folder), many, counts):
                 sys.exit(f"{name}: {found}")
     if short := {k: n for k, n in counts.items() if n < LEAST[k]}:
         sys.exit(f"compared only {short}, required: {LEAST}")
@@ -86,7 +76,7 @@ def ends(line, problem, status, words):
     """Checks the exit status, that `words` are on standard error once, and that the run leaves no file."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "p.toml").write_text(problem)
-        finished = run([*line, "run", "p.toml", "--engine", "petsc", "--kernels", "corrected"], folder)
+        finished = run(*line, "run", "p.toml", "--engine", "petsc", "--kernels", "corrected", cwd=folder)
         if (finished.returncode, finished.stderr.count(words)) != (status, 1):
             sys.exit(f"found exit status {finished.returncode}, allowed: {status}, with {words!r}\n{finished.stdout}{finished.stderr}")
         if (left := os.listdir(folder)) != ["p.toml"]:
@@ -95,7 +85,7 @@ def ends(line, problem, status, words):
 
 def main():
     contct, reference = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    linked = subprocess.run(["ldd", contct], capture_output=True, text=True, check=True).stdout
+    linked = run("ldd", contct, status=0).stdout
     if "lapack" not in linked or "libmpi" in linked or "petsc" in linked:
         sys.exit(f"found {linked}, allowed: no MPI and no PETSc")
     if len(sys.argv) == 3:

@@ -233,11 +233,7 @@ TEST_CASE("a rational number is rounded to the nearest double, and in a tie to t
 TEST_CASE("a short fraction is written as a fraction, and a long one as a decimal") {
   CHECK(fraction_words(rational(-208, 58875)) == "-208/58875");
   CHECK(fraction_words(7) == "7");
-  struct row {
-    rational x;
-    int digits;
-    const char* words;
-  };
+  using row = std::tuple<rational, int, const char*>;
   const row rows[] = {{rational(-208, 58875), 8, "-208/58875"},
                       {rational(-208, 58875), 7, "-0.003532909"},
                       {rational(2, 3), 1, "0.7"},
@@ -249,5 +245,5 @@ TEST_CASE("a short fraction is written as a fraction, and a long one as a decima
                       {rational(integer("-100000000000001"), integer("1000000000000")), 6, "-100.000"},
                       {rational(integer(1), integer("1000000000000000000000")), 5, "1e-21"},
                       {rational(0), 1, "0"}};
-  for (const row& r : rows) CHECK(short_words(r.x, r.digits) == r.words);
+  for (const auto& [x, digits, words] : rows) CHECK(short_words(x, digits) == words);
 }

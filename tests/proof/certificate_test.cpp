@@ -1,7 +1,6 @@
 // Tests the certificates of final states of paths, of fallbacks and of the reference solution.
 #include "contct/proof/certificate.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 

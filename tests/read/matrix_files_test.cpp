@@ -225,9 +225,8 @@ TEST_CASE("two nodes have one edge if the matrix couples them, unless it couples
 
 TEST_CASE("CalculiX's nodes are read in any letter case, and a missing coordinate is 0") {
   const placed_nodes m = by_mesh(
-      "** a comment\n*HEADING\n1, 2, three\n * node , NSET = all\r\n1, 1.5 , "
-      "-2.E-3,+.5\n\n2,1D1,,2d-1\n3\t,4\n"
-      "*NODE FILE\nU\n*Node\n3,4.,0,0,\n*STEP\n5,5,5\n*END STEP",
+      "** a comment\n*HEADING\n1, 2, three\n * node , NSET = all\r\n1, 1.5 , -2.E-3,+.5\n\n2,1D1,,2d-1\n"
+      "3\t,4\n*NODE FILE\nU\n*Node\n3,4.,0,0,\n*STEP\n5,5,5\n*END STEP",
       {"1.1", "2.1", "3.1"});
   CHECK(nodes_of(m.nodes) == texts{"1 1.5 -0.002 0.5", "2 10 0 0.2", "3 4 0 0"});
   CHECK(m.edges.empty());

@@ -132,11 +132,6 @@ std::vector<std::string> words_of(const problem& p) {
   return lines;
 }
 
-std::vector<double> nodes_of(const std::string& beam_lines) {
-  const problem p = parse_problem("[beam]\n" + beam_lines + "\n[[step]]\nuniform = -1\n", "pb.toml");
-  return std::get<beam>(p.geometry.kind).x;
-}
-
 /// Returns the message about a problem on a matrix, without the names of folders.
 std::string message_about(const std::string& text, const scratch_folder& here) {
   std::string message = "accepted";
@@ -184,7 +179,11 @@ TEST_CASE("of every file of accepted.txt, the reader gives the parts that the ta
 
 TEST_CASE("with element_size, 2,000,000 elements are accepted, but not one more") {
   const auto sized = [](const std::string& size) {
-    return verdict([&] { (void)nodes_of("length = 2000000\nelement_size = " + size + "\nEI = 1"); });
+    return verdict([&] {
+      (void)parse_problem(
+          "[beam]\nlength = 2000000\nelement_size = " + size + "\nEI = 1\n[[step]]\nuniform = -1\n",
+          "pb.toml");
+    });
   };
   CHECK(sized("1") == "accepted");
   CHECK_THAT(sized("0.9999999"), Contains("which makes 2000001 elements"));

@@ -222,9 +222,8 @@ TEST_CASE("if a structure has many dofs, fewer states of its path are drawn, to 
 
 TEST_CASE("a beam that falls on its only pair and balances there has one event, a make") {
   const a_run r(
-      "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[contact]]\nnode = 2\nsurface = 'below'\nface = -0.5\nstiffness = "
-      "1e4\n"
-      "[[step]]\npoint = [ { node = 2, w = -1 } ]\n",
+      "[beam]\nx = [0, 1, 2]\nEI = 1000\n[[contact]]\nnode = 2\nsurface = 'below'\nface = -0.5\n"
+      "stiffness = 1e4\n[[step]]\npoint = [ { node = 2, w = -1 } ]\n",
       "corrected");
   std::vector<event> events;
   for (const auto& i : r.result.record.steps.at(0).increments)

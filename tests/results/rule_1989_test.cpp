@@ -36,10 +36,6 @@ struct both_rules {
   }
 };
 
-std::string divergence(const std::string& name) {
-  return read_input(CONTCT_REFERENCE "/problems/divergences/" + name + ".toml");
-}
-
 /// Random structures without pairs, on which the 1989 rule has no decision to make.
 class without_pairs {
  public:
@@ -121,7 +117,7 @@ TEST_CASE("on 300 structures without pairs, the 1989 rule differs by rounding, a
 }
 
 TEST_CASE("the report has an event of the 1989 rule alone with the next increment of the corrected rule") {
-  const both_rules marked(divergence("mark-toggled"));
+  const both_rules marked(read_input(CONTCT_REFERENCE "/problems/divergences/mark-toggled.toml"));
   const row_of_1989& first = marked.beside().rows.at(0).at(0);
   REQUIRE(first.otherwise.size() == 1);
   CHECK(first.otherwise[0].what == event{0, change::make});
@@ -179,11 +175,9 @@ TEST_CASE(
     "Of more than 20 combinations the rules are compared in 20, the governing ones first, or in all on "
     "request") {
   const std::string text =
-      "[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = 'w'\n[[contact]]\nx = "
-      "6\nsurface = "
-      "'below'\nface = -0.001\nstiffness = 1e5\n[[train]]\nname = 'axle'\naxles = [ { at = 0, w = -10 } "
-      "]\nfrom = 0\nto = "
-      "12\nby = 0.5\n";
+      "[beam]\nlength = 12\nelements = 12\nEI = 1e4\n[[support]]\nx = [0, 12]\nfix = 'w'\n[[contact]]\n"
+      "x = 6\nsurface = 'below'\nface = -0.001\nstiffness = 1e5\n[[train]]\nname = 'axle'\n"
+      "axles = [ { at = 0, w = -10 } ]\nfrom = 0\nto = 12\nby = 0.5\n";
   const both_rules some(text);
   const std::set<int>& only = some.beside().only;
   CHECK(only.size() == 20);

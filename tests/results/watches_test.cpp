@@ -15,9 +15,8 @@ namespace {
 const std::string with_nodes =
     "[beam]\nlength = 4\nelements = 4\nEI = 1e4\n[[support]]\nx = [0, 4]\nfix = 'w'\nname = ['A', 'B']\n";
 const std::string simple_span =
-    "[beam]\nlength = 4\nelements = 3\nsection = { E = 1e4, I = 1, W = 0.5 }\n[[support]]\nx = [0, 4]\nfix = "
-    "'w'\n"
-    "name = ['A', 'B']\n";
+    "[beam]\nlength = 4\nelements = 3\nsection = { E = 1e4, I = 1, W = 0.5 }\n[[support]]\nx = [0, 4]\n"
+    "fix = 'w'\nname = ['A', 'B']\n";
 
 const watched_range& found(const std::vector<watched_range>& all, std::size_t part, std::string_view key) {
   for (const watched_range& w : all)
@@ -50,11 +49,9 @@ TEST_CASE("A watched range of a beam has the extremes between its ends, which ne
 
 TEST_CASE("A watched range of a plate has the nodes of its rectangle, and beds their pressure there") {
   const std::string plate =
-      "[plate]\nsize = [2, 1]\nelements = [4, 2]\nD = 10\nnu = 0.3\n[[bed]]\nmodulus = 50\nface = "
-      "0\n[[step]]\n"
-      "uniform = -1\npoint = [ { at = [2, 1], w = -1 } ]\n[[watch]]\nname = 'left'\nto = [1, "
-      "1]\n[[watch]]\nname = 'all'\n"
-      "from = [0, 0]\n";
+      "[plate]\nsize = [2, 1]\nelements = [4, 2]\nD = 10\nnu = 0.3\n[[bed]]\nmodulus = 50\nface = 0\n"
+      "[[step]]\nuniform = -1\npoint = [ { at = [2, 1], w = -1 } ]\n[[watch]]\nname = 'left'\nto = [1, 1]\n"
+      "[[watch]]\nname = 'all'\nfrom = [0, 0]\n";
   const a_run r(parsed(plate), "corrected");
   const std::vector<watched_range> all = watched_in(r.results());
   CHECK(all.size() == 10);
@@ -113,9 +110,8 @@ TEST_CASE(
   check_words(warned(cantilever + "-0.31 } ]\n"),
               {"step 1: a deflection of 0.31", "a tenth of the length, 0.3,"});
   const std::string plate =
-      "[plate]\nsize = [2, 1]\nelements = [2, 2]\nE = 1e6\nnu = 0.3\nthickness = 0.02\n[[support]]\nat = "
-      "[[0, 0], [2, 0], "
-      "[0, 1], [2, 1]]\nspring = { w = 10 }\n[[step]]\npoint = [ { at = [1, 0.5], w = ";
+      "[plate]\nsize = [2, 1]\nelements = [2, 2]\nE = 1e6\nnu = 0.3\nthickness = 0.02\n[[support]]\n"
+      "at = [[0, 0], [2, 0], [0, 1], [2, 1]]\nspring = { w = 10 }\n[[step]]\npoint = [ { at = [1, 0.5], w = ";
   CHECK(warned(plate + "-0.001 } ]\n").empty());
   check_words(warned(plate + "-0.45 } ]\n"), {"a deflection of ", "half the thickness, 0.01,"});
 }
