@@ -5,7 +5,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 echo "== clang-tidy"
 rm -rf build/tidy  # it may have unity sources of an older list
-cmake --preset tidy -DCONTCT_BUILD_TESTS=ON >/dev/null
+cmake --preset release -B build/tidy -DCONTCT_BUILD_TESTS=ON >/dev/null
 cp tests/.clang-tidy build/tidy/tests/.clang-tidy  # clang-tidy looks for it in the folders above a source
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
