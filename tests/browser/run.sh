@@ -31,12 +31,10 @@ for problem in pb01-cantilever-tip-stop pb05-cantilever-over-flat-obstacle pb07-
   pp03e-corners-and-settled-stop-n8 pp05a-free-plate-on-bed-n8; do
   page "${problem%%-*}" "reference/problems/$problem.toml" 0
 done
-for name in free close row bolts two-faces long wide bare grid; do page $name "$work/$name.toml" 0; done
+for name in free close row bolts two-faces long wide bare grid crane raft places; do page $name "$work/$name.toml" 0; done
 for name in slab base-plate racks rail; do page $name reference/cookbook/$name.toml 0; done
-for name in crane raft places; do page $name "$work/$name.toml" 0; done
 page alone "$work/alone.toml" 0 --kernels cpp
-page settling "$work/settling.toml" 0 --envelope
-page strip "$work/strip.toml" 0 --envelope
+for name in settling strip; do page $name "$work/$name.toml" 0 --envelope; done
 page yard "$work/yard.toml" 0 --envelope --refine
 page own-ways "$work/own-ways.toml" 0 --free-run --kernels fortran,corrected
 page corrected "$work/corrected.toml" 0 --kernels corrected

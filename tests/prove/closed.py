@@ -6,10 +6,12 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from unittest import mock
 
 build, root = Path(sys.argv[1]), Path(sys.argv[2])
 sys.path[:0] = [str(build), str(root / "tests/support")]
 import contct
+import contct_prove.__main__ as prover
 from contct_prove import Undecided
 from contct_prove.elf import Image
 from contct_prove.induction import Proof
@@ -78,19 +80,34 @@ movntpd %xmm0, (%rcx); movhpd (%rdi), %xmm0; unpckhpd %xmm0, %xmm1; pshufd $0, %
 PROVE, ENVIRONMENT = ("-m", "contct_prove"), os.environ | {"PYTHONPATH": str(build)}
 
 
-def check_unknown(folder: str) -> int:
+def link(library: str, source: str) -> None:
+    """Makes a library of a source in assembler."""
+    run("cc", "-shared", "-x", "assembler", "-o", library, "-", input=source, status=0)
+
+
+def check_unknown(library: str) -> int:
     """Checks that an instruction that is not in the table is undecided as the first one of a kernel. Returns their number."""
     bodies = UNKNOWN.replace("\n", "; ").split("; ")
-    Path(f"{folder}/mine.s").write_text("".join(f".globl k{i}\nk{i}: {body}\nret\n" for i, body in enumerate(bodies)))
-    run("cc", "-shared", "-o", f"{folder}/mine.so", f"{folder}/mine.s", status=0)
+    link(library, "".join(f".globl k{i}\nk{i}: {body}\nret\n" for i, body in enumerate(bodies)))
     for i, body in enumerate(bodies):
-        machine = Machine(Image(f"{folder}/mine.so"), Specification(64))
+        machine = Machine(Image(library), Specification(64))
         try:
             Proof(machine, plugin(machine), machine.image.symbol(f"k{i}").address).prove()
             raise AssertionError(f"{body}: found a proof")
         except Undecided as why:
             assert "this encoding is not known" in str(why), f"{body}: {why}"
     return len(bodies)
+
+
+def check_library(library: str, source: str, expected: str) -> None:
+    """Checks that a library of this source is undecided for this reason, without a call of the kernel."""
+    link(library, source)
+    try:
+        with mock.patch.object(prover, "_run", return_value=("", "")):
+            status, words = prover.judge(library, *prover.kernels_of(Image(library), ""))
+    except Undecided as why:
+        status, words = prover.UNDECIDED, str(why)
+    assert status == prover.UNDECIDED and expected in words, f"{source}: allowed: undecided, {expected}; found {status}, {words}"
 
 
 def check(expected: str, *command: str, status: int = 2) -> None:
@@ -101,24 +118,19 @@ def check(expected: str, *command: str, status: int = 2) -> None:
 
 
 with tempfile.TemporaryDirectory() as folder:
-    unknown = check_unknown(folder)
-    library = f"{folder}/mine.so"
-    for body, expected in {**CASES, "ret": "contct_kernel (contct_kernel): differs: call 1: "}.items():
-        Path(f"{folder}/mine.s").write_text(KERNEL.format(body))
-        run("cc", "-shared", "-o", library, f"{folder}/mine.s", status=0)
-        check(expected, "/usr/bin/python3", *PROVE, library, status=1 if body == "ret" else 2)
-        if body == "cpuid":
-            found = contct.prove(library)["contct_kernel"]
-            assert found.startswith("undecided: ") and expected in found, f"by the Python module: {found}"
-    trace, verdicts = f"{folder}/call.trace", f"{folder}/verdicts.json"  # of the last case, which differs
+    library, trace, verdicts = f"{folder}/mine.so", f"{folder}/call.trace", f"{folder}/verdicts.json"
+    unknown = check_unknown(library)
+    for source, expected in [*((KERNEL.format(body), why) for body, why in CASES.items()), *FILES.items()]:
+        check_library(library, source, expected)
+    link(library, KERNEL.format("cpuid"))
+    check(CASES["cpuid"], "/usr/bin/python3", *PROVE, library)
+    found = contct.prove(library)["contct_kernel"]
+    assert found.startswith("undecided: ") and CASES["cpuid"] in found, f"by the Python module: {found}"
+    link(library, KERNEL.format("ret"))
     check("contct_kernel (contct_kernel): differs: call 1: ", "/usr/bin/python3", *PROVE, library, f"--trace={trace}", f"--json={verdicts}", status=1)
     assert [k["verdict"] for k in json.loads(Path(verdicts).read_text())["kernels"]] == ["differs"]
     run(str(build / "contct"), "replay", trace, status=0)
     run(str(build / "contct"), "replay", trace, "--kernel", "plugin:" + library, status=1)
-    for source, expected in FILES.items():
-        Path(f"{folder}/mine.s").write_text(source)
-        run("cc", "-shared", "-o", library, f"{folder}/mine.s", status=0)
-        check(expected, "/usr/bin/python3", *PROVE, library)
     whole = Path(library).read_bytes()
     check("found the library", "/usr/bin/python3", *PROVE, library, "--json=" + library)
     assert Path(library).read_bytes() == whole
