@@ -157,21 +157,21 @@ TEST_CASE("shrinking stops after the allowed number of tries, and the remaining 
 
 TEST_CASE("a mismatch is reproduced with new kernels, and the shrunk case has the leader's answers") {
   const auto leader = make_kernel("fortran");
+  int made = 0;
   const fresh_kernel equal = [] { return make_kernel("cpp"); };
-  const fresh_kernel in_single_precision = [] {
-    return make_kernel("cpp-r4");
-  };  // other answers than the leader
+  const fresh_kernel in_single_precision = [&made] { return ++made, make_kernel("cpp-r4"); };
   const call_sequence calls = some_calls(3);
   CHECK_FALSE(shrunk_case(*leader, equal, calls, ""));
-  const auto found = reproduce(*leader, in_single_precision, calls, "");
+  const auto found = reproduce(*leader, *in_single_precision(), calls, "");
   REQUIRE(found);
   CHECK(found->what.call == 3);
   CHECK(found->what.follower == "cpp-r4");
   REQUIRE(found->calls.size() == 3);
   CHECK(found->calls[2].out.ss.size() == calls[2].pairs());
-  CHECK_FALSE(reproduce(*leader, in_single_precision, calls, "no such field"));
+  CHECK_FALSE(reproduce(*leader, *in_single_precision(), calls, "no such field"));
   const auto small = shrunk_case(*leader, in_single_precision, calls, found->what.where.field);
   REQUIRE(small);
   CHECK(small->calls.size() == 1);
   CHECK(small->what.where.field == found->what.where.field);
+  CHECK(made < 20);  // one for each change that is kept, not for each try
 }

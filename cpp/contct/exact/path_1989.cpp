@@ -36,30 +36,24 @@ class path_1989 final : public exact_rule {
 
  private:
   path_status follow_step() override;
-  rational ask(const rational_vector& d_star);
   exact_increment next();
 
   rational s_min_ = 1;  // SMIN of the last call; 1: the call ended a step
 };
-
-/// Calls CONTCT and toggles the pairs in its answer. Returns SMIN.
-rational path_1989::ask(const rational_vector& d_star) {
-  std::vector<listing_pair> pairs;
-  for (std::size_t i = 0; i < at_.isep.size(); ++i) {
-    const exact_pair& c = at_.problem.pairs[i];
-    pairs.push_back({c.face, c.seen_in(at_.u), c.seen_in(d_star), at_.isep[i], c.surface});
-  }
-  listing_answer answer = answer_exactly(pairs);
-  for (const int pair : answer.toggled) at_.isep[pair] *= -1;
-  return std::move(answer.s_min);
-}
 
 /// Calls CONTCT once and applies its answer.
 exact_increment path_1989::next() {
   rational_vector d_star = at_.response();
   for (rational& d : d_star) d *= 1 - at_.fraction;  // the response to the rest of the load
   const std::vector<int> before = at_.isep;
-  s_min_ = ask(d_star);
+  std::vector<listing_pair> pairs;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const exact_pair& c = at_.problem.pairs[i];
+    pairs.push_back({c.face, c.seen_in(at_.u), c.seen_in(d_star), before[i], c.surface});
+  }
+  const listing_answer answer = answer_exactly(pairs);
+  s_min_ = answer.s_min;
+  for (const int pair : answer.toggled) at_.isep[pair] *= -1;
   for (std::size_t dof = 0; dof < d_star.size(); ++dof) at_.u[dof] += s_min_ * d_star[dof];
   at_.fraction += s_min_ * (1 - at_.fraction);
   if (length_in_bits(at_.fraction) > lifted_solver::most_bits)

@@ -32,10 +32,10 @@ struct found_case {
 /// Makes a follower that has not answered a call yet.
 using fresh_kernel = std::function<std::unique_ptr<kernel>()>;
 
-/// Repeats `calls` with the leader and a new follower. Returns the mismatch in the last call if it is in
+/// Repeats `calls` with the leader and another kernel. Returns the mismatch in the last call if it is in
 /// `field`, or in any field if `field` is "".
-[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, const fresh_kernel& make,
-                                                  const call_sequence& calls, const std::string& field);
+[[nodiscard]] std::optional<found_case> reproduce(kernel& leader, kernel& other, const call_sequence& calls,
+                                                  const std::string& field);
 
 /// Reduces `calls` to a shorter case that still differs in `field`; see shrink and reproduce. Returns nothing
 /// if `calls` do not differ in `field`.

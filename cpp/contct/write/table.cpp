@@ -179,9 +179,9 @@ class table_printer {
     if (!run_.beside) return all;
     const std::vector<row_of_1989>& rows = run_.beside->rows[step];
     all.followed = !rows.empty();
-    for (const row_of_1989& row : std::span(rows).subspan(first, all.followed ? count : 0)) {
-      all.otherwise.insert(all.otherwise.end(), row.otherwise.begin(), row.otherwise.end());
-      all.reached = all.reached && row.reached;
+    for (std::size_t i = first; all.followed && i < first + count; ++i) {
+      all.otherwise.insert(all.otherwise.end(), rows[i].otherwise.begin(), rows[i].otherwise.end());
+      all.reached = all.reached && rows[i].reached;
     }
     return all;
   }
