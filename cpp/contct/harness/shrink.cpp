@@ -187,8 +187,7 @@ std::optional<found_case> reproduce(kernel& leader, kernel& other, const call_se
 std::optional<found_case> shrunk_case(kernel& leader, const fresh_kernel& follower,
                                       const call_sequence& calls, const std::string& field, int most_tries) {
   // A new process for each try would take most of the time. So one kernel is asked every try, and new kernels
-  // only confirm what differs. If its answers depend on earlier calls, or are missing, each try has a new
-  // one.
+  // only confirm what differs. If answers depend on earlier calls, or are missing, each try has a new kernel.
   const std::unique_ptr<kernel> tried = follower();
   const auto differs_in = [&](kernel& k, const call_sequence& c) {
     return bool(reproduce(leader, k, c, field));
